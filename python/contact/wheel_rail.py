@@ -314,8 +314,7 @@ class WheelRail(Element):
     def jacobian(self) -> Jacobian:
         """Derivatives of forces, moments and height at the last solution to position, velocities and vertical force.
 
-        The linear systems of the derivatives are solved when this is called; nothing is calculated without it. The discretisation
-        has to be that of first order, ``set_solver(order=1)``.
+        The linear systems of the derivatives are solved when this is called; nothing is calculated without it.
 
         Raises
         ------

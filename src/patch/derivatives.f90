@@ -8,6 +8,7 @@ module contact_patch_derivatives
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_responses, only : pressure_responses
+   use contact_patch_order, only : edge_slip, spin_offset_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
@@ -66,8 +67,6 @@ contains
          reason = "conformal and tabulated influence coefficients"
       else if (allocated(problem%damping)) then
          reason = "damping"
-      else if (problem%settings%order == 2) then
-         reason = "the discretisation of second order; that of order 1 has them"
       else if (problem%couples()) then
          reason = "pressures that follow the tractions of bodies that differ"
       else if (problem%general_step) then
@@ -125,17 +124,20 @@ contains
       integer, parameter :: row(3) = [fx, fy, mz]
       type(bounding_box) :: box
       real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
-      real(wp) :: area, x0, y0, x, y, reached
+      real(wp), allocatable :: slip(:, :, :)
+      real(wp) :: area, x0, y0, x, y, reached, offset
       integer :: j, k, ix, iy
 
       box = contact_box(result%division)
       call prepare_box(problem, box, workspace)
       area = problem%grid%dx*problem%grid%dy
-      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
-      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      offset = spin_offset_of(problem, result%tangential)*problem%dq
+      x0 = problem%spin_centre(1) - offset*cos(problem%chi)
+      y0 = problem%spin_centre(2) - offset*sin(problem%chi)
       associate (t => workspace%tangential, solution => workspace%solution)
          allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
          allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
+         allocate(slip(t%mx, t%my, 2))
          weight(:, :, 1, 1) = area
          weight(:, :, 2, 2) = area
          do iy = 1, t%my
@@ -166,6 +168,12 @@ contains
             do j = 1, 3
                derivatives%by_distance(row(j), k) = problem%mu*sum(by_bound(:, :, j)*pressure, &
                   & mask=solution%division /= element%plastic)
+            end do
+            if (.not. allocated(t%second)) cycle
+            call edge_slip(problem, t, workspace%box%diagonal(2), solution%p, result%pn(box%ix0:box%ix1, box%iy0:box%iy1), &
+               & pressure, slip)
+            do j = 1, 3
+               derivatives%by_distance(row(j), k) = derivatives%by_distance(row(j), k) + sum(by_slip(:, :, :, j)*slip)
             end do
          end do
       end associate

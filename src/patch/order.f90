@@ -10,19 +10,19 @@ module contact_patch_order
    use contact_grid_element_division, only : bounding_box
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_workspace, only : patch_workspace
-   use contact_tangential_second_order, only : find_edge_terms
+   use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_second_order, only : find_edge_terms, second_order
    implicit none (type, external)
    private
 
-   public :: choose_order, lower_order, spin_offset_of, set_second_order
+   public :: choose_order, edge_slip, lower_order, spin_offset_of, set_second_order
 
    !> Rigid slip of the second order is that in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
    !> Steps that differ by less than this part of an element are one element long: the edge is off by that part of it; chosen
    real(wp), parameter :: step_slack = 0.01_wp
-   !> Passes between pressures and tractions after which the turns of slip stay what they are; the next passes converge to a
-   !> solution of one set of equations. Chosen: their change is below 1e-3 of the friction bound by then
-   integer, parameter :: turning_passes = 3
+   !> Central differences of edge terms, as a part of the largest pressure: the formula is smooth, errors are those of rounding
+   real(wp), parameter :: pressure_step = 1.0e-6_wp
 
 contains
 
@@ -106,15 +106,13 @@ contains
    end function spin_offset_of
 
    !> Edge terms of the tangential problem, from the pressures
-   subroutine set_second_order(problem, state, box, pass, report, workspace)
+   subroutine set_second_order(problem, state, box, report, workspace)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
       !> Pressures of the present step
       type(patch_state), intent(in) :: state
       !> Part of the grid of the tangential problem
       type(bounding_box), intent(in) :: box
-      !> Number of the pass between pressures and tractions
-      integer, intent(in) :: pass
       !> Order that acts
       type(solve_report), intent(in) :: report
       !> Compliance of the box; its tangential problem gets the terms, or loses them
@@ -128,7 +126,41 @@ contains
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
          call find_edge_terms(t%contact, workspace%box_pn, is_root(problem), t%dx, t%dy, t%direction, problem%model%material%nu, &
-            & problem%model%material%gg, workspace%box%diagonal(2), t%second, pass > turning_passes)
+            & problem%model%material%gg, workspace%box%diagonal(2), t%second)
       end associate
    end subroutine set_second_order
+
+   !> Slip of the leading elements by the change of their edge terms with the pressures
+   subroutine edge_slip(problem, tangential, diagonal, p, pressure, change, slip)
+      !> Elasticity
+      type(patch_problem), intent(in) :: problem
+      !> With edge terms at the pressures
+      type(tangential_problem), intent(in) :: tangential
+      !> Compliance of an element A_xx(0) [mm/(N/mm2)]
+      real(wp), intent(in) :: diagonal
+      !> Tractions [N/mm2], shape (mx, my, 2)
+      real(wp), intent(in) :: p(:, :, :)
+      !> Pressures [N/mm2] and how they change with some input, shape (mx, my)
+      real(wp), intent(in) :: pressure(:, :), change(:, :)
+      !> [mm per unit of the input], shape (mx, my, 2)
+      real(wp), intent(out) :: slip(:, :, :)
+      type(second_order) :: terms(2)
+      real(wp) :: step, c(3)
+      integer :: k
+
+      slip = 0.0_wp
+      if (.not. any(abs(change) > 0.0_wp)) return
+      step = pressure_step*maxval(pressure)/maxval(abs(change))
+      do k = 1, 2
+         call find_edge_terms(tangential%contact, pressure + real(2*k - 3, wp)*step*change, is_root(problem), tangential%dx, &
+            & tangential%dy, tangential%direction, problem%model%material%nu, problem%model%material%gg, diagonal, terms(k))
+      end do
+      do k = 1, size(terms(1)%at, 2)
+         associate (ix => terms(1)%at(1, k), iy => terms(1)%at(2, k))
+            c = (terms(2)%kappa(:, k) - terms(1)%kappa(:, k))/(2.0_wp*step)
+            slip(ix, iy, 1) = c(1)*p(ix, iy, 1) + c(3)*p(ix, iy, 2)
+            slip(ix, iy, 2) = c(3)*p(ix, iy, 1) + c(2)*p(ix, iy, 2)
+         end associate
+      end do
+   end subroutine edge_slip
 end module contact_patch_order

@@ -86,7 +86,7 @@ contains
       type(patch_result), intent(inout) :: result
 
       call set_tangential(problem, state, box, workspace, result)
-      call set_second_order(problem, state, box, result%outer_iterations, result%tangential, workspace)
+      call set_second_order(problem, state, box, result%tangential, workspace)
       if (problem%corrects_leading_edge) call correct_leading_edge(problem, state, box, result, workspace, log)
       if (problem%model%coupled()) call add_by_pressures(problem, state, box, workspace)
       if (log%shows(2)) call log%trace(2, " TANG: " // trim(type_of_motion(problem%motion)))

@@ -9,7 +9,6 @@ module contact_tangential_newton
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_compliance, only : compliance
-   use contact_grid_element_division, only : element
    use contact_tangential_newton_jacobian, only : apply_d, differentiate_return_map, fit_workspace, linear_system, linearise, &
       & new_system, newton_workspace
    use contact_tangential_newton_linear, only : solve_linear
@@ -46,10 +45,9 @@ module contact_tangential_newton
    !> Largest change of creepages at first, as a part of the slip that full sliding brings about, and its growth after a step
    !> that was cut short and did well; see doc/theory/solvers.md
    real(wp), parameter :: first_range = 0.2_wp, range_growth = 3.0_wp
-   !> Turns of the slip are renewed when the residual is below the first value, or after so many steps, and again after each step,
-   !> so many times; more of them change forces by less than the size of elements does; measured
+   !> Slip is turned from that residual on, or after so many steps; measured
    real(wp), parameter :: turn_below = 0.03_wp
-   integer, parameter :: late = 12, most_turns = 3
+   integer, parameter :: late = 12
    !> Least weight of an element in the mean slip, relative to its bound; chosen
    real(wp), parameter :: min_weight = 1.0e-3_wp
 
@@ -73,7 +71,8 @@ contains
       type(log_type), intent(inout), optional :: log
       type(linear_system) :: system
       real(wp) :: residual, previous, forcing, history(0:max_steps), best, creep_range, correction(2), unbalance(2)
-      integer :: step, k, turns, since
+      integer :: step, k, since
+      logical :: waits
 
       outcome%residual = 0.0_wp
       if (.not. any(problem%contact)) return
@@ -101,13 +100,18 @@ contains
       call start_values(problem, operator, system, solution, workspace, residual)
       previous = residual
       history = 0.0_wp
-      turns = most_turns
-      if (allocated(problem%second)) turns = merge(most_turns, 0, problem%second%keeps_turns)
+      waits = .false.
+      if (allocated(problem%second)) waits = residual > turn_below
+      if (waits) then
+         problem%second%turns = .false.
+         residual = true_residual(problem, solution%p, solution%slip, system%r)
+      end if
       since = 0
       do step = 0, max_steps
-         if (turns < most_turns .and. (residual < turn_below .or. step > late)) then
-            call renew_turns(problem, system, solution, residual)
-            turns = turns + 1
+         if (waits .and. (residual < max(turn_below, tolerance) .or. step > late)) then
+            problem%second%turns = .true.
+            residual = true_residual(problem, solution%p, solution%slip, system%r)
+            waits = .false.
             since = step
          end if
          history(step) = residual
@@ -163,22 +167,6 @@ contains
          end if
       end associate
    end subroutine judge
-
-   !> Turn the slip to the direction that it has in the middle of elements by the present tractions
-   subroutine renew_turns(problem, system, solution, residual)
-      type(tangential_problem), intent(inout) :: problem
-      type(linear_system), intent(in) :: system
-      !> Its slip is turned
-      type(tangential_solution), intent(inout) :: solution
-      !> That of the new equations [-]
-      real(wp), intent(out) :: residual
-
-      call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
-      call problem%second%unweigh(solution%slip)
-      call problem%second%set_turns(problem%contact, solution%division == element%slip, problem%direction, solution%slip)
-      call problem%second%weigh(solution%slip)
-      residual = true_residual(problem, solution%p, solution%slip, system%r)
-   end subroutine renew_turns
 
    !> Go along the correction, in shorter steps until the residual falls enough; the best of them is taken
    subroutine take_step(problem, operator, system, correction, residual, creep_range, workspace, solution, best)
@@ -269,7 +257,7 @@ contains
          workspace%residual = -workspace%residual
       else
          workspace%residual = system%r*shift
-         if (allocated(problem%second)) call problem%second%weigh(workspace%residual)
+         if (allocated(problem%second)) call workspace%turns%apply(workspace%residual)
          call apply_d(workspace, workspace%residual)
          do k = 1, 2
             workspace%residual(:, :, k) = workspace%residual(:, :, k) - bound*workspace%direction(:, :, k)

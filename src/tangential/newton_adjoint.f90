@@ -6,12 +6,14 @@
 !>
 !>    l = c + (1 - r B) e,   (1 - D (1 - r B)) e = D c,   D l = e,
 !>
-!> so that the Jacobian and the preconditioner are those of the method itself. Search directions of one force serve the next ones.
+!> so that the preconditioner is that of the method itself. With slip that is turned (`contact_tangential_slip_turns`) B T' takes
+!> the place of B, T the derivative of the acting slip, of the turned contact as well. Search directions of one force serve
+!> the next ones.
 module contact_tangential_newton_adjoint
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
-   use contact_tangential_newton_jacobian, only : apply_d, apply_jacobian, fit_workspace, linear_system, linearise, new_system, &
-      & newton_workspace, restart
+   use contact_tangential_newton_jacobian, only : apply_d, fit_workspace, linear_system, linearise, new_system, newton_workspace, &
+      & restart
    use contact_tangential_newton_linear, only : precondition_field
    use contact_tangential_problem, only : apply_operator, slip_of, tangential_problem, tangential_solution
    implicit none (type, external)
@@ -41,7 +43,7 @@ contains
 
    !> Derivatives of weighted sums of tractions to the rigid slip and the bound of each element, at a solution
    !>
-   !> Prescribed forces, yield limits with a slope, and equations of second order have other systems and must not be asked for.
+   !> Prescribed forces and yield limits with a slope have other systems and must not be asked for.
    subroutine newton_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
       !> The problem that was solved, with given creepages
       type(tangential_problem), intent(in) :: problem
@@ -64,6 +66,7 @@ contains
       type(linear_system) :: system
       type(search_space) :: space
       type(tangential_solution) :: at
+      type(tangential_problem) :: turned
       real(wp), allocatable :: direction(:, :, :)
       real(wp) :: left
       integer :: j, mx, my
@@ -82,19 +85,39 @@ contains
       direction = workspace%direction
       workspace%weight = workspace%weight(mx:1:-1, my:1:-1)
       workspace%direction = workspace%direction(mx:1:-1, my:1:-1, :)
+      turned = problem
+      if (allocated(turned%second)) then
+         call turned%second%turn_round(mx, my)
+         call workspace%turns%turn_round(mx, my)
+      end if
       call number_unknowns(workspace, space)
       do j = 1, size(weight, 4)
          workspace%residual = weight(mx:1:-1, my:1:-1, :, j)
          call apply_d(workspace, workspace%residual)
-         call solve(problem, operator, system, workspace, space, tolerance, left)
+         call solve(turned, operator, system, workspace, space, tolerance, left)
          reached = max(reached, left)
          ! l = c + e - r B e, turned back
-         call apply_operator(problem, operator, workspace%step, workspace%trial_slip)
-         workspace%trial_slip = workspace%step - system%r*workspace%trial_slip
-         by_slip(:, :, :, j) = -system%r*workspace%step(mx:1:-1, my:1:-1, :)
-         by_bound(:, :, j) = sum((weight(:, :, :, j) + workspace%trial_slip(mx:1:-1, my:1:-1, :))*direction, dim=3)
+         call weighted_responses(turned, operator, system, workspace, workspace%step)
+         by_slip(:, :, :, j) = -system%r*workspace%trial_slip(mx:1:-1, my:1:-1, :)
+         by_bound(:, :, j) = sum((weight(:, :, :, j) + workspace%trial(mx:1:-1, my:1:-1, :))*direction, dim=3)
       end do
    end subroutine newton_adjoint
+
+   !> trial_slip := T' e, trial := e - r B T' e
+   subroutine weighted_responses(problem, operator, system, workspace, e)
+      !> Turned by half a turn
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      !> Shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: e(:, :, :)
+
+      workspace%trial_slip = e
+      if (allocated(problem%second)) call workspace%turns%apply_transposed(workspace%trial_slip)
+      call apply_operator(problem, operator, workspace%trial_slip, workspace%trial)
+      workspace%trial = e - system%r*workspace%trial
+   end subroutine weighted_responses
 
    !> The unknowns of the systems: both components in adhesion, that across the traction in slip
    subroutine number_unknowns(workspace, space)
@@ -222,9 +245,9 @@ contains
                call spread_out(space, left, workspace%residual)
                call precondition_field(problem, operator, system, workspace, workspace%residual, workspace%step)
                call gather(space, workspace%step, z(:, k))
-               workspace%x(:system%n) = reshape(workspace%step, [system%n])
-               call apply_jacobian(problem, operator, system, workspace, workspace%x(:system%n), workspace%b(:system%n))
-               workspace%step = reshape(workspace%b(:system%n), shape(workspace%step))
+               call weighted_responses(problem, operator, system, workspace, workspace%step)
+               call apply_d(workspace, workspace%trial)
+               workspace%step = workspace%step - workspace%trial
                call gather(space, workspace%step, q(:, k))
                space%r(:k, k) = 0.0_wp
                call project(q, k - 1, q(:, k), space%r(:, k))

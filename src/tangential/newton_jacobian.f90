@@ -8,8 +8,9 @@ module contact_tangential_newton_jacobian
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : add_creepages, apply_operator, limits_before, residual_scale, tangential_problem, &
-      & tangential_solution
+   use contact_tangential_problem, only : add_creepages, apply_operator, limits_before, residual_scale, &
+      & tangential_problem, tangential_solution
+   use contact_tangential_slip_turns, only : slip_turns
    use contact_tangential_yield, only : return_map, yield_point
    implicit none (type, external)
    private
@@ -35,6 +36,8 @@ module contact_tangential_newton_jacobian
       real(wp), allocatable :: border(:, :, :, :)
       !> Linearised return map, shape (mx, my); unallocated where the yield limit has no slope
       type(yield_point), allocatable :: point(:, :)
+      !> Linearised turns of the slip, where the scheme is of second order
+      type(slip_turns) :: turns
    end type newton_workspace
 
    !> One linearised system with its scales
@@ -108,6 +111,12 @@ contains
          call linearise_return_map(problem, system, solution, workspace)
          return
       end if
+      workspace%trial_slip = solution%slip
+      if (allocated(problem%second)) then
+         call workspace%turns%linearise(problem%second%weight, problem%second%turns, problem%contact, problem%direction, &
+            & solution%p, problem%bound, solution%slip, system%r)
+         call workspace%turns%act(workspace%trial_slip)
+      end if
       do iy = 1, problem%my
          do ix = 1, problem%mx
             workspace%weight(ix, iy) = 0.0_wp
@@ -115,7 +124,7 @@ contains
             workspace%residual(ix, iy, :) = 0.0_wp
             if (.not. problem%contact(ix, iy)) cycle
             g = problem%bound(ix, iy)
-            z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
+            z = solution%p(ix, iy, :) - system%r*workspace%trial_slip(ix, iy, :)
             length = sqrt(z(1)**2 + z(2)**2)
             if (g <= 0.0_wp) then
                z = 0.0_wp
@@ -271,11 +280,11 @@ contains
       do k = 1, system%n_forces
          creep(k) = system%creep_scale*y(system%n + k)/system%g_norm
       end do
-      if (allocated(problem%second)) call problem%second%weigh(workspace%trial)
       if (allocated(problem%share) .or. allocated(problem%second)) then
          call add_creepages(problem, creep, workspace%trial)
          creep = 0.0_wp
       end if
+      if (allocated(problem%second)) call workspace%turns%apply(workspace%trial)
       creep = problem%dq*creep
       if (allocated(workspace%point)) then
          do k = 1, 2

@@ -169,13 +169,15 @@ contains
 
       workspace%trial = v
       call apply_d(workspace, workspace%trial)
-      if (allocated(problem%second)) call problem%second%to_inverse(workspace%trial)
-      if (problem%steady) then
-         call operator%steady_inverse(workspace%trial, u)
+      if (allocated(problem%second)) then
+         workspace%trial_slip = workspace%trial
+         call problem%second%leave_stiff(workspace%trial_slip)
+         if (.not. workspace%turns%is_transposed) call workspace%turns%invert(workspace%trial_slip)
+         call invert_operator(problem, operator, workspace%trial_slip, u)
+         if (workspace%turns%is_transposed) call workspace%turns%invert_transposed(u)
       else
-         call operator%tangential_inverse(workspace%trial, u)
+         call invert_operator(problem, operator, workspace%trial, u)
       end if
-      if (allocated(problem%second)) call problem%second%restore(workspace%trial)
       if (allocated(workspace%point)) whole = u/system%r
       do iy = 1, problem%my
          do ix = 1, problem%mx
@@ -195,6 +197,20 @@ contains
       if (allocated(problem%second)) call problem%second%keep_stiff(v, u)
    end subroutine precondition_field
 
+   !> The inverse of the circulant
+   subroutine invert_operator(problem, operator, field, u)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      real(wp), contiguous, intent(in) :: field(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+
+      if (problem%steady) then
+         call operator%steady_inverse(field, u)
+      else
+         call operator%tangential_inverse(field, u)
+      end if
+   end subroutine invert_operator
+
    !> Preconditioned border columns and the inverse of their Schur complement
    subroutine prepare_border(problem, operator, system, workspace, preconditionings)
       type(tangential_problem), intent(in) :: problem
@@ -211,6 +227,7 @@ contains
          creep = 0.0_wp
          creep(k) = system%r*system%creep_scale/system%g_norm
          call add_creepages(problem, creep, workspace%best_slip)
+         if (allocated(problem%second)) call workspace%turns%apply(workspace%best_slip)
          call apply_d(workspace, workspace%best_slip)
          call precondition_field(problem, operator, system, workspace, workspace%best_slip, workspace%border(:, :, :, k))
          preconditionings = preconditionings + 1

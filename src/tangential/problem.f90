@@ -148,11 +148,10 @@ contains
 
       call apply_operator(problem, operator, p, slip)
       slip = slip + problem%shift
-      if (allocated(problem%second)) call problem%second%weigh(slip)
       call add_creepages(problem, creep, slip)
    end subroutine slip_of
 
-   !> Add the slip per step by unknown creepages, weighted and turned as the slip is
+   !> Add the slip per step by unknown creepages
    pure subroutine add_creepages(problem, creep, slip)
       !> Distance per step, and the number of unknown creepages
       type(tangential_problem), intent(in) :: problem
@@ -162,15 +161,6 @@ contains
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       integer :: k
 
-      if (allocated(problem%second)) then
-         associate (row => problem%second%row)
-            if (problem%n_forces >= 1) slip = slip + problem%dq*creep(1)*row
-            if (problem%n_forces < 2) return
-            slip(:, :, 1) = slip(:, :, 1) - problem%dq*creep(2)*row(:, :, 2)
-            slip(:, :, 2) = slip(:, :, 2) + problem%dq*creep(2)*row(:, :, 1)
-         end associate
-         return
-      end if
       do k = 1, problem%n_forces
          if (allocated(problem%share)) then
             slip(:, :, k) = slip(:, :, k) + problem%dq*creep(k)*problem%share
@@ -245,7 +235,11 @@ contains
       do iy = 1, problem%my
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
-            z = p(ix, iy, :) - r*slip(ix, iy, :)
+            if (allocated(problem%second)) then
+               z = p(ix, iy, :) - r*problem%second%acting(problem%contact, problem%direction, p, problem%bound, slip, r, ix, iy)
+            else
+               z = p(ix, iy, :) - r*slip(ix, iy, :)
+            end if
             length = sqrt(z(1)**2 + z(2)**2)
             if (allocated(before)) then
                point = returned(problem, length, ix, iy, before(ix, iy), r)
@@ -316,7 +310,7 @@ contains
       integer, intent(inout) :: division(:, :)
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
-      real(wp) :: length
+      real(wp) :: length, scale
       integer :: ix, iy
 
       if (problem%hardens()) before = limits_before(problem, p, slip, r)
@@ -324,7 +318,9 @@ contains
          do ix = 1, problem%mx
             division(ix, iy) = element%exterior
             if (.not. problem%contact(ix, iy)) cycle
-            length = hypot(p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2))
+            scale = r
+            if (allocated(problem%second)) scale = r*problem%second%weight(ix, iy)
+            length = hypot(p(ix, iy, 1) - scale*slip(ix, iy, 1), p(ix, iy, 2) - scale*slip(ix, iy, 2))
             if (allocated(before)) then
                point = returned(problem, length, ix, iy, before(ix, iy), r)
                division(ix, iy) = point%state

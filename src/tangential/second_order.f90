@@ -5,19 +5,19 @@
 !> the tractions; and so does the direction of slip. The rigid slip is the caller's. Here are
 !>
 !> - a term kappa p in the slip of the first elements of each row, which moves the discrete edge to where the pressures have theirs;
-!> - a turn of the slip to the direction of its mean over the element, in slip areas, kept while the equations are solved
-!>   and renewed in between.
+!> - a turn of the slip to the direction of its mean over the element, in slip areas (`contact_tangential_slip_turns`).
 !>
-!> Rows of the equations are multiplied by a weight and the turn, so that the solver sees slip that it may scale by one number.
+!> Rows of the equations are multiplied by a weight, so that the solver sees slip that it may scale by one number.
 !> Derivation: doc/theory/second_order.md.
 module contact_tangential_second_order
    use contact_base_kinds, only : wp
+   use contact_tangential_slip_turns, only : local_mean, mean_slip, turn_between
    implicit none (type, external)
    private
 
    public :: second_order, find_edge_terms
 
-   !> Edge terms and turns of a tangential problem
+   !> Edge terms of a tangential problem, and whether its slip is turned
    type :: second_order
       !> Leading elements with a term: column and row, shape (2, n)
       integer, allocatable :: at(:, :)
@@ -25,21 +25,21 @@ module contact_tangential_second_order
       real(wp), allocatable :: kappa(:, :)
       !> Terms so large that the inverse of the whole operator says nothing about the element, shape (n)
       logical, allocatable :: stiff(:)
-      !> Weight of a row of the equations times cosine and sine of its turn [-], shape (mx, my, 2)
-      real(wp), allocatable :: row(:, :, :)
-      !> Are the turns those of a former solution, to be kept?
-      logical :: keeps_turns = .false.
+      !> Weight of a row of the equations [-], shape (mx, my)
+      real(wp), allocatable :: weight(:, :)
+      !> Is the slip turned? Not while a solution is far off
+      logical :: turns = .true.
    contains
       !> u := u + kappa p
       procedure :: add_terms
-      !> Slip as the solver sees it: weighted and turned; and back
-      procedure :: weigh, unweigh
-      !> Around the approximate inverse of the operator: weights of rows taken off and given back; stiff elements left out
-      procedure :: to_inverse, restore, keep_stiff
-      !> Turns that belong to a slip
-      procedure :: set_turns
+      !> Slip of an element as the contact conditions see it: weighted, and turned where it slips
+      procedure :: acting
+      !> Before and behind the approximate inverse of the operator: stiff elements left out
+      procedure :: leave_stiff, keep_stiff
       !> Slip in the middle of elements in place of that half a step ahead
       procedure :: centre_slip
+      !> Half a turn of the contact
+      procedure :: turn_round
    end type second_order
 
    !> Constants of the half-plane with piecewise constant tractions and steps of one element, by the factorisation of its symbol.
@@ -57,17 +57,11 @@ module contact_tangential_second_order
    real(wp), parameter :: outermost = 1.7_wp
    !> Terms above this part of the compliance of an element are stiff; chosen
    real(wp), parameter :: stiff_share = 0.5_wp
-   !> Largest turn [rad]; chosen
-   real(wp), parameter :: largest_turn = 0.5_wp
-   !> Mean over an element by slip half a step behind, half a step ahead and three halves ahead of its middle: the parabola
-   !> through them; without the last the straight line, without the first the straight line through the others
-   real(wp), parameter :: by_three(3) = [5.0_wp, 8.0_wp, -1.0_wp]/12.0_wp, by_two(2) = [0.5_wp, 0.5_wp], &
-      & by_next(2) = [1.5_wp, -0.5_wp]
 
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
-   subroutine find_edge_terms(contact, pn, is_root, dx, dy, direction, nu, gg, diagonal, second, keeps_turns)
+   subroutine find_edge_terms(contact, pn, is_root, dx, dy, direction, nu, gg, diagonal, second)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
@@ -85,17 +79,12 @@ contains
       real(wp), intent(in) :: diagonal
       !> Gets terms and weights
       type(second_order), intent(inout) :: second
-      !> Keep the turns as they are, for a problem that is solved again with other pressures; without them otherwise
-      logical, intent(in), optional :: keeps_turns
       !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
       integer, allocatable :: at(:, :), first(:)
       real(wp), allocatable :: place(:), share(:)
       real(wp) :: slope, nx, ny, scale, mean
       integer :: ix, iy, k, n, last
-      logical :: keeps
 
-      keeps = .false.
-      if (present(keeps_turns)) keeps = keeps_turns
       n = count_edges(contact, direction)
       allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n))
       n = 0
@@ -126,7 +115,7 @@ contains
       end do
       first(size(contact, 2) + 1) = n + 1
 
-      call fit(second, size(contact, 1), size(contact, 2), n, keeps)
+      call fit(second, size(contact, 1), size(contact, 2), n)
       second%at = at
       do k = 1, n
          iy = at(2, k)
@@ -137,39 +126,25 @@ contains
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
-         second%row(at(1, k), iy, :) = second%row(at(1, k), iy, :)*(diagonal/(diagonal + max(mean, 0.0_wp)))
+         second%weight(at(1, k), iy) = diagonal/(diagonal + max(mean, 0.0_wp))
       end do
    end subroutine find_edge_terms
 
-   !> Arrays for so many terms; weights of 1, no turns, or those that are there already
-   subroutine fit(second, mx, my, n, keeps_turns)
+   !> Arrays for so many terms; weights of 1
+   subroutine fit(second, mx, my, n)
       type(second_order), intent(inout) :: second
       integer, intent(in) :: mx, my, n
-      !> See find_edge_terms
-      logical, intent(in) :: keeps_turns
-      real(wp) :: length
-      integer :: ix, iy
 
       if (allocated(second%at)) then
          if (size(second%stiff) /= n) deallocate(second%at, second%kappa, second%stiff)
       end if
       if (.not. allocated(second%at)) allocate(second%at(2, n), second%kappa(3, n), second%stiff(n))
-      if (allocated(second%row)) then
-         if (any(shape(second%row) /= [mx, my, 2])) deallocate(second%row)
+      if (allocated(second%weight)) then
+         if (any(shape(second%weight) /= [mx, my])) deallocate(second%weight)
       end if
-      second%keeps_turns = keeps_turns .and. allocated(second%row)
-      if (.not. allocated(second%row)) allocate(second%row(mx, my, 2))
-      if (.not. second%keeps_turns) then
-         second%row(:, :, 1) = 1.0_wp
-         second%row(:, :, 2) = 0.0_wp
-         return
-      end if
-      do iy = 1, my
-         do ix = 1, mx
-            length = hypot(second%row(ix, iy, 1), second%row(ix, iy, 2))
-            second%row(ix, iy, :) = second%row(ix, iy, :)/length
-         end do
-      end do
+      if (.not. allocated(second%weight)) allocate(second%weight(mx, my))
+      second%weight = 1.0_wp
+      second%turns = .true.
    end subroutine fit
 
    !> Rows may have several stretches of contact, each with an edge
@@ -273,68 +248,16 @@ contains
       end do
    end subroutine add_terms
 
-   pure subroutine weigh(self, slip)
+   pure subroutine leave_stiff(self, v)
       class(second_order), intent(in) :: self
-      !> [mm], shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: x
-      integer :: ix, iy
-
-      do iy = 1, size(slip, 2)
-         do ix = 1, size(slip, 1)
-            x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = self%row(ix, iy, 1)*x - self%row(ix, iy, 2)*slip(ix, iy, 2)
-            slip(ix, iy, 2) = self%row(ix, iy, 2)*x + self%row(ix, iy, 1)*slip(ix, iy, 2)
-         end do
-      end do
-   end subroutine weigh
-
-   pure subroutine unweigh(self, slip)
-      class(second_order), intent(in) :: self
-      !> [mm], shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: x, square
-      integer :: ix, iy
-
-      do iy = 1, size(slip, 2)
-         do ix = 1, size(slip, 1)
-            x = slip(ix, iy, 1)
-            square = self%row(ix, iy, 1)**2 + self%row(ix, iy, 2)**2
-            slip(ix, iy, 1) = (self%row(ix, iy, 1)*x + self%row(ix, iy, 2)*slip(ix, iy, 2))/square
-            slip(ix, iy, 2) = (self%row(ix, iy, 1)*slip(ix, iy, 2) - self%row(ix, iy, 2)*x)/square
-         end do
-      end do
-   end subroutine unweigh
-
-   pure subroutine to_inverse(self, v)
-      class(second_order), intent(in) :: self
-      !> Residuals, shape (mx, my, 2)
+      !> Residuals, shape (mx, my, 2); zero in stiff elements on exit
       real(wp), intent(inout) :: v(:, :, :)
       integer :: k
 
       do k = 1, size(self%at, 2)
-         associate (ix => self%at(1, k), iy => self%at(2, k))
-            if (self%stiff(k)) then
-               v(ix, iy, :) = 0.0_wp
-            else
-               v(ix, iy, :) = v(ix, iy, :)/hypot(self%row(ix, iy, 1), self%row(ix, iy, 2))
-            end if
-         end associate
+         if (self%stiff(k)) v(self%at(1, k), self%at(2, k), :) = 0.0_wp
       end do
-   end subroutine to_inverse
-
-   pure subroutine restore(self, v)
-      class(second_order), intent(in) :: self
-      !> As to_inverse left it, shape (mx, my, 2); stiff elements stay zero
-      real(wp), intent(inout) :: v(:, :, :)
-      integer :: k
-
-      do k = 1, size(self%at, 2)
-         associate (ix => self%at(1, k), iy => self%at(2, k))
-            v(ix, iy, :) = v(ix, iy, :)*hypot(self%row(ix, iy, 1), self%row(ix, iy, 2))
-         end associate
-      end do
-   end subroutine restore
+   end subroutine leave_stiff
 
    pure subroutine keep_stiff(self, v, u)
       class(second_order), intent(in) :: self
@@ -349,87 +272,69 @@ contains
       end do
    end subroutine keep_stiff
 
-   pure subroutine set_turns(self, contact, slips, direction, slip)
-      class(second_order), intent(inout) :: self
-      !> Elements in contact, and those in slip, shape (mx, my)
-      logical, intent(in) :: contact(:, :), slips(:, :)
+   pure function acting(self, contact, direction, p, bound, slip, r, ix, iy) result(w)
+      class(second_order), intent(in) :: self
+      !> Elements in contact, shape (mx, my)
+      logical, intent(in) :: contact(:, :)
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
-      !> Slip per step, neither weighted nor turned [mm], shape (mx, my, 2)
-      real(wp), intent(in) :: slip(:, :, :)
-      real(wp) :: weight, angle, mean(2)
-      integer :: ix, iy
+      !> Tractions [N/mm2], shape (mx, my, 2), and their bound, shape (mx, my)
+      real(wp), intent(in) :: p(:, :, :), bound(:, :)
+      !> Slip per step [mm], shape (mx, my, 2), and its scale [(N/mm2)/mm]
+      real(wp), intent(in) :: slip(:, :, :), r
+      !> The element
+      integer, intent(in) :: ix, iy
+      real(wp) :: w(2)
+      type(local_mean) :: mean
+      real(wp) :: length, turn(2)
 
-      do iy = 1, size(contact, 2)
-         do ix = 1, size(contact, 1)
-            if (.not. contact(ix, iy)) cycle
-            weight = hypot(self%row(ix, iy, 1), self%row(ix, iy, 2))
-            self%row(ix, iy, :) = [weight, 0.0_wp]
-            if (.not. slips(ix, iy)) cycle
-            mean = mean_slip(contact, slips, direction, slip, ix, iy)
-            associate (s => slip(ix, iy, :))
-               ! where slip reverses, within an element or two, its mean tells nothing
-               if (s(1)*mean(1) + s(2)*mean(2) <= 0.0_wp) cycle
-               angle = atan2(s(1)*mean(2) - s(2)*mean(1), s(1)*mean(1) + s(2)*mean(2))
-            end associate
-            angle = max(-largest_turn, min(largest_turn, angle))
-            self%row(ix, iy, :) = weight*[cos(angle), sin(angle)]
-         end do
-      end do
-   end subroutine set_turns
+      w = self%weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
+      if (.not. self%turns) return
+      if ((p(ix, iy, 1) - r*w(1))**2 + (p(ix, iy, 2) - r*w(2))**2 <= bound(ix, iy)**2) return
+      mean = mean_slip(contact, direction, slip, ix, iy)
+      length = sqrt((slip(ix, iy, 1)**2 + slip(ix, iy, 2)**2)*(mean%value(1)**2 + mean%value(2)**2))
+      if (.not. length > 0.0_wp) return
+      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value, length)
+      w = [turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
+   end function acting
 
-   !> In slip as long as the mean over the element, against its tractions; zero in adhesion
+   subroutine turn_round(self, mx, my)
+      class(second_order), intent(inout) :: self
+      !> Size of the window
+      integer, intent(in) :: mx, my
+
+      self%at(1, :) = mx + 1 - self%at(1, :)
+      self%at(2, :) = my + 1 - self%at(2, :)
+      self%weight = self%weight(mx:1:-1, my:1:-1)
+   end subroutine turn_round
+
+   !> In slip as long as the mean over the element, against its tractions
    pure subroutine centre_slip(self, contact, slips, direction, slip)
       class(second_order), intent(in) :: self
       !> Elements in contact, and those in slip, shape (mx, my)
       logical, intent(in) :: contact(:, :), slips(:, :)
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
-      !> On entry as the solver sees it [mm], shape (mx, my, 2)
+      !> On entry half a step ahead [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       real(wp), allocatable :: ahead(:, :, :)
-      real(wp) :: length, mean(2)
+      type(local_mean) :: mean
+      real(wp) :: w(2), length, turn(2)
       integer :: ix, iy
 
       allocate(ahead, source=slip)
-      call self%unweigh(ahead)
       do iy = 1, size(contact, 2)
          do ix = 1, size(contact, 1)
-            length = hypot(slip(ix, iy, 1), slip(ix, iy, 2))
-            if (.not. slips(ix, iy) .or. .not. length > 0.0_wp) then
-               slip(ix, iy, :) = ahead(ix, iy, :)
-            else
-               mean = mean_slip(contact, slips, direction, ahead, ix, iy)
-               slip(ix, iy, :) = slip(ix, iy, :)*(hypot(mean(1), mean(2))/length)
-            end if
+            if (.not. slips(ix, iy)) cycle
+            w = ahead(ix, iy, :)
+            mean = mean_slip(contact, direction, ahead, ix, iy)
+            length = norm2(w)*norm2(mean%value)
+            if (.not. length > 0.0_wp) cycle
+            turn = [1.0_wp, 0.0_wp]
+            if (self%turns) turn = turn_between(w, mean%value, length)
+            slip(ix, iy, :) = norm2(mean%value)/norm2(w)*[turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
          end do
       end do
    end subroutine centre_slip
 
-   !> Mean of the slip over an element
-   pure function mean_slip(contact, slips, direction, slip, ix, iy) result(mean)
-      logical, intent(in) :: contact(:, :), slips(:, :)
-      integer, intent(in) :: direction
-      real(wp), intent(in) :: slip(:, :, :)
-      integer, intent(in) :: ix, iy
-      real(wp) :: mean(2)
-      logical :: has_behind, has_ahead
-      integer :: behind, ahead
-
-      behind = ix - direction
-      ahead = ix + direction
-      has_behind = behind >= 1 .and. behind <= size(contact, 1)
-      if (has_behind) has_behind = contact(behind, iy)
-      has_ahead = ahead >= 1 .and. ahead <= size(contact, 1)
-      if (has_ahead) has_ahead = slips(ahead, iy)
-      if (has_behind .and. has_ahead) then
-         mean = by_three(1)*slip(behind, iy, :) + by_three(2)*slip(ix, iy, :) + by_three(3)*slip(ahead, iy, :)
-      else if (has_behind) then
-         mean = by_two(1)*slip(behind, iy, :) + by_two(2)*slip(ix, iy, :)
-      else if (has_ahead) then
-         mean = by_next(1)*slip(ix, iy, :) + by_next(2)*slip(ahead, iy, :)
-      else
-         mean = slip(ix, iy, :)
-      end if
-   end function mean_slip
 end module contact_tangential_second_order
