@@ -67,6 +67,7 @@ contains
    !>
    !> Of an angle a the turn is 2 atan(sin a (1 + cos a)/4), 0.6 at most.
    pure function turn_between(slip, mean, length) result(turn)
+      !> Slip, and its mean over the element [mm]
       real(wp), intent(in) :: slip(2), mean(2)
       !> Product of their lengths, positive
       real(wp), intent(in) :: length
