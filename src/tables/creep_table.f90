@@ -22,7 +22,6 @@
 !> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
 !> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
 module contact_tables_creep_table
-   use, intrinsic :: iso_fortran_env, only : real32
    use contact_base_kinds, only : wp
    use contact_tables_axis, only : find_basis, order, spline_axis
    implicit none (type, external)
@@ -30,7 +29,7 @@ module contact_tables_creep_table
 
    public :: creep_table, find_creep_force, most_spin, scaled_creepages
 
-   !> Values for each node: Fx, Fy, Mz and an unused one, which lets nodes lie at multiples of 16 bytes
+   !> Values for each node: Fx, Fy, Mz and an unused one, which lets nodes lie at multiples of 32 bytes
    integer, parameter, public :: values_per_node = 4
    !> Values of one stretch of nodes along z
    integer, parameter :: stretch = values_per_node*order
@@ -69,7 +68,7 @@ module contact_tables_creep_table
       !> log(g), offset (bpos - bneg)/(bpos + bneg), x, y, z
       type(spline_axis) :: shape, offset, x, y, z
       !> Coefficients: values of a node first, then along z, y, x, offset, shape
-      real(real32), allocatable :: coefficients(:)
+      real(wp), allocatable :: coefficients(:)
    end type creep_table
 
 contains
@@ -227,26 +226,30 @@ contains
       real(wp), intent(in) :: basis(order, 2)
       !> Values of the nodes: along z, y, x
       real(wp), intent(out) :: near(stretch, order, order)
-      real(wp) :: weight
-      integer :: i, j, k, l, m, n, start, row, plane, block
+      real(wp) :: weight(order**2), sums(stretch)
+      integer :: start(order**2), i, j, l, m, n, blocks, row, plane, block
 
       row = values_per_node*table%z%count
       plane = row*table%y%count
       block = plane*table%x%count
-      near = 0.0_wp
+      blocks = 0
       do l = 1, min(order, table%shape%count)
          do m = 1, min(order, table%offset%count)
-            weight = basis(l, 1)*basis(m, 2)
-            start = ((first(1) + l - 2)*table%offset%count + first(2) + m - 2)*block + (first(3) - 1)*plane &
+            blocks = blocks + 1
+            weight(blocks) = basis(l, 1)*basis(m, 2)
+            start(blocks) = ((first(1) + l - 2)*table%offset%count + first(2) + m - 2)*block + (first(3) - 1)*plane &
                & + (first(4) - 1)*row + (first(5) - 1)*values_per_node
-            do i = 1, order
-               do j = 1, order
-                  n = start + (i - 1)*plane + (j - 1)*row
-                  do k = 1, stretch
-                     near(k, j, i) = near(k, j, i) + weight*table%coefficients(n + k)
-                  end do
-               end do
+         end do
+      end do
+      do i = 1, order
+         do j = 1, order
+            ! all blocks of a stretch at once: its sums stay in registers
+            sums = 0.0_wp
+            do l = 1, blocks
+               n = start(l) + (i - 1)*plane + (j - 1)*row
+               sums = sums + weight(l)*table%coefficients(n + 1:n + stretch)
             end do
+            near(:, j, i) = sums
          end do
       end do
    end subroutine gather_near

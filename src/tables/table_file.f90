@@ -139,14 +139,14 @@ contains
       real(real32) :: node(stored)
       integer(long) :: k, from, bytes
 
-      allocate(table%coefficients(values_per_node*(length/stored)), source=0.0_real32)
+      allocate(table%coefficients(values_per_node*(length/stored)), source=0.0_wp)
       is_good = .true.
       bytes = short_bytes*stored
       do k = 0, length/stored - 1
          from = place + k*bytes
          node = transfer(text(from + 1:from + bytes), node)
          is_good = is_good .and. all(abs(node) <= huge(node))
-         table%coefficients(values_per_node*k + 1:values_per_node*k + stored) = node
+         table%coefficients(values_per_node*k + 1:values_per_node*k + stored) = real(node, wp)
       end do
    end subroutine take_coefficients
 end module contact_tables_table_file

@@ -77,6 +77,11 @@ def test_mistakes_in_a_file(folder, monkeypatch, capsys):
         told = capsys.readouterr().err
         assert told.startswith("contact study: ") and words in told
     assert run(folder, "study", "nothing.toml").returncode == 1
+    for words in (["--folder", str(folder / "roller.toml")], ["--results", str(folder / "none" / "a.nc")]):
+        monkeypatch.setattr(sys, "argv", ["contact study", str(folder / "a.toml"), "--quiet", *words])
+        assert main() == 1
+        told = capsys.readouterr().err
+        assert told.startswith("contact study: ") and told.count("\n") == 1, told
 
 
 def test_cases_that_fail_are_told(folder, monkeypatch, capsys):

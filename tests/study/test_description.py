@@ -81,6 +81,32 @@ def test_mistakes_are_told():
         contact.Study(rolling()).run(engine="carrots")
 
 
+@pytest.mark.parametrize("make, words", [
+    (lambda: contact.Study(5), "a file or its cases, not 5"),
+    (lambda: contact.Study(rolling(7), 5), "what varies is a mapping .* not 5"),
+    (lambda: contact.Study(rolling(7), "kinematics.cksi"), "what varies is a mapping"),
+    (lambda: contact.Study(rolling(7), {"kinematics.cksi": [1j]}).run(), "numbers, words and lists"),
+    (lambda: contact.Study(rolling(7), {"pressure": pandas.date_range("2020", periods=2)}).run(), "numbers, words and lists"),
+    (lambda: contact.Study(rolling(7), totals=["fx", "force"]).run(), "there is no total force; there are fn, fx"),
+    (lambda: contact.Study(rolling(7), totals="force").run(), "there is no total force"),
+    (lambda: contact.Study(rolling(7), fields="pressure").run(), "there is no element field pressure"),
+    (lambda: contact.Study(EXAMPLES / "wheel_on_rail.toml", case=1, fields=["pn", "p"]).run(), "there is no element field p;"),
+    (lambda: contact.Study(rolling(7), seconds=-1.0), "seconds = -1.0"),
+    (lambda: contact.Study(rolling(7), folder=__file__).run(), "cannot be the folder of a study: File exists"),
+    (lambda: contact.Study(rolling(7)).run(scheduler="hello"), "hello is no address of a scheduler"),
+    (lambda: contact.Study(rolling(7)).run(workers="2"), "workers = '2' is no number"),
+    (lambda: contact.Study(rolling(7)).write("a.nc"), "needs a folder")])
+def test_what_is_wrong_is_told_in_a_sentence(make, words):
+    with pytest.raises((contact.ContactError, ValueError), match=words) as told:
+        make()
+    assert "\n" not in str(told.value)
+
+
+def test_one_name_is_a_list_of_one():
+    found = contact.Study(rolling(7), totals="fx", fields="pn").run()
+    assert {"fx", "pn"} <= set(found.data_vars) and "fy" not in found
+
+
 def test_explain_tells_before_it_runs(tmp_path):
     study = contact.Study(rolling(), {"kinematics.cksi": span(0, 0.01, 21)}, where="cksi < 0.00951", folder=tmp_path / "s")
     plan = study.explain(workers=2)

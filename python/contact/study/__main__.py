@@ -25,7 +25,7 @@ def main() -> int:
     asked = parser.parse_args()
     try:
         return _do(asked)
-    except (ContactError, ValueError) as error:
+    except (ContactError, ValueError, OSError) as error:
         print(f"contact study: {error}", file=sys.stderr)
         return 1
     except ModuleNotFoundError as missing:

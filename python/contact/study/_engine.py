@@ -35,8 +35,8 @@ class Engine:
     def __init__(self, workers: int | None = None, kind: str = "threads", scheduler: Any = None) -> None:
         if kind not in ("threads", "processes"):
             raise ValueError(f"engine = {kind!r} is none of threads, processes")
-        if workers is not None and workers < 1:
-            raise ValueError(f"workers = {workers} is less than 1")
+        if workers is not None and (not isinstance(workers, int) or workers < 1):
+            raise ValueError(f"workers = {workers!r} is no number of 1 or more")
         self._client: Any = None
         self._own_client = False
         self._kind = kind
@@ -200,7 +200,10 @@ def _client_of(scheduler: Any) -> Any:
         raise ContactError("studies on a cluster need Dask: pip install 'contact-mechanics[study]'") from reason
     try:
         client: Any = distributed
-        return client.Client(scheduler, timeout="10s")
+        # not for everything else that this process does with Dask
+        return client.Client(scheduler, timeout="10s", set_as_default=False)
+    except ValueError as reason:
+        raise ContactError(f"{scheduler} is no address of a scheduler, such as tcp://10.0.0.1:8786: {reason}") from reason
     except OSError as reason:
         raise ContactError(f"no scheduler of Dask answers at {scheduler}: {reason}") from reason
 

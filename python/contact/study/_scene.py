@@ -42,6 +42,8 @@ class Scene:
             given = _with_suffix(Path(base))
             cases = read(given)
             self.folder = given.resolve().parent
+        elif not isinstance(base, (Mapping, list, tuple)):
+            raise ContactError(f"the base of a study is a file or its cases, not {base!r}")
         else:
             cases = [dict(base)] if isinstance(base, Mapping) else [dict(one) for one in base]
             self.folder = Path(folder or ".").resolve()

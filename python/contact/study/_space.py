@@ -215,6 +215,8 @@ def make_space(vary: Mapping[str, Any] | Sequence[Any] | None, where: Sequence[R
     """Axes and rules of what a caller gave: a mapping from paths to values or functions, axes, or a list of both"""
     axes: list[Axis] = []
     rules: dict[str, Rule] = {}
+    if vary is not None and not isinstance(vary, (Mapping, Axis, list, tuple)):
+        raise ContactError(f"what varies is a mapping from inputs to values, a sample, a table, or a list of these, not {vary!r}")
     parts: Sequence[Any] = [vary] if isinstance(vary, (Mapping, Axis)) else list(vary or [])
     loose: dict[str, Values] = {}
     for part in parts:

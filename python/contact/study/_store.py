@@ -36,7 +36,10 @@ class Store:
         if folder is None:
             self.path = ":memory:"
         else:
-            os.makedirs(folder, exist_ok=True)
+            try:
+                os.makedirs(folder, exist_ok=True)
+            except OSError as reason:
+                raise ContactError(f"{folder} cannot be the folder of a study: {reason.strerror}") from reason
             self.path = str(Path(folder) / FILE)
         # whoever holds the file writes within moments, unless it is another study
         self._base = sqlite3.connect(self.path, timeout=1.0, isolation_level=None)

@@ -128,11 +128,16 @@ class Study:
         self._scene = Scene(base, case, base_folder)
         self._space = make_space([vary] if isinstance(vary, Axis) else vary, where)
         self._derive = dict(derive or {})
-        self._totals = list(totals) if totals is not None else None
-        self._fields = tuple(fields)
+        self._totals = [totals] if isinstance(totals, str) else list(totals) if totals is not None else None
+        self._fields = (fields,) if isinstance(fields, str) else tuple(fields)
+        if not seconds >= 0.0:
+            raise ContactError(f"seconds = {seconds}: a limit of time is not negative; 0 is none")
         self._seconds = seconds
         self.folder = Path(folder) if folder is not None else None
-        self._columns: dict[str, Values] = self._space.columns()
+        try:
+            self._columns: dict[str, Values] = self._space.columns()
+        except MemoryError as reason:
+            raise ContactError(f"{self._space.count} points are more than the memory holds: divide the study") from reason
         self._chosen = self._space.chosen(self._columns)
         numeric = {path: values for path, values in self._columns.items() if values.dtype == np.float64}
         # a word, and whatever a scene of several cases is given, is written into a text; numbers go along as such
@@ -296,6 +301,8 @@ class Study:
         -------
         How cases ended: in words by ``str``, and ``table()`` tells the kinds of those that were not solved.
         """
+        if self.folder is None:
+            raise ContactError("a study whose results are written by parts needs a folder")
         functions = [name for name, rule in self._derive.items() if callable(rule)]
         if functions and files:
             raise ContactError(f"{', '.join(functions)} is derived by a function, which needs all results at once: "
@@ -337,6 +344,17 @@ class Study:
         mistakes = ("is not known", "has no meaning", "gives no number", "stands outside")
         if done.states[0, 0, 0] == 2 and any(words in reason for words in mistakes):
             raise ContactError(f"the inputs of the study do not fit its base: {reason}")
+        if done.columns and self._totals is not None:
+            known = [column.name for column in done.columns]
+            missing = [name for name in self._totals if name not in known]
+            if missing:
+                raise ContactError(f"there is no total {', '.join(missing)}; there are {', '.join(known)}")
+        # a refused case, and a wheel beside its rail, have no fields
+        if done.states[0, -1, 0] == 0 and (not self._scene.is_wheel_rail or (done.places[:, 2] > 0).any()):
+            known = [name.partition(",")[0] for name in done.arrays]
+            missing = [name for name in self._fields if name not in known]
+            if missing:
+                raise ContactError(f"there is no element field {', '.join(missing)}; doc/user/results.md has their names")
 
     def _tasks(self, todo: NDArray[np.intp], keys: Keys, pace: _Pace) -> Iterator[Task]:
         """Tasks for points; those of one task have the same words"""
@@ -411,7 +429,10 @@ def _as_bytes(values: Values) -> NDArray[np.uint8]:
     if values.dtype == np.float64:
         # both zeros are one
         return np.ascontiguousarray(values + 0.0).view(np.uint8).reshape(-1, 8)
-    rows = [hashlib.blake2b(json.dumps(_plain(value), sort_keys=True).encode(), digest_size=8).digest() for value in values]
+    try:
+        rows = [hashlib.blake2b(json.dumps(_plain(value), sort_keys=True).encode(), digest_size=8).digest() for value in values]
+    except TypeError as reason:
+        raise ContactError(f"inputs are numbers, words and lists of them: {reason}") from reason
     return np.frombuffer(b"".join(rows), dtype=np.uint8).reshape(-1, 8)
 
 
