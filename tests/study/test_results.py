@@ -205,7 +205,7 @@ def test_rows_of_long_tables_are_numbered_on(tmp_path, monkeypatch):
 @pytest.mark.parametrize("base, vary, case, fields", [
     (rolling(), [{"kinematics.cksi": [0.001, float("nan"), 0.003], "grid.mx": [7, 9], "pressure": ["full", "elliptical"]},
                  {"kinematics.fn": "= 1e4 + 1e7 * cksi"}], None, ["pn", "sx"]),
-    (rolling(), [sample({"friction.coefficient": (0.1, 0.5), "kinematics.fn": (1e4, 9e4)}, 40)], None, []),
+    (rolling(), [sample({"friction.coefficient": (0.1, 0.5), "kinematics.fn": (1e4, 9e4)}, 12)], None, []),
     (rolling(), None, None, ["pn"]),
     (EXAMPLES / "cattaneo.toml", {"friction.coefficient": [0.2, -1.0, 0.4]}, None, ["px"]),
     (PAIR, PLACES, 1, ["pn"])])
