@@ -112,7 +112,7 @@ contains
       result%pn = state%now%pn
       result%px = state%now%px
       result%py = state%now%py
-      result%pmax = largest_pressure(result%pn, problem%settings%order)
+      result%pmax = largest_pressure(result%pn, result%tangential%order)
       result%fx = area*sum(result%px)
       result%fy = area*sum(result%py)
       scale = result%mu_scal*result%fn + tiny(scale)

@@ -15,7 +15,7 @@ contains
    pure real(wp) function largest_pressure(pn, order)
       !> Pressures of elements [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: pn(:, :)
-      !> Order that is asked for, 1 or 2
+      !> Order that the tangential problem was solved with, 1 or 2
       integer, intent(in) :: order
 
       if (order == 2) then

@@ -63,7 +63,7 @@ contains
       result%fn = area*sum(result%pn)
       result%fx = area*sum(result%px)
       result%fy = area*sum(result%py)
-      result%pmax = largest_pressure(result%pn, problem%settings%order)
+      result%pmax = largest_pressure(result%pn, result%tangential%order)
       state%now%pn = result%pn
       state%now%px = result%px
       state%now%py = result%py

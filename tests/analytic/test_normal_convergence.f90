@@ -1,9 +1,11 @@
 !> Hertz's solutions against the solver under grid refinement, and Love's single element
 program test_normal_convergence
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use contact_base_choices, only : motion
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_test_case_builder, only : ellipse_case, grid_case, hertz_case, line_case, observed, random_numbers, test_case
+   use contact_test_case_builder, only : creep, ellipse_case, grid_case, hertz_case, line_case, observed, random_numbers, &
+      & test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
 
@@ -134,6 +136,7 @@ contains
                case%spec%grid%xl = case%spec%grid%xl + shift(1)*h(k)
                case%spec%grid%yl = case%spec%grid%yl + shift(2)*h(k)
                case%spec%iteration%order = order
+               call creep(case%spec, motion%steady_rolling, 1.0e-3_wp)
                call case%run(suite, "shifted grid")
                error(i, order) = case%result%pmax/peak - 1.0_wp
             end do

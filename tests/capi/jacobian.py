@@ -116,7 +116,7 @@ def refused(text, pair, part):
 def agree(order):
     for y in (0.0, 3.0, 4.6, 5.4, 6.0):
         compare(f"order {order}, y = {y} mm", make(order=order), position(y), scale=3.0 if y > 5.0 else 1.0)
-    compare(f"order {order}, height given", make(order=order), position(1.3, z=0.1), force_given=False)
+    compare(f"order {order}, height given", make(order=order), position(1.4, z=0.1), force_given=False)
     compare(f"order {order}, 0.5 mm in the flange", make(element=0.5, order=order), position(5.4), scale=0.3)
     compare(f"order {order}, left", make("left", order=order), position(5.5, side=-1))
     compare(f"order {order}, backwards", make(order=order), position(2.0, vs=-SPEED, vpitch=SPEED / RADIUS))

@@ -144,8 +144,8 @@ class Accuracy(Runs):
             _, same = self.solve("same.inp", text, "--order", "2")
             self.assertEqual(same["patches"][0]["totals"]["fx"], record["patches"][0]["totals"]["fx"])
         self.assertEqual(len(set(results)), 1, results)
-        # within EPS: elements whose centres lie on the edge may be in contact or not
-        self.assertLess(max(forces) - min(forces), 2e-4 * abs(forces[0]))
+        # within EPS of the friction bound: elements whose centres lie on the edge may be in contact or not
+        self.assertLess(max(forces) - min(forces), 2e-4 * 0.3 * 30000)
         self.assertLess(abs(results[0][0] * results[0][2] - 7.2), 1e-7)
 
     def test_wheel(self):

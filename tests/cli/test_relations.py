@@ -122,7 +122,7 @@ def stiffer(c, k=2.0):
 
 
 class Relations(unittest.TestCase):
-    OPTIONS = ["--classical"]
+    OPTIONS = ("--classical",)
 
     def solve(self, cases):
         with tempfile.TemporaryDirectory() as folder:
@@ -303,7 +303,7 @@ class Relations(unittest.TestCase):
 
 class SecondOrder(Relations):
     """The same with the second order, where there is one"""
-    OPTIONS = ["--classical", "--order", "2"]
+    OPTIONS = ("--classical", "--order", "2")
 
 
 if __name__ == "__main__":
