@@ -26,6 +26,8 @@ module contact_tangential_newton_jacobian
       integer :: mx = 0, my = 0
       !> Krylov basis and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
       real(wp), allocatable :: basis(:, :), preconditioned(:, :)
+      !> The Jacobian in that basis, shape (restart + 1, restart): stacks may be small
+      real(wp), allocatable :: hessenberg(:, :)
       !> Solution, right-hand side and scratch of the linear system, shape (2 mx my + 2)
       real(wp), allocatable :: x(:), b(:), work(:)
       !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
@@ -84,6 +86,7 @@ contains
       end if
       ! memory is touched when a vector is first used
       allocate(workspace%basis(2*mx*my + 2, restart + 1), workspace%preconditioned(2*mx*my + 2, restart))
+      if (.not. allocated(workspace%hessenberg)) allocate(workspace%hessenberg(restart + 1, restart))
       allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
       allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
       allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)

@@ -43,13 +43,13 @@ contains
       integer, intent(inout) :: preconditionings
       !> Relative residual that was reached; a Newton step is judged by the residual of the tractions it leads to
       real(wp), intent(out), optional :: reached
-      real(wp) :: h(restart + 1, restart), cs(restart), sn(restart), s(restart + 1), y(restart)
+      real(wp) :: cs(restart), sn(restart), s(restart + 1), y(restart)
       real(wp) :: start, beta, before, after, t
       integer :: n, m, j, k, cycle_, used
 
       n = system%n + system%n_forces
       if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
-      associate (v => workspace%basis, z => workspace%preconditioned, x => workspace%x, b => workspace%b)
+      associate (v => workspace%basis, z => workspace%preconditioned, h => workspace%hessenberg, x => workspace%x, b => workspace%b)
          x = 0.0_wp
          call flatten(workspace%residual, b)
          b(:system%n) = -b(:system%n)
