@@ -11,8 +11,8 @@ module contact_cases_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_grid, only : is_worth, next_counts, set_elements, stay_below
-   use contact_cases_accuracy_level, only : first_grid, keeps_axes, level_grid, solve_level, take_curvatures
+   use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, set_elements, stay_below
+   use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, take_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, is_near_enough, most_elements, most_levels, &
       & not_converged, prepare_level, refuse_case, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
@@ -223,7 +223,7 @@ contains
          best = result
          grid = next
       end do
-      if (.not. is_lost) call session%series%take(asked, grid%counts, grid%lengths, grid%eps)
+      if (.not. is_lost) call session%series%take(asked, grid)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)

@@ -10,7 +10,16 @@ module contact_cases_accuracy_grid
    implicit none (type, external)
    private
 
-   public :: first_counts, is_worth, next_counts, set_elements, sides_of_window, stay_below
+   public :: first_counts, is_worth, level_grid, next_counts, set_elements, sides_of_window, stay_below
+
+   !> A grid, and what cases are solved with on it
+   type :: level_grid
+      !> Elements along x and y, and sides of the window [mm], 0 where these follow from Hertz's solution
+      integer :: counts(2) = 0
+      real(wp) :: lengths(2) = 0.0_wp
+      !> Tolerance of the solvers
+      real(wp) :: eps = 0.0_wp
+   end type level_grid
 
    !> Part of a given window, along each side, that contact takes before anything is known of it
    real(wp), parameter :: usual_share = 0.75_wp

@@ -5,7 +5,7 @@ module contact_cases_accuracy_level
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_grid, only : first_counts, set_elements, stay_below
+   use contact_cases_accuracy_grid, only : first_counts, level_grid, set_elements, stay_below
    use contact_cases_accuracy_plan, only : accuracy_law, first_across, most_elements, prepare_level, solver_tolerance
    use contact_cases_accuracy_series, only : has_history
    use contact_cases_session, only : contact_session, solve_case
@@ -14,16 +14,7 @@ module contact_cases_accuracy_level
    implicit none (type, external)
    private
 
-   public :: first_grid, keeps_axes, level_grid, solve_level, take_curvatures
-
-   !> A grid, and what cases are solved with on it
-   type :: level_grid
-      !> Elements along x and y, and sides of the window [mm], 0 where these follow from Hertz's solution
-      integer :: counts(2) = 0
-      real(wp) :: lengths(2) = 0.0_wp
-      !> Tolerance of the solvers
-      real(wp) :: eps = 0.0_wp
-   end type level_grid
+   public :: first_grid, keeps_axes, solve_level, take_curvatures
 
 contains
 
@@ -58,12 +49,11 @@ contains
       !> Not finer than limits allow
       type(level_grid), intent(out) :: grid
 
-      grid%eps = solver_tolerance(spec%iteration%accuracy)
       if (has_history(spec)) then
-         grid%counts = session%series%counts
-         grid%lengths = session%series%lengths
-         grid%eps = min(grid%eps, session%series%eps)
+         grid = session%series%grid
+         grid%eps = min(grid%eps, solver_tolerance(spec%iteration%accuracy))
       else
+         grid%eps = solver_tolerance(spec%iteration%accuracy)
          call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), grid%lengths, grid%counts)
          where (fixed > 0) grid%counts = fixed
       end if
@@ -93,7 +83,7 @@ contains
       began = wall_clock()
       seconds = 0.0_wp
       is_solved = .true.
-      if (.not. session%series%is_at(spec, grid%counts, grid%lengths, grid%eps)) then
+      if (.not. session%series%is_at(spec, grid)) then
          do k = 1, session%series%before(spec)
             before = session%series%steps(k)
             before%limits = spec%limits

@@ -6,7 +6,7 @@ module contact_cases_accuracy_series
    use contact_base_choices, only : motion, time_link
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_cases_accuracy_grid, only : set_elements, sides_of_window
+   use contact_cases_accuracy_grid, only : level_grid, set_elements, sides_of_window
    use contact_cases_spec, only : case_spec, grid_spec
    implicit none (type, external)
    private
@@ -18,10 +18,8 @@ module contact_cases_accuracy_series
       !> The first `used` ones are filled
       type(case_spec), allocatable :: steps(:)
       integer :: used = 0
-      !> Elements along x and y of the solution that the session holds, 0: it holds none of this series
-      integer :: counts(2) = 0
-      !> Sides of the window [mm], and tolerance of the solvers
-      real(wp) :: lengths(2) = 0.0_wp, eps = 0.0_wp
+      !> That of the solution that the session holds, without elements: it holds none of this series
+      type(level_grid) :: grid
    contains
       !> Forget all cases
       procedure :: clear
@@ -48,19 +46,15 @@ contains
       class(accuracy_series), intent(inout) :: self
 
       self%used = 0
-      self%counts = 0
+      self%grid%counts = 0
    end subroutine clear
 
-   subroutine take(self, spec, counts, lengths, eps)
+   subroutine take(self, spec, grid)
       class(accuracy_series), intent(inout) :: self
       !> As it was asked for
       type(case_spec), intent(in) :: spec
-      !> Elements along x and y
-      integer, intent(in) :: counts(2)
-      !> Sides of the window [mm]
-      real(wp), intent(in) :: lengths(2)
-      !> Tolerance
-      real(wp), intent(in) :: eps
+      !> That of the solution
+      type(level_grid), intent(in) :: grid
       type(case_spec), allocatable :: longer(:)
       integer :: k, link
 
@@ -78,9 +72,7 @@ contains
       self%steps(k) = spec
       self%steps(k)%link = link
       self%used = k
-      self%counts = counts
-      self%lengths = lengths
-      self%eps = eps
+      self%grid = grid
    end subroutine take
 
    pure integer function before(self, spec)
@@ -93,19 +85,14 @@ contains
       if (spec%link == time_link%repeat_step) before = max(0, self%used - 1)
    end function before
 
-   pure logical function is_at(self, spec, counts, lengths, eps)
+   pure logical function is_at(self, spec, grid)
       class(accuracy_series), intent(in) :: self
       type(case_spec), intent(in) :: spec
-      !> Elements along x and y
-      integer, intent(in) :: counts(2)
-      !> Sides of the window [mm]
-      real(wp), intent(in) :: lengths(2)
-      !> Tolerance
-      real(wp), intent(in) :: eps
+      type(level_grid), intent(in) :: grid
 
       ! a repeated step goes on from where the one before went on from
-      is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%counts == counts) &
-         & .and. self%eps <= eps .and. all(is_same(self%lengths, lengths)))
+      is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%grid%counts == grid%counts) &
+         & .and. self%grid%eps <= grid%eps .and. all(is_same(self%grid%lengths, grid%lengths)))
    end function is_at
 
    subroutine refuse(self, spec, error)

@@ -137,7 +137,7 @@ contains
       associate (t => workspace%tangential, solution => workspace%solution)
          allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
          allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
-         allocate(slip(t%mx, t%my, 2))
+         if (allocated(t%second)) allocate(slip(t%mx, t%my, 2))
          weight(:, :, 1, 1) = area
          weight(:, :, 2, 2) = area
          do iy = 1, t%my

@@ -26,6 +26,8 @@ module contact_tangential_slip_turns
       !> Elimination of the angles, a tridiagonal system for each row: factors of the former one and of the next, and of the
       !> right-hand side, shape (mx my)
       real(wp), allocatable :: former(:), next(:), pivot(:)
+      !> Scratch: changes of the angles, shape (mx my)
+      real(wp), allocatable :: angle(:)
       !> Is the transposed derivative in use, of a contact that is turned by half a turn?
       logical :: is_transposed = .false.
    contains
@@ -109,12 +111,12 @@ contains
       most = size(contact)
       if (allocated(self%at)) then
          if (size(self%at, 2) /= most) deallocate(self%at, self%row, self%across, self%back, self%bare, self%by, self%former, &
-            & self%next, self%pivot)
+            & self%next, self%pivot, self%angle)
       end if
       if (.not. allocated(self%at)) then
          allocate(self%at(4, most), self%by(2, 3, most))
          allocate(self%row(2, most), self%across(2, most), self%back(2, most), self%bare(2, most))
-         allocate(self%former(most), self%next(most), self%pivot(most))
+         allocate(self%former(most), self%next(most), self%pivot(most), self%angle(most))
       end if
       self%n = 0
       self%is_transposed = .false.
@@ -232,79 +234,77 @@ contains
       end do
    end function by_angle_of
 
-   !> Changes of the angles by a field of slip
-   pure subroutine angles_of(self, slip, angle)
-      class(slip_turns), intent(in) :: self
+   !> self%angle := changes of the angles by a field of slip
+   pure subroutine find_angles(self, slip)
+      class(slip_turns), intent(inout) :: self
       real(wp), contiguous, intent(in) :: slip(:, :, :)
-      real(wp), intent(out) :: angle(self%n)
       integer :: k
 
       do k = 1, self%n
          associate (at => self%at(:, k), by => self%by(:, :, k))
-            angle(k) = by(1, 1)*slip(at(1), at(4), 1) + by(2, 1)*slip(at(1), at(4), 2) &
+            self%angle(k) = by(1, 1)*slip(at(1), at(4), 1) + by(2, 1)*slip(at(1), at(4), 2) &
                & + by(1, 2)*slip(at(2), at(4), 1) + by(2, 2)*slip(at(2), at(4), 2) &
                & + by(1, 3)*slip(at(3), at(4), 1) + by(2, 3)*slip(at(3), at(4), 2)
          end associate
       end do
-   end subroutine angles_of
+   end subroutine find_angles
 
-   !> slip := slip + what the angles have to do with the slip behind, here and ahead
-   pure subroutine add_by_angles(self, angle, slip)
+   !> slip := slip + what self%angle has to do with the slip behind, here and ahead
+   pure subroutine add_by_angles(self, slip)
       class(slip_turns), intent(in) :: self
-      real(wp), intent(in) :: angle(self%n)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       integer :: j, k
 
       do k = 1, self%n
          do j = 1, 3
             associate (ix => self%at(j, k), iy => self%at(4, k))
-               slip(ix, iy, 1) = slip(ix, iy, 1) + angle(k)*self%by(1, j, k)
-               slip(ix, iy, 2) = slip(ix, iy, 2) + angle(k)*self%by(2, j, k)
+               slip(ix, iy, 1) = slip(ix, iy, 1) + self%angle(k)*self%by(1, j, k)
+               slip(ix, iy, 2) = slip(ix, iy, 2) + self%angle(k)*self%by(2, j, k)
             end associate
          end do
       end do
    end subroutine add_by_angles
 
    pure subroutine apply(self, slip)
-      class(slip_turns), intent(in) :: self
+      class(slip_turns), intent(inout) :: self
       !> [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: angle(self%n), x
+      real(wp) :: x
       integer :: k
 
-      call angles_of(self, slip, angle)
+      call find_angles(self, slip)
       do k = 1, self%n
          associate (ix => self%at(2, k), iy => self%at(4, k), row => self%row(:, k))
             x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = row(1)*x - row(2)*slip(ix, iy, 2) + angle(k)*self%across(1, k)
-            slip(ix, iy, 2) = row(2)*x + row(1)*slip(ix, iy, 2) + angle(k)*self%across(2, k)
+            slip(ix, iy, 1) = row(1)*x - row(2)*slip(ix, iy, 2) + self%angle(k)*self%across(1, k)
+            slip(ix, iy, 2) = row(2)*x + row(1)*slip(ix, iy, 2) + self%angle(k)*self%across(2, k)
          end associate
       end do
    end subroutine apply
 
    pure subroutine apply_transposed(self, slip)
-      class(slip_turns), intent(in) :: self
+      class(slip_turns), intent(inout) :: self
       !> Shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: angle(self%n), x
+      real(wp) :: x
       integer :: k
 
       do k = 1, self%n
          associate (ix => self%at(2, k), iy => self%at(4, k), row => self%row(:, k))
             x = slip(ix, iy, 1)
-            angle(k) = self%across(1, k)*x + self%across(2, k)*slip(ix, iy, 2)
+            self%angle(k) = self%across(1, k)*x + self%across(2, k)*slip(ix, iy, 2)
             slip(ix, iy, 1) = row(1)*x + row(2)*slip(ix, iy, 2)
             slip(ix, iy, 2) = row(1)*slip(ix, iy, 2) - row(2)*x
          end associate
       end do
-      call add_by_angles(self, angle, slip)
+      call add_by_angles(self, slip)
    end subroutine apply_transposed
 
    pure subroutine invert(self, slip)
-      class(slip_turns), intent(in) :: self
+      class(slip_turns), intent(inout) :: self
       !> [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: angle(self%n), other, x
+      real(wp) :: other, x
       integer :: k
 
       do k = 1, self%n
@@ -314,45 +314,46 @@ contains
             slip(ix, iy, 2) = back(1)*slip(ix, iy, 2) - back(2)*x
          end associate
       end do
-      call angles_of(self, slip, angle)
+      call find_angles(self, slip)
       other = 0.0_wp
       do k = 1, self%n
-         angle(k) = (angle(k) - self%former(k)*other)*self%pivot(k)
-         other = angle(k)
+         self%angle(k) = (self%angle(k) - self%former(k)*other)*self%pivot(k)
+         other = self%angle(k)
       end do
       other = 0.0_wp
       do k = self%n, 1, -1
-         angle(k) = angle(k) - self%next(k)*other
-         other = angle(k)
+         self%angle(k) = self%angle(k) - self%next(k)*other
+         other = self%angle(k)
          associate (ix => self%at(2, k), iy => self%at(4, k))
-            slip(ix, iy, 1) = slip(ix, iy, 1) - angle(k)*self%bare(1, k)
-            slip(ix, iy, 2) = slip(ix, iy, 2) - angle(k)*self%bare(2, k)
+            slip(ix, iy, 1) = slip(ix, iy, 1) - self%angle(k)*self%bare(1, k)
+            slip(ix, iy, 2) = slip(ix, iy, 2) - self%angle(k)*self%bare(2, k)
          end associate
       end do
    end subroutine invert
 
    pure subroutine invert_transposed(self, slip)
-      class(slip_turns), intent(in) :: self
+      class(slip_turns), intent(inout) :: self
       !> Shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      real(wp) :: angle(self%n), other, x
+      real(wp) :: other, x
       integer :: k
 
       other = 0.0_wp
       do k = 1, self%n
          associate (ix => self%at(2, k), iy => self%at(4, k))
-            angle(k) = self%bare(1, k)*slip(ix, iy, 1) + self%bare(2, k)*slip(ix, iy, 2)
+            self%angle(k) = self%bare(1, k)*slip(ix, iy, 1) + self%bare(2, k)*slip(ix, iy, 2)
          end associate
-         if (k > 1) angle(k) = angle(k) - self%next(k - 1)*other
-         other = angle(k)
+         if (k > 1) self%angle(k) = self%angle(k) - self%next(k - 1)*other
+         other = self%angle(k)
       end do
       other = 0.0_wp
       do k = self%n, 1, -1
-         if (k < self%n) angle(k) = angle(k) - self%former(k + 1)*other
-         angle(k) = angle(k)*self%pivot(k)
-         other = angle(k)
+         if (k < self%n) self%angle(k) = self%angle(k) - self%former(k + 1)*other
+         self%angle(k) = self%angle(k)*self%pivot(k)
+         other = self%angle(k)
       end do
-      call add_by_angles(self, -angle, slip)
+      self%angle(:self%n) = -self%angle(:self%n)
+      call add_by_angles(self, slip)
       do k = 1, self%n
          associate (ix => self%at(2, k), iy => self%at(4, k), back => self%back(:, k))
             x = slip(ix, iy, 1)

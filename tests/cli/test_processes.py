@@ -319,6 +319,16 @@ class SmallStack(Scratch):
             status, _, err = self.run_on(192 << 10, "--json", "--hdf5", "--vtk", "2", name)
             self.assertEqual((status, err), (0, ""), name)
 
+    def test_frames_of_options(self):
+        """What an option adds to the way of a case fits three quarters of the smallest stack of a thread that is usual, 128 kB"""
+        shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
+        for name in ("cattaneo", "wheel_on_rail"):
+            shutil.copy(SOURCE / "examples" / (name + ".inp"), self.folder)
+            for options in (["--errors"], ["--order", "2"], ["--order", "2", "--errors"], ["--json", "--hdf5", "--vtk"]):
+                with self.subTest(name=name, options=options):
+                    status, _, err = self.run_on(96 << 10, *options, "2", name)
+                    self.assertEqual((status, err), (0, ""))
+
     def test_long_texts(self):
         shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
         rail = (SOURCE / "examples" / "wheel_on_rail.inp").read_text(encoding="utf-8")
