@@ -88,6 +88,7 @@ contains
    pure logical function is_at(self, spec, grid)
       class(accuracy_series), intent(in) :: self
       type(case_spec), intent(in) :: spec
+      !> That of the next solution
       type(level_grid), intent(in) :: grid
 
       ! a repeated step goes on from where the one before went on from
