@@ -15,11 +15,8 @@ function [ h ] = circ_arrow( pos_c, r, th0, th1, col, scale, width, rot )
 %
 % See also: plot_arrow, plot_axes.
 
-   if (nargin<5 || isempty(col))
-      col = 'b';
-   elseif (isnumeric(col) && isscalar(col))
-      col = matlab_color(col);
-   end
+   if (nargin<5), col = []; end
+   col = line_color(col);
    if (nargin<6 || isempty(scale)), scale = 1; end
    if (nargin<7 || isempty(width)), width = 1; end
    if (nargin<8 || isempty(rot)), rot = eye(3); end

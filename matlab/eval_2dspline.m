@@ -45,7 +45,7 @@ function [ x, y, z ] = points( spl2d, u, v, one_by_one )
    elseif (one_by_one)
       x = u + 0*y;
    else
-      x = u(:) + 0*y;
+      x = bsxfun(@plus, u(:), 0*y);
    end
 
 end % function points
@@ -61,10 +61,13 @@ function [ v ] = places_of( spl2d, u, y )
    else
       v = NaN(numel(u), numel(y));
    end
-   at = unique(spl2d.tvj);
+   at = spl2d.tvj(4:end-3);
    at = unique([at; (at(1:end-1)+at(2:end))/2]);
-   c  = bspline_basis(spl2d.tui, u(:), 0) * spl2d.cij_y;
-   line = c * bspline_basis(spl2d.tvj, at, 0)';
+   bu = bspline_basis(spl2d.tui, u(:), 0);
+   bv = bspline_basis(spl2d.tvj, at, 0);
+   c  = bu * spl2d.cij_y;
+   line = c * bv';
+   line(bu*(1-spl2d.mask_j)*bv' > 1e-15) = NaN;
    for i = 1 : numel(u)
       if (paired)
          v(i) = root(spl2d.tvj, c(i,:), at, line(i,:), y(i));

@@ -6,13 +6,16 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
 %
 %   ui, vj   rising parameters: positions of the slices, and of the points along them; at least 4 of each
 %   xij, yij, zij   coordinates, numel(ui) x numel(vj) arrays; without xij, or with [], x is ui
-%   mask_j   [] or ones: surfaces that lack points are not built
+%   mask_j   numel(ui) x numel(vj) array, 0 where a slice has no point, such as behind its end. NaN in a coordinate says the
+%            same. The surface is where the four points around are there, elsewhere its values are NaN
 %   use_approx   1 (default): along u the points are the control points, as for slices with U_METHOD 2; 0: the surface goes
 %            through the points
 %
-% Along v, and along u with use_approx = 0, splines go through the points without knots at the second and the last but one.
+% Along v, and along u with use_approx = 0, splines go through the points, and are one polynomial at the second point and at
+% the last but one. Three points make a parabola, two a line.
 %
-%   spl2d    struct with ui, vj, knots tui, tvj, coefficients cij_y, cij_z and, where x is given, cij_x; mask_j
+%   spl2d    struct with ui, vj, knots tui, tvj, coefficients cij_y, cij_z and, where x is given, cij_x; mask_j: 0 for
+%            coefficients that are not there
 %
 % See also: eval_2dspline, eval_2dspline_deriv, read_slices.
 
@@ -35,36 +38,98 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
    if (~isequal(size(y), shape) || ~isequal(size(z), shape) || (~isempty(x) && ~isequal(size(x), shape)))
       error('make_2dspline: arrays of %d x %d coordinates are needed.', shape);
    end
-   if (any(isnan(y(:))) || any(isnan(z(:))) || any(mask(:)==0))
-      error('make_2dspline: surfaces that lack points are not built.');
+   names  = {'cij_x','cij_y','cij_z'};
+   points = {x, y, z};
+   there  = true(shape);
+   if (~isempty(mask))
+      there = (reshape(mask, shape)~=0);
    end
-   spl2d = struct('ui',ui, 'vj',vj, 'tui',knots(ui), 'tvj',knots(vj));
-   if (use_approx)
-      steps = [ui(2)-ui(1), ui(end)-ui(end-1)];
-      spl2d.tui = [ui(1)-(3:-1:1)'*steps(1); ui; ui(end)+(1:3)'*steps(2)];
+   for i = find(~cellfun(@isempty, points))
+      there = there & ~isnan(points{i});
    end
-   for name = 'xyz'
-      data = eval(name);
-      if (isempty(data))
-         continue
-      end
-      c = (bspline_basis(spl2d.tvj, vj, 0) \ data')';
+   spl2d = struct('ui',ui, 'vj',vj, 'tui',knots(ui), 'tvj',knots(vj), 'mask_j',zeros(shape+2));
+   for i = find(~cellfun(@isempty, points))
+      % curves along the slices, then their coefficients along u
+      [c, known] = curves(spl2d.tvj, vj, points{i}', there', @curve_through);
+      method = @curve_through;
       if (use_approx)
-         c = [2*c(1,:)-c(2,:); c; 2*c(end,:)-c(end-1,:)];
-      else
-         c = bspline_basis(spl2d.tui, ui, 0) \ c;
+         method = @control_points;
       end
-      spl2d.(['cij_' name]) = c;
+      [c, known] = curves(spl2d.tui, ui, c', known', method);
+      spl2d.(names{i}) = c;
+      spl2d.mask_j = double(known);
    end
-   spl2d.mask_j = ones(size(spl2d.cij_y));
 
 end % function make_2dspline
 
 %------------------------------------------------------------------------------------------------------
 
 function [ t ] = knots( x )
-% Knots of the interpolating spline, all but the second and the last but one of its points
+% All points, and three more on both sides
 
-   t = [x([1 1 1 1]); x(3:end-2); x([end end end end])];
+   t = [x(1)-(3:-1:1)'*(x(2)-x(1)); x; x(end)+(1:3)'*(x(end)-x(end-1))];
 
 end % function knots
+
+%------------------------------------------------------------------------------------------------------
+
+function [ c, known ] = curves( t, x, values, there, method )
+% Coefficients of the splines of all columns, which may lack points
+
+   c = zeros(size(values) + [2 0]);
+   known = false(size(c));
+   for j = 1 : size(values,2)
+      % points that follow each other; those without a neighbour are part of no surface
+      step  = diff([0; there(:,j); 0]);
+      first = find(step==1);
+      last  = find(step==-1) - 1;
+      for r = find(last>first)'
+         k = (first(r):last(r))';
+         rows = [k; k(end)+1; k(end)+2];
+         if (any(known(rows,j)))
+            error('make_2dspline: point %d is missing alone between others, along u or v.', k(1)-1);
+         end
+         c(rows,j) = method(t, x, k, values(k,j));
+         known(rows,j) = true;
+      end
+   end
+
+end % function curves
+
+%------------------------------------------------------------------------------------------------------
+
+function [ c ] = curve_through( t, x, k, values )
+% Coefficients of the spline through the points x(k)
+
+   n  = numel(k);
+   at = (k(1):k(end)+2)';
+   b  = bspline_basis(t, x(k), 0);
+   % second derivative at the first point, third ones of all pieces
+   [~, b2] = eval_bspline_basisfnc(t, x(k(1)), 2);
+   second = b2 * bspline_derivative(t, 3) * bspline_derivative(t, 4);
+   b1 = eval_bspline_basisfnc(t, (x(k(1:end-1)) + x(k(2:end)))/2, 1);
+   third = b1 * bspline_derivative(t, 2) * bspline_derivative(t, 3) * bspline_derivative(t, 4);
+   if (n==2)
+      ends = [second; third];
+   elseif (n==3)
+      ends = third;
+   else
+      ends = [third(2,:)-third(1,:); third(n-1,:)-third(n-2,:)];
+   end
+   ends = full(ends(:,at));
+   ends = bsxfun(@rdivide, ends, max(abs(ends), [], 2));
+   c = [full(b(:,at)); ends] \ [values; 0; 0];
+
+end % function curve_through
+
+%------------------------------------------------------------------------------------------------------
+
+function [ c ] = control_points( t, x, k, values )
+% The values themselves, and one more on both sides in a line
+
+   d = diff(t);
+   i = 3 + [k(1); k(end)];
+   c = [values(1) - d(i(1)-1)/d(i(1))*(values(2)-values(1)); values
+        values(end) + d(i(2))/d(i(2)-1)*(values(end)-values(end-1))];
+
+end % function control_points

@@ -4,12 +4,14 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %   opt = plot3d              the options with their default values; opt = plot3d( [], opt ): completed
 %   plot3d( sol )             plot with the default options
 %   plot3d( sol, opt )
-%   plot3d( sol, opt, prr, prw )
+%   plot3d( sol, opt, prr, prw, subs )
 %
 %   sol        struct of LOADCASE or cntc_getcpresults; an array of them where several patches are shown together
 %   opt        struct of options, below
 %   prr, prw   rail and wheel profile: struct of READ_PROFILE or a file name; needed for rw_surf other
 %              than 'none' unless sol has them
+%   subs       stresses below the surface: a block of LOADSTRS for each patch in sol, drawn in rear and side view: contours of
+%              the largest von Mises stress along the line of sight
 %
 % What is shown:
 %
@@ -50,11 +52,11 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %              column of elements fills the figure
 %   vecscale   length of arrows and bars in mm for a value of 1 (default: found from the values)
 %   veccolor   their colour (default 'b' for 'ptvec' and bars, else 'k'), vecwidth their line width
-%   addeldiv   1: lines around the contact area and the areas of slip and plasticity; 0: none; [] (default):
+%   addeldiv   1, 'y': lines around the contact area and the areas of slip and plasticity; 0, 'n': none; [] (default):
 %              with arrows on colours only. In pictures from above
 %   eldivcol   colours of these lines, 3 x 3 array or 3 letters; eldivwid their line width
 %   colormap   name or array; 'none' or 'black': black lines on white
-%   addplot    1: do not clear the figure, draw into the current axes; -1: clear these axes only; 0 (default)
+%   addplot    1: do not clear the figure, draw into the current axes; -1, 2: clear these axes only; 0 (default)
 %
 % See also: loadcase, plot2d, read_profile.
 
@@ -75,8 +77,8 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
    if (nargin<4)
       prw = [];
    end
-   if (nargin>4 && ~isempty(subs))
-      error('plot3d: stresses below the surface are not drawn into the contact; plotstrs shows them.');
+   if (nargin<5)
+      subs = [];
    end
    other_script = (isstruct(opt) && isfield(opt, 'rw_surfc'));
    if (other_script)
@@ -97,6 +99,15 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
    end
    sol = completed(sol);
    opt.field = strrep(opt.field, '_vec', '+vec');
+   if (isempty(opt.view))
+      opt.view = 'default';
+   end
+   if (isempty(opt.colormap))
+      opt.colormap = 'default';
+   end
+   if (ischar(opt.addeldiv))
+      opt.addeldiv = (lower(opt.addeldiv(1))=='y');
+   end
    if (other_script)
       opt.rw_surf = surface_at_hand(sol, opt.rw_surf, prr, prw);
    end
@@ -106,21 +117,22 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
    if (any(strcmp(opt.typplot, {'rw_rear','rw_side'})) && ~with_profiles)
       error('plot3d: %s needs rw_surf = ''prr'', ''prw'' or ''both'', and the profiles.', opt.typplot);
    end
+   check_blocks(subs, sol, opt);
    if (with_profiles)
       [prr, prw] = get_profiles(sol, opt, prr, prw);
    end
 
    if (~opt.addplot)
       clf
-   elseif (opt.addplot==-1)
+   elseif (any(opt.addplot==[-1 2]))
       cla
    end
    hold on
    switch (opt.typplot)
       case 'rw_rear'
-         draw_section(sol, opt, prr, prw, 'rear');
+         draw_section(sol, opt, prr, prw, 'rear', subs);
       case 'rw_side'
-         draw_section(sol, opt, prr, prw, 'side');
+         draw_section(sol, opt, prr, prw, 'side', subs);
       otherwise
          if (with_profiles)
             draw_on_surface(sol, opt, prr, prw);
@@ -176,6 +188,22 @@ function [ surface ] = surface_at_hand( sol, surface, prr, prw )
    end
 
 end % function surface_at_hand
+
+%------------------------------------------------------------------------------------------------------
+
+function check_blocks( subs, sol, opt )
+% Blocks of stresses below the surface: one for each patch, in the views that show them
+
+   if (isempty(subs))
+      return
+   end
+   if (numel(subs)~=numel(sol))
+      error('plot3d: %d blocks of stresses are given for %d patches.', numel(subs), numel(sol));
+   elseif (~any(strcmp(opt.typplot, {'rw_rear','rw_side'})))
+      warning('plot3d: stresses below the surface are drawn in rear and side view only; plotstrs shows them by themselves.');
+   end
+
+end % function check_blocks
 
 %------------------------------------------------------------------------------------------------------
 

@@ -185,9 +185,6 @@ function [ col ] = turn_of( colors, i )
       col = colors;
       return
    end
-   col = colors(mod(i-1, size(colors,1))+1, :);
-   if (isnumeric(col) && isscalar(col))
-      col = matlab_color(col);
-   end
+   col = line_color(colors(mod(i-1, size(colors,1))+1, :));
 
 end % function turn_of

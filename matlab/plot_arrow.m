@@ -15,11 +15,8 @@ function [ h ] = plot_arrow( pos0, vec, col, scale, width, pln )
 %
 % See also: plot_cm, matlab_color.
 
-   if (nargin<3 || isempty(col))
-      col = 'b';
-   elseif (isnumeric(col) && isscalar(col))
-      col = matlab_color(col);
-   end
+   if (nargin<3), col = []; end
+   col = line_color(col);
    if (nargin<4 || isempty(scale))
       scale = 1;
    end

@@ -24,8 +24,8 @@ function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fon
    if (nargin<3 || isempty(theta)), theta = 0; end
    if (nargin<4 || isempty(zpos)), zpos = 1; end
    if (nargin<5 || isempty(axnams)), axnams = 'xyz'; end
-   if (nargin<6 || isempty(col)), col = 'b'; end
-   if (isnumeric(col) && isscalar(col)), col = matlab_color(col); end
+   if (nargin<6), col = []; end
+   col = line_color(col);
    if (nargin<7 || isempty(mrksiz)), mrksiz = 8; end
    if (nargin<8 || isempty(siz_o)), siz_o = 0.07*scl; end
    if (nargin<9 || isempty(fontsiz)), fontsiz = get(gca, 'fontsize'); end
@@ -45,8 +45,7 @@ function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fon
    second = [cosd(theta+90*turn), sind(theta+90*turn)];
    held = ishold();
    hold on
-   named = @(place, i) text(place(1), place(2), axnams{i}, 'rotation',th_txt, 'fontsize',fontsiz, 'color',txtcol, ...
-                            'horizontalalignment','center', 'interpreter',interpreter(axnams{i}));
+   named = @(place, i) axis_name(place, axnams{i}, fontsiz, txtcol, th_txt);
    h = [plot_arrow(O, scl*first, col, 1-(no_head>0)); named(O + fac_txt(1)*scl*first, 1)
         plot_arrow(O, scl*second, col, 1-(no_head>0)); named(O + fac_txt(2)*scl*second, 2)];
    round = (0:5:360);
@@ -73,15 +72,3 @@ function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fon
    end
 
 end % function plot_axes
-
-%------------------------------------------------------------------------------------------------------
-
-function [ how ] = interpreter( name )
-% Names in dollars are formulae
-
-   how = 'tex';
-   if (any(name=='$'))
-      how = 'latex';
-   end
-
-end % function interpreter

@@ -17,8 +17,8 @@ function [ h ] = plot_axes3( O, scl, rot, axnams, col, mrksiz, fontsiz, txtcol, 
 
    if (nargin<3 || isempty(rot)), rot = [0 0 0]; end
    if (nargin<4 || isempty(axnams)), axnams = 'xyz'; end
-   if (nargin<5 || isempty(col)), col = 'b'; end
-   if (isnumeric(col) && isscalar(col)), col = matlab_color(col); end
+   if (nargin<5), col = []; end
+   col = line_color(col);
    if (nargin<6 || isempty(mrksiz)), mrksiz = 8; end
    if (nargin<7 || isempty(fontsiz)), fontsiz = get(gca, 'fontsize'); end
    if (nargin<8 || isempty(txtcol)), txtcol = col; end
@@ -39,10 +39,7 @@ function [ h ] = plot_axes3( O, scl, rot, axnams, col, mrksiz, fontsiz, txtcol, 
    h = [];
    for i = 1 : 3
       h = [h; plot_arrow(O, scl*rot(:,i)', col, 1-(no_head>0))];
-      at = O + scl*fac_txt(i,:);
-      how = {'tex','latex'};
-      h(end+1,1) = text(at(1), at(2), at(3), axnams{i}, 'rotation',th_txt, 'fontsize',fontsiz, 'color',txtcol, ...
-                        'horizontalalignment','center', 'interpreter',how{1+any(axnams{i}=='$')});
+      h(end+1,1) = axis_name(O + scl*fac_txt(i,:), axnams{i}, fontsiz, txtcol, th_txt);
    end
    h(10) = plot3(O(1), O(2), O(3), '.', 'color',col, 'markersize',mrksiz);
    if (~held)

@@ -33,9 +33,7 @@ function [ h ] = plot_cm( O, r, veclen, theta, col, no_vec, no_head )
    if (isempty(veclen))
       veclen = 2*r;
    end
-   if (isnumeric(col) && isscalar(col))
-      col = matlab_color(col);
-   end
+   col = line_color(col);
    O = O(:)';
    held = ishold();
    hold on

@@ -43,9 +43,11 @@ function [ slcs ] = resample_slices( slcs, ds )
          step = step(1:end-1);
       end
       at = s(:,part)*ones(size(step)) + len*step;
+      % where a part ends in front of one that is not there
+      at(:,1) = s(:,part);
       vy = NaN(size(at));
       vz = NaN(size(at));
-      for i = find(~isnan(len))'
+      for i = 1 : slcs.nslc
          p = slcs.prof{i};
          vy(i,:) = interp1(p.ProfileS, p.ProfileY, at(i,:), 'linear', 'extrap');
          vz(i,:) = interp1(p.ProfileS, p.ProfileZ, at(i,:), 'linear', 'extrap');

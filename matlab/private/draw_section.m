@@ -1,15 +1,15 @@
-function draw_section( sol, opt, prr, prw, which )
+function draw_section( sol, opt, prr, prw, which, subs )
 % DRAW_SECTION  Rear view (y,z) or side view (x,z) of PLOT3D: outlines of rail and wheel, with bars for the values.
 %
 % Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. Each row of elements (side view: column) gives
-% the value of largest magnitude, drawn from the surface along the normal of the contact into the body.
+% the value of largest magnitude, drawn from the surface along the normal of the contact into the body. Stresses of the blocks
+% subs stand behind that.
 
    body = 'r';
    if (strcmp(opt.rw_surf, 'prw'))
       body = 'w';
    end
    rear = strcmp(which, 'rear');
-   before = get(gca, 'children');
    if (~rear)
       xrange = shown_range(sol, opt.xrange, 1, 0.5);
       if (isempty(opt.xrange))
@@ -17,12 +17,15 @@ function draw_section( sol, opt, prr, prw, which )
       end
    end
 
+   profile = {prr, prw};
+   profile = profile{1+(body=='w')};
+   for i = 1 : numel(subs)
+      draw_subsurface(subs(i), sol(i), opt, contact_frame(sol(i), body, profile), rear);
+   end
+
+   before = get(gca, 'children');
    for i = 1 : numel(sol)
-      if (body=='r')
-         c = contact_frame(sol(i), 'r', prr);
-      else
-         c = contact_frame(sol(i), 'w', prw);
-      end
+      c = contact_frame(sol(i), body, profile);
       if (i==1)
          if (rear)
             outline(c.py, c.pz, body);
@@ -83,13 +86,8 @@ function to_track( lines, m, rear, y )
 % Moves what was drawn in rail coordinates to those of the track; in a side view at the lateral position of the contact
 
    for h = lines(:)'
-      a = get(h, 'xdata');
-      b = get(h, 'ydata');
-      if (rear)
-         y = a;
-         set(h, 'xdata', m.y_r + cos(m.roll_r)*y - sin(m.roll_r)*b);
-      end
-      set(h, 'ydata', m.z_r + sin(m.roll_r)*y + cos(m.roll_r)*b);
+      [a, b] = rail_to_track(m, rear, y, get(h, 'xdata'), get(h, 'ydata'));
+      set(h, 'xdata',a, 'ydata',b);
    end
 
 end % function to_track

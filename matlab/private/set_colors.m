@@ -1,9 +1,9 @@
 function set_colors( name )
-% SET_COLORS  Select a colormap of the current figure by its name or as an n x 3 array.
+% SET_COLORS  Select a colormap of the current figure by its name, 'default' too, or as an n x 3 array.
 %
 % Where 'parula' does not exist (Octave) its nearest relative viridis is used.
 
-   if (~ischar(name))
+   if (~ischar(name) || strcmp(name, 'default'))
       colormap(name);
    elseif (exist(name)>0)
       colormap(feval(name, 64));

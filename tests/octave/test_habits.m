@@ -268,7 +268,36 @@ tube = make_2dspline(u, angles, u*ones(1,60), ones(6,1)*sin(angles), ones(6,1)*c
 [~, ~, ~, theta] = make_reflec(tube, [0 0 1], [0 0 1], 3, angles);
 check_near(theta, 2*angles*180/pi, 1e-3, 'twice the angle of the normal');
 check_error(@() make_2dspline(u(1:3), v, vv(1:3,:), vv(1:3,:)), '4 values');
-check_error(@() make_2dspline(u, v, [], vv, NaN*vv, [], 0), 'lack points');
+% points that are missing, by a mask and by NaN: the surface ends where they begin, and is the same polynomial up to there
+height = @(a, b) 1 + a.^2.*b - 0.1*a.^2 + b.^3;
+mask = ones(6,9);
+mask(1:3,7:9) = 0;
+mask(5:6,1:2) = 0;
+some = height(uu,vv);
+some(mask==0) = NaN;
+fu = linspace(0.03, 6.97, 36);
+fv = linspace(-0.99, 1.99, 41);
+[fuu, fvv] = ndgrid(fu, fv);
+[~, iu] = max(bsxfun(@lt, fuu(:), u'), [], 2);
+[~, iv] = max(bsxfun(@lt, fvv(:), v), [], 2);
+m = @(i, j) mask(sub2ind(size(mask), i, j));
+inside = reshape(m(iu-1,iv-1) & m(iu,iv-1) & m(iu-1,iv) & m(iu,iv), size(fuu));
+for s = {make_2dspline(u, v, 3*vv+0.2*uu, height(uu,vv), mask, 0), make_2dspline(u, v, [], 3*vv+0.2*uu, some, [], 0)}
+   [~, ~, y, z] = eval_2dspline(s{1}, fu, fv);
+   check(isequal(~isnan(z), inside) && isequal(~isnan(y), inside), 'the surface ends where points are missing');
+   check_near(z(inside), height(fuu(inside), fvv(inside)), 1e-11, 'its points');
+   [~, ~, dz] = eval_2dspline_deriv(s{1}, fu, fv, 2);
+   check(isequal(~isnan(dz), inside), 'its derivatives');
+   check_near(dz(inside), fuu(inside).^2 + 3*fvv(inside).^2, 1e-10, 'and their values');
+end
+place = eval_2dspline(s{1}, [1 1 5], [], 3*[0.5 1.5 1.5]+0.2*[1 1 5]);
+check_near(place([1 3]), [0.5 1.5], 1e-9, 'v of given y');
+check(isnan(place(2)), 'where points are missing no v has it');
+t = make_2dspline((0:5)', v, ones(6,1)*v, 2*(0:5)'*ones(1,9) + ones(6,1)*v.^3, mask);
+[~, ~, ~, z] = eval_2dspline(t, [0.5 3.5 4.7], [0.5 1.5 0.1]);
+check_near(z, 2*[0.5 3.5 4.7] + [0.5 1.5 0.1].^3, 1e-11, 'control points go on in a line');
+mask(4,5) = 0;
+check_error(@() make_2dspline(u, v, vv, vv, mask), 'point 5 is missing alone');
 for i = 1 : 5
    write_simpack(sprintf('slice%d.prr', i), '', (-10:10)', (-10:10)'.^2/600 + i^2);
 end

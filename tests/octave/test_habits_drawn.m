@@ -113,7 +113,49 @@ figure(7);   plot3d(s, opt, prr);
 check(~isempty(strfind(lastwarn(), 'left out')), 'no wheel');
 plot3d([], opt);
 check(~isempty(strfind(lastwarn(), 'no contact patch')), 'no contact');
-check_error(@() plot3d(s, plot3d, prr, prw, struct('x',0)), 'plotstrs');
+
+% stresses below the surface in rear and side view, in the coordinates of the track, of the rail and of the wheel
+lines = strsplit(fileread('manchester.inp'), "\n");
+first = find(strncmp(lines, ' 2000. ', 7), 1);
+block = {' 1 1', ' 9', ' 5 9 6', ' -1 -0.5 0 0.5 1', ' -4 -3 -2 -1 0 1 2 3 4', ' 0 0.25 0.5 1 2 4', ' 0', ''};
+text = strrep(strjoin([lines(1:first), block, {' 0 MODULE', ''}], "\n"), ' 1203100 ', ' 1203103 ');
+run_input('below', text, '', 'profiles/60E1.prr', 'profiles/S1002.prw');
+b = loadstrs('below', 1);
+s = loadcase('below', 1);
+out = parse_out1('below');
+largest = squeeze(max(b.sigvm, [], 1));
+side = squeeze(max(b.sigvm, [], 2));
+opt = plot3d;
+opt.rw_surfc = 'both';   opt.typplot = 'rw_rear';   opt.field = 'pn';
+figure(7);   lastwarn('');
+plot3d(s, opt, prr, prw, b);
+h = findobj(gca, 'type','hggroup');
+check(numel(h)==1 && isempty(lastwarn()), 'contours in the rear view');
+check_near(get(h, 'zdata'), largest, 1e-9*max(largest(:)), 'the largest stress along the line of sight');
+% five points of the middle column and the depth below them, by the angle that the .out file has
+h = [get(h,'xdata')(5,:); get(h,'ydata')(5,:)];
+a = out.cp_pos.delt_tr(1);
+check_near(h, [out.cp_pos.ytr(1)-sin(a)*b.z'; out.cp_pos.ztr(1)+cos(a)*b.z'], 5e-3, 'their places in track coordinates');
+opt.rw_surfc = 'prr';
+plot3d(s, opt, prr, prw, b);
+h = findobj(gca, 'type','hggroup');
+check_near(get(h,'ydata')(:,1), interp1(prr.ProfileY, prr.ProfileZ, get(h,'xdata')(:,1)), 1e-3, 'z = 0 is the surface of the rail');
+opt.rw_surfc = 'prw';
+plot3d(s, opt, prr, prw, b);
+h = findobj(gca, 'type','hggroup');
+[y, k] = unique(prw.ProfileY);
+check_near(get(h,'ydata')(:,1), interp1(y, prw.ProfileZ(k), get(h,'xdata')(:,1)), 1e-3, 'and that of the wheel');
+opt.rw_surfc = 'prr';   opt.typplot = 'rw_side';
+plot3d(s, opt, prr, prw, b);
+h = findobj(gca, 'type','hggroup');
+check_near(get(h, 'zdata'), side, 1e-9*max(side(:)), 'side view');
+check_near(get(h, 'xdata')(:,1), out.cp_pos.xtr(1) + b.x, 5e-3, 'its places');
+opt.typplot = 'surf';
+plot3d(s, opt, prr, prw, b);
+check(~isempty(strfind(lastwarn(), 'rear and side view only')), 'other views tell that they do not show stresses');
+opt.typplot = 'rw_rear';
+check_error(@() plot3d(s, opt, prr, prw, [b b]), '2 blocks of stresses are given for 1 patches');
+check_error(@() plot3d(s, opt, prr, prw, struct('x',0)), 'a block of loadstrs');
 
 % names, letters, axes, and a struct put together by hand
 hand = rmfield(s, {'x','y','x_offset','y_offset','kincns'});
@@ -128,6 +170,19 @@ opt.addplot  = -1;
 plot3d(hand, opt);
 check(numel(findobj(gcf, 'type','axes'))>=2 && ~isempty(findobj(gca, 'color',[0 0 1])), 'one of two axes is drawn anew');
 check_near(hand.xl + hand.dx/2, s.x(1), 1e-12, 'the grid of a struct without x');
+
+% letters for yes and no, empty options
+opt = plot3d;   opt.field = 'pn';   opt.view = [0 90];   opt.addplot = 2;   opt.colormap = [];
+opt.addeldiv = 'yes';
+plot3d(hand, opt);
+n = numel(findobj(gca, 'type','line'));
+opt.addeldiv = 'n';
+plot3d(hand, opt);
+check(n>0 && isempty(findobj(gca, 'type','line')) && numel(findobj(gcf, 'type','axes'))>=2, 'addeldiv by letters, axes cleared');
+opt.view = [];
+plot3d(hand, opt);
+[az, el] = view();
+check(az==-37.5 && el==30, 'an empty view is the default');
 
 % a profile and what was worn off
 worn = prr;

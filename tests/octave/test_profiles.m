@@ -123,6 +123,17 @@ r = resample_slices(r, 1);
 check(all(isnan(r.vy(1,1:10))) && ~any(isnan(r.vy(3,:))), 'a part that two slices do not have');
 check_near(r.vz(5,end), r.vz(1,end)-0.4, 1e-9, 'the rise');
 check_near(hypot(diff(r.vy(3,1:3)),diff(r.vz(3,1:3))), [1 1]*30/31, 5e-3, 'distance of points');
+% the surface of splines is there where the slices are: a part is missing in front, then behind
+[~, ~, y, z] = eval_2dspline(r, [50; 250], [0.05 0.7]);
+check(isequal(isnan(z), [true false; false false]), 'no surface where two slices lack a part');
+check_near(y(2,1), interp1(linspace(0, 1, size(r.vy,2)), mean(r.vy(3:4,:)), 0.05), 1e-2, 'its points');
+text = strrep(strrep(fileread('rise.slcs'), '0.0 -1 30 999', '0.0 0 30 -1'), '0.1 -1 30 999', '0.1 0 30 -1');
+f = fopen('fall.slcs', 'w');   fwrite(f, text);   fclose(f);
+r = read_profile('fall.slcs');
+y = resample_slices(r, 1).vy;
+last = find(~isnan(y(1,:)), 1, 'last');
+check_near(y(1,last), interp1(r.prof{1}.ProfileS, r.prof{1}.ProfileY, 30), 1e-9, 'a part ends at its feature');
+check(~any(isnan(y(3,:))) && last>1, 'the others have all parts');
 put('bad.slcs', {'0 1','2','0 0 0','3','0 ''slices/s1.prr''','1 ''slices/s2.prr'''});
 check_error(@() read_slices('bad.slcs'), 'interpolation method 3');
 

@@ -1,0 +1,14 @@
+function [ h ] = axis_name( at, name, fontsiz, col, angle )
+% AXIS_NAME  Write the name of an axis of coordinates; names in dollars are formulae.
+%
+%   at      place of its middle, 2 or 3 numbers
+%   angle   of the text [deg]
+
+   how = 'tex';
+   if (any(name=='$'))
+      how = 'latex';
+   end
+   at = num2cell(at);
+   h  = text(at{:}, name, 'rotation',angle, 'fontsize',fontsiz, 'color',col, 'horizontalalignment','center', 'interpreter',how);
+
+end % function axis_name

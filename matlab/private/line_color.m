@@ -1,0 +1,10 @@
+function [ col ] = line_color( col )
+% LINE_COLOR  Colour as plot takes it: a name or red, green, blue as they are, a number by MATLAB_COLOR, [] is blue.
+
+   if (isempty(col))
+      col = 'b';
+   elseif (isnumeric(col) && isscalar(col))
+      col = matlab_color(col);
+   end
+
+end % function line_color
