@@ -15,6 +15,11 @@ import numpy as np
 from browser import COLOURS, PHONE, PROGRAM, SETTLED, SOURCE, Page, many_cases
 
 INDEX = "contactReport.state.index"
+# A finger that is lifted leaves the page scrolling for a while
+STILL = """() => new Promise(done => { let last = -1, times = 0;
+  const look = () => { times = scrollY === last ? times + 1 : 0; last = scrollY;
+    if (times > 20) done(); else requestAnimationFrame(look); };
+  look(); })"""
 WIDTH = "contactReport.state.view[1] - contactReport.state.view[0]"
 
 
@@ -122,8 +127,9 @@ class Viewer(Page):
         send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         page.wait_for_function("y => scrollY > y + 100", arg=before)
         self.assertEqual(page.evaluate("contactReport.state.view"), view)
+        page.evaluate(STILL)
         page.evaluate("scrollTo(0, %d)" % before)
-        page.wait_for_timeout(300)
+        page.evaluate(STILL)
         view = page.evaluate("contactReport.maps[0].shown")
         box = page.locator("#map-pn").bounding_box()
         y = box["y"] + 12 + (box["height"] - 52) / 2
@@ -330,6 +336,28 @@ class Viewer(Page):
         series = page.evaluate("contactReport.plots.curve.series.map(s => [s.name, s.points.length, s.points.map(p => p.index)])")
         self.assertEqual([(name, points) for name, points, _ in series], [("right wheel", 5), ("left wheel", 5)])
         self.assertEqual([index for _, _, indices in series for index in indices], list(range(10)))
+
+    def test_legends_stand_above_the_curves(self):
+        address = self.page_of("wheel_on_rail", other="manchester")
+        for viewport in (None, PHONE):
+            page = self.open(address + "#case=2", 1, **({"viewport": viewport} if viewport else {}))
+            for name in ("curve", "section"):
+                rows, top = page.evaluate("""name => {
+                  const plot = contactReport.plots[name], rows = [], brush = plot.brush, write = brush.fillText;
+                  const lines = () => name === 'curve' ? plot.series.map(s => [s.name, s.points.map(p => p.y)])
+                    : plot.drawn.map(l => [l.name, l.values]);
+                  const names = lines().map(l => l[0]);
+                  brush.fillText = (text, x, y) => {
+                    if (names.includes(text)) rows.push(y);
+                    return write.call(brush, text, x, y);
+                  };
+                  plot.draw();
+                  delete brush.fillText;
+                  return [rows, Math.min(...lines().flatMap(l => l[1]).map(y => plot.Y(y)))];
+                }""", name)
+                self.assertGreater(len(rows), 1, name)
+                self.assertGreater(top, max(rows) + 6, name)
+            self.assertEqual(self.troubles, [])
 
     def test_play(self):
         page = self.open(self.page_of("cattaneo"))

@@ -190,11 +190,17 @@ class Frame extends Picture {
     this.ownHome = v;
     if (!this.own) this.own = v;
   }
-  begin() {
-    const c = this.prepare();
-    let [x0, x1, y0, y1] = this.view;
-    const w = this.width - MARGIN.left - this.right,
+  // With the range of all curves and the entries of a legend: the first view has the curves below the legend
+  begin(all, entries = []) {
+    const c = this.prepare(),
+      w = this.width - MARGIN.left - this.right,
       h = this.height - MARGIN.top - MARGIN.bottom;
+    if (all) {
+      const [x0, x1, low, high] = all,
+        room = entries.length && Math.min(legendPlaces(c, this, entries).at(-1)[1] - MARGIN.top + 12, h / 2);
+      this.home = [x0, x1, low, high + ((high - low) * room) / (h - room)];
+    }
+    let [x0, x1, y0, y1] = this.view;
     if (this.equal) {
       const scale = Math.min(w / (x1 - x0), h / (y1 - y0));
       const growX = w / scale - (x1 - x0),
@@ -398,17 +404,27 @@ function colourBar(frame, { low, high, colour, given }, unit) {
   for (const t of ticks(low, high, 5))
     c.fillText(tickText(t, high - low), left + 16, MARGIN.top + 20 + (height * (high - t)) / (high - low));
 }
-function legend(c, frame, entries) {
-  let x = MARGIN.left + 10,
+// Where the entries of a legend begin, in as many rows as they need
+function legendPlaces(c, frame, entries) {
+  const left = MARGIN.left + 10;
+  let x = left,
     y = MARGIN.top + 12;
-  c.textAlign = "left";
-  c.textBaseline = "middle";
-  for (const [text, colour, dash] of entries) {
+  return entries.map(([text]) => {
     const width = c.measureText(text).width;
-    if (x + 30 + width > frame.width - frame.right && x > MARGIN.left + 10) {
-      x = MARGIN.left + 10;
+    if (x + 30 + width > frame.width - frame.right && x > left) {
+      x = left;
       y += 16;
     }
+    x += 38 + width;
+    return [x - 38 - width, y];
+  });
+}
+function legend(c, frame, entries) {
+  const places = legendPlaces(c, frame, entries);
+  c.textAlign = "left";
+  c.textBaseline = "middle";
+  entries.forEach(([text, colour, dash], k) => {
+    const [x, y] = places[k];
     c.strokeStyle = colour;
     c.lineWidth = 2.5;
     c.setLineDash(dash || []);
@@ -419,8 +435,7 @@ function legend(c, frame, entries) {
     c.setLineDash([]);
     c.fillStyle = "#33414f";
     c.fillText(text, x + 23, y);
-    x += 38 + width;
-  }
+  });
 }
 const ratioIsPlain = view => {
   const r = (view[1] - view[0]) / (view[3] - view[2]);

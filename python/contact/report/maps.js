@@ -277,8 +277,8 @@ class Section extends Frame {
       low = -1;
     }
     const side = along ? state.home.slice(0, 2) : state.home.slice(2);
-    this.home = [...side, low - 0.06 * (high - low), high + 0.16 * (high - low)];
-    const c = this.begin();
+    const entries = this.drawn.filter(l => l.name).map(l => [l.name, l.colour, l.dash]),
+      c = this.begin([...side, low - 0.06 * (high - low), high + 0.06 * (high - low)], entries);
     this.grid();
     c.strokeStyle = "#8a98a6";
     c.lineWidth = 1;
@@ -305,11 +305,7 @@ class Section extends Frame {
     }
     c.setLineDash([]);
     this.end(along ? "x [mm]" : nowCase().module === 1 ? "s [mm]" : "y [mm]", "N/mm\u00b2");
-    legend(
-      c,
-      this,
-      this.drawn.filter(l => l.name).map(l => [l.name, l.colour, l.dash]),
-    );
+    legend(c, this, entries);
     const told = along ? `row ${at + 1} of ${my}, y = ${figures(place)} mm` : `column ${at + 1} of ${mx}, x = ${figures(place)} mm`;
     byId("section-row").textContent = told;
     byId("section-row").title = `${told}; click a map for another`;

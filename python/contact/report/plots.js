@@ -43,8 +43,8 @@ class Curve extends Frame {
     const widen = (a, b) => (b > a ? 0.06 * (b - a) : Math.max(Math.abs(a) * 0.1, 1e-12)),
       wx = widen(x0, x1),
       wy = widen(y0, y1);
-    this.home = [x0 - wx, x1 + wx, y0 - wy, y1 + (series.length > 1 ? 3 : 1) * wy];
-    const c = this.begin(),
+    const entries = series.length > 1 ? series.slice(0, 12).map(s => [s.name, s.colour, s.run ? [5, 4] : null]) : [],
+      c = this.begin([x0 - wx, x1 + wx, y0 - wy, y1 + wy], entries),
       many = this.points.length > 300;
     this.grid();
     for (const s of series) {
@@ -76,12 +76,7 @@ class Curve extends Frame {
       c.stroke();
     }
     this.end(label(name[0]), label(name[1]));
-    if (series.length > 1)
-      legend(
-        c,
-        this,
-        series.slice(0, 12).map(s => [s.name, s.colour, s.run ? [5, 4] : null]),
-      );
+    legend(c, this, entries);
     this.tell(
       `${name[1]} over ${name[0]}, ${this.points.length} points in ${series.length} line${series.length > 1 ? "s" : ""}; ` +
         `${name[1]} from ${withUnit(y0, meta(name[1]).unit)} to ${withUnit(y1, meta(name[1]).unit)}` +
