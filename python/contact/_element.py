@@ -504,7 +504,7 @@ class Element:
                          conductivity: float | None = None, density: float | None = None, capacity2: float | None = None,
                          conductivity2: float | None = None, density2: float | None = None, plastic_share: float = 1.0,
                          source: str = "moving") -> None:
-        """Surface temperatures in steady rolling; thermal constants default to those of steel.
+        """Surface temperatures in steady rolling, at the velocity that is set; thermal constants default to those of steel.
 
         Parameters
         ----------

@@ -158,6 +158,9 @@ class Problem(Element):
 
         In transient rolling give the step: the size of an element, or some. Without one it is that of the library, 2 mm, which
         is longer than many a contact. Steady rolling goes by steps of one element anyway.
+
+        Without this call the velocity is 1 m/s. Temperatures, frictional power, friction that depends on the slip velocity and
+        viscoelastic bodies need the true one.
         """
         self._do(cntc.setreferencevelocity, self.number, 1, velocity)
         if step is not None:

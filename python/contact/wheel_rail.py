@@ -281,6 +281,15 @@ class WheelRail(Element):
         """Vertical force on the contact [F]."""
         self._do(cntc.setverticalforce, self.number, fz)
 
+    def set_longitudinal_force(self, fx: float = 0.0) -> None:
+        """Longitudinal force on the rail in axes of the wheelset [F], at which the rate of pitch is found.
+
+        0: the wheel rolls freely; above 0 it brakes, below 0 it drives. ``wheelset_velocity[5]`` of the result is the rate;
+        that of ``set_velocity`` is not used. ``set_flags(ic_force=0)`` goes back to a given rate.
+        """
+        self.set_flags(ic_force=1)
+        self._do(cntc.settangentialforces, self.number, -1, fx, 0.0)
+
     def solve(self, initiation: bool = True) -> WheelRailResult:
         """Find the contact patches and solve them.
 

@@ -52,8 +52,8 @@ def solved(units="mm", motion="steady"):
         return problem.solve(), problem.stresses()
 
 
-def wheel(track=None):
-    """A wheel on a rail; track replaces how the track is given"""
+def wheel(track=None, force=None, pitch=-2000.0 / 460.0):
+    """A wheel on a rail; track replaces how the track is given, a longitudinal force the rate of pitch"""
     with contact.WheelRail() as pair:
         pair.set_material(g=82000.0, nu=0.28)
         pair.set_friction(0.3)
@@ -65,8 +65,10 @@ def wheel(track=None):
         if track:
             track(pair.number)
         pair.set_position(y=2.0, yaw=0.0048)
-        pair.set_velocity(2000.0, pitch=-2000.0 / 460.0)
+        pair.set_velocity(2000.0, pitch=pitch)
         pair.set_vertical_force(10e3)
+        if force is not None:
+            pair.set_longitudinal_force(force)
         return pair.solve()
 
 
@@ -232,6 +234,18 @@ def track(expected):
     raises(AttributeError, lambda: python_intfc.cntc_nothing, "cntc_nothing")
 
 
+def rates_of_pitch():
+    """A longitudinal force in place of the rate: the same contact by the rate that was found, signs, and what a free wheel has"""
+    braked, free, driven = (wheel(force=force) for force in (1000.0, 0.0, -1000.0))
+    for result, force in ((braked, 1000.0), (free, 0.0), (driven, -1000.0)):
+        close(result.forces.wheelset.force[0], force, 1e-4 * 10e3, "the force that was asked for")
+    rates = [-result.wheelset_velocity[5] for result in (braked, free, driven)]
+    again = wheel(pitch=-rates[0])
+    close(again.forces.track.force, braked.forces.track.force, 1.0, "the same by the rate")
+    check(rates[0] < rates[1] < rates[2], f"a braked wheel turns slower, a driven one faster: {rates}")
+    close(rates[1], 2000.0 / 460.5, 0.01 * rates[1], "a free wheel rolls without slip")
+
+
 if __name__ == "__main__":
     everything = (*solved(), wheel())
     printed(*everything)
@@ -241,4 +255,5 @@ if __name__ == "__main__":
     loaded(sys.argv[1])
     layer()
     track(everything[-1])
+    rates_of_pitch()
     finish()
