@@ -22,6 +22,7 @@
 !> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
 !> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
 module contact_tables_creep_table
+   use, intrinsic :: iso_fortran_env, only : real32
    use contact_base_kinds, only : wp
    use contact_tables_axis, only : find_basis, order, spline_axis
    implicit none (type, external)
@@ -29,8 +30,8 @@ module contact_tables_creep_table
 
    public :: creep_table, find_creep_force, most_spin, scaled_creepages
 
-   !> Values for each node: Fx, Fy, Mz and an unused one, which lets nodes lie at multiples of 32 bytes
-   integer, parameter, public :: values_per_node = 4
+   !> Values for each node: Fx, Fy, Mz
+   integer, parameter, public :: values_per_node = 3
    !> Values of one stretch of nodes along z
    integer, parameter :: stretch = values_per_node*order
    !> Scaled creepages beyond this are as good as infinite, and their fourth powers are numbers [-]
@@ -67,8 +68,8 @@ module contact_tables_creep_table
       integer :: elements = 0, discretisation = 0
       !> log(g), offset (bpos - bneg)/(bpos + bneg), x, y, z
       type(spline_axis) :: shape, offset, x, y, z
-      !> Coefficients: values of a node first, then along z, y, x, offset, shape
-      real(wp), allocatable :: coefficients(:)
+      !> Coefficients: values of a node first, then along z, y, x, offset, shape; short, as memory is what look-ups wait for
+      real(real32), allocatable :: coefficients(:)
    end type creep_table
 
 contains
@@ -174,9 +175,8 @@ contains
       !> Derivatives of each value (first index) by each scaled creepage
       real(wp), intent(out), optional :: df(3, 3)
       real(wp) :: r, r1, r2, whole, largest, s(2), v(2), place(3), inner(3, 3)
-      real(wp), dimension(values_per_node) :: value, by_x, by_y, by_z
+      real(wp), dimension(values_per_node) :: by_x, by_y, by_z
       real(wp), dimension(order, 5) :: basis, slope
-      real(wp) :: near(stretch, order, order)
       integer :: first(5)
 
       if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = answer%outside
@@ -200,121 +200,136 @@ contains
       call find_basis(table%x, place(1), first(3), basis(:, 3), slope(:, 3))
       call find_basis(table%y, place(2), first(4), basis(:, 4), slope(:, 4))
       call find_basis(table%z, place(3), first(5), basis(:, 5), slope(:, 5))
-      call gather_near(table, first, basis(:, 1:2), near)
       if (.not. present(df)) then
-         call sum_values(near, basis(:, 3:5), value)
-         f = value(:3)
+         call sum_values(table, first, basis, f)
          return
       end if
-      call sum_slopes(near, basis(:, 3:5), slope(:, 3:5), value, by_x, by_y, by_z)
-      f = value(:3)
+      call sum_slopes(table, first, basis, slope, f, by_x, by_y, by_z)
       ! derivatives of the place (first index) by v1, v2 and u3, then by u
       inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
          & (1.0_wp - place(2)*r2)/whole, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
       inner(:, 3) = inner(:, 3) - matmul(inner(:, :2), v*(turn/s)**2)*u(3)
       inner(:, 1) = inner(:, 1)/s(1)
       inner(:, 2) = inner(:, 2)/s(2)
-      df = matmul(reshape([by_x(:3), by_y(:3), by_z(:3)], [3, 3]), inner)
+      df = matmul(reshape([by_x, by_y, by_z], [3, 3]), inner)
    end subroutine evaluate
 
-   !> Nodes around a place, summed over shape and offset, whose derivatives are not wanted
-   pure subroutine gather_near(table, first, basis, near)
+   !> Where nodes around a place begin, and their weights along shape and offset, whose derivatives are not wanted
+   pure subroutine find_blocks(table, first, basis, blocks, start, weight)
       type(creep_table), intent(in) :: table
       !> First coefficient along shape, offset, x, y, z
       integer, intent(in) :: first(5)
       !> Basis functions along shape and offset
       real(wp), intent(in) :: basis(order, 2)
-      !> Values of the nodes: along z, y, x
-      real(wp), intent(out) :: near(stretch, order, order)
-      real(wp) :: weight(order**2), sums(stretch)
-      integer :: start(order**2), i, j, l, m, n, blocks, row, plane, block
+      !> Blocks of nodes along x, y, z; coefficients before each, and its weight
+      integer, intent(out) :: blocks, start(order**2)
+      real(wp), intent(out) :: weight(order**2)
+      integer :: l, m, plane
 
-      row = values_per_node*table%z%count
-      plane = row*table%y%count
-      block = plane*table%x%count
+      plane = values_per_node*table%z%count*table%y%count
       blocks = 0
       do l = 1, min(order, table%shape%count)
          do m = 1, min(order, table%offset%count)
             blocks = blocks + 1
             weight(blocks) = basis(l, 1)*basis(m, 2)
-            start(blocks) = ((first(1) + l - 2)*table%offset%count + first(2) + m - 2)*block + (first(3) - 1)*plane &
-               & + (first(4) - 1)*row + (first(5) - 1)*values_per_node
+            start(blocks) = (((first(1) + l - 2)*table%offset%count + first(2) + m - 2)*table%x%count + first(3) - 1)*plane &
+               & + ((first(4) - 1)*table%z%count + first(5) - 1)*values_per_node
          end do
       end do
-      do i = 1, order
-         do j = 1, order
-            ! all blocks of a stretch at once: its sums stay in registers
-            sums = 0.0_wp
-            do l = 1, blocks
-               n = start(l) + (i - 1)*plane + (j - 1)*row
-               sums = sums + weight(l)*table%coefficients(n + 1:n + stretch)
-            end do
-            near(:, j, i) = sums
-         end do
-      end do
-   end subroutine gather_near
+   end subroutine find_blocks
 
-   !> The spline from the nodes around a place
-   pure subroutine sum_values(near, basis, value)
-      !> From gather_near
-      real(wp), intent(in) :: near(stretch, order, order)
-      !> Basis functions along x, y, z
-      real(wp), intent(in) :: basis(order, 3)
+   !> Nodes along z, summed over shape and offset
+   pure function sum_blocks(coefficients, shift, blocks, start, weight) result(sums)
+      !> Of the table
+      real(real32), intent(in), contiguous :: coefficients(:)
+      !> Coefficients from the beginning of a block to the first node
+      integer, intent(in) :: shift
+      !> Blocks, coefficients before each, its weight
+      integer, intent(in) :: blocks, start(order**2)
+      real(wp), intent(in) :: weight(order**2)
+      !> Values of the nodes, which stay in registers until all blocks are in them
+      real(wp) :: sums(stretch)
+      integer :: k, l, n
+
+      sums = 0.0_wp
+      do l = 1, blocks
+         n = start(l) + shift
+         do k = 1, stretch
+            sums(k) = sums(k) + weight(l)*coefficients(n + k)
+         end do
+      end do
+   end function sum_blocks
+
+   !> The spline
+   pure subroutine sum_values(table, first, basis, value)
+      type(creep_table), intent(in) :: table
+      !> First coefficient along shape, offset, x, y, z
+      integer, intent(in) :: first(5)
+      !> Basis functions along them
+      real(wp), intent(in) :: basis(order, 5)
       !> Of all values
       real(wp), intent(out) :: value(values_per_node)
-      real(wp), dimension(values_per_node) :: a, b
-      integer :: i, j, k, n
+      real(wp) :: weight(order**2), near(stretch), sums(stretch)
+      integer :: start(order**2), i, j, blocks, row
 
-      value = 0.0_wp
+      call find_blocks(table, first, basis(:, 1:2), blocks, start, weight)
+      row = values_per_node*table%z%count
+      sums = 0.0_wp
       do i = 1, order
-         a = 0.0_wp
          do j = 1, order
-            b = 0.0_wp
-            do k = 1, order
-               n = values_per_node*(k - 1)
-               b = b + basis(k, 3)*near(n + 1:n + values_per_node, j, i)
-            end do
-            a = a + basis(j, 2)*b
+            near = sum_blocks(table%coefficients, ((i - 1)*table%y%count + j - 1)*row, blocks, start, weight)
+            sums = sums + (basis(i, 3)*basis(j, 4))*near
          end do
-         value = value + basis(i, 1)*a
       end do
+      value = along_z(sums, basis(:, 5))
    end subroutine sum_values
 
-   !> The same with its derivatives
-   pure subroutine sum_slopes(near, basis, slope, value, by_x, by_y, by_z)
-      !> From gather_near
-      real(wp), intent(in) :: near(stretch, order, order)
-      !> Basis functions and slopes along x, y, z
-      real(wp), intent(in) :: basis(order, 3), slope(order, 3)
+   !> The spline with its derivatives
+   pure subroutine sum_slopes(table, first, basis, slope, value, by_x, by_y, by_z)
+      type(creep_table), intent(in) :: table
+      !> First coefficient along shape, offset, x, y, z
+      integer, intent(in) :: first(5)
+      !> Basis functions along them and their slopes
+      real(wp), intent(in) :: basis(order, 5), slope(order, 5)
       !> Of all values: the spline and its derivatives by x, y, z
       real(wp), dimension(values_per_node), intent(out) :: value, by_x, by_y, by_z
-      real(wp), dimension(values_per_node) :: a, b, along_y, along_z
-      integer :: i, j, k, n
+      real(wp) :: weight(order**2)
+      real(wp), dimension(stretch) :: near, sums, sums_x, sums_y
+      integer :: start(order**2), i, j, blocks, row
+
+      call find_blocks(table, first, basis(:, 1:2), blocks, start, weight)
+      row = values_per_node*table%z%count
+      sums = 0.0_wp
+      sums_x = 0.0_wp
+      sums_y = 0.0_wp
+      do i = 1, order
+         do j = 1, order
+            near = sum_blocks(table%coefficients, ((i - 1)*table%y%count + j - 1)*row, blocks, start, weight)
+            sums = sums + (basis(i, 3)*basis(j, 4))*near
+            sums_x = sums_x + (slope(i, 3)*basis(j, 4))*near
+            sums_y = sums_y + (basis(i, 3)*slope(j, 4))*near
+         end do
+      end do
+      value = along_z(sums, basis(:, 5))
+      by_x = along_z(sums_x, basis(:, 5))
+      by_y = along_z(sums_y, basis(:, 5))
+      by_z = along_z(sums, slope(:, 5))
+   end subroutine sum_slopes
+
+   !> A stretch of nodes by functions along z
+   pure function along_z(sums, weight) result(value)
+      !> Values of the nodes
+      real(wp), intent(in) :: sums(values_per_node, order)
+      !> Basis functions or slopes
+      real(wp), intent(in) :: weight(order)
+      real(wp) :: value(values_per_node)
+      integer :: k
 
       value = 0.0_wp
-      by_x = 0.0_wp
-      by_y = 0.0_wp
-      by_z = 0.0_wp
-      do i = 1, order
-         a = 0.0_wp
-         along_y = 0.0_wp
-         along_z = 0.0_wp
-         do j = 1, order
-            b = 0.0_wp
-            do k = 1, order
-               n = values_per_node*(k - 1)
-               b = b + basis(k, 3)*near(n + 1:n + values_per_node, j, i)
-               along_z = along_z + (basis(j, 2)*slope(k, 3))*near(n + 1:n + values_per_node, j, i)
-            end do
-            a = a + basis(j, 2)*b
-            along_y = along_y + slope(j, 2)*b
-         end do
-         value = value + basis(i, 1)*a
-         by_x = by_x + slope(i, 1)*a
-         by_y = by_y + basis(i, 1)*along_y
-         by_z = by_z + basis(i, 1)*along_z
+      do k = 1, order
+         value = value + weight(k)*sums(:, k)
       end do
-   end subroutine sum_slopes
+   end function along_z
 
    !> Lead forces above 1 - band to 1, with a continuous slope
    pure subroutine keep_below_friction(band, f, df)

@@ -19,8 +19,8 @@ module contact_tables_table_file
    integer, parameter :: digits = 64
    !> Bytes before the knots; whole numbers and real ones in them
    integer, parameter :: head_bytes = 128, wholes = 8, reals = 9
-   !> Values of a node in a file, bytes of numbers
-   integer, parameter :: stored = 3, real_bytes = 8, short_bytes = 4
+   !> Bytes of numbers
+   integer, parameter :: real_bytes = 8, short_bytes = 4
    !> Longest file [bytes], most coefficients along an axis: what 32-bit numbers of coefficients allow
    integer(long), parameter :: longest = 2000000000_long
    integer, parameter :: most_along = 10000
@@ -103,7 +103,7 @@ contains
       call take_axis(text, place, whole(5), table%y, is_good(4))
       call take_axis(text, place, whole(6), table%z, is_good(5))
       if (.not. all(is_good) .or. any(whole(4:6) < order)) return
-      length = stored*product(int(whole(2:6), long))
+      length = values_per_node*product(int(whole(2:6), long))
       if (place + short_bytes*length + digits /= len(text, long)) return
       call take_coefficients(text, place, length, table, is_good(1))
       if (is_good(1)) deallocate(reason)
@@ -129,24 +129,24 @@ contains
       place = place + length
    end subroutine take_axis
 
-   !> The coefficients, with a place that is not used behind those of each node
+   !> The coefficients
    subroutine take_coefficients(text, place, length, table, is_good)
       character(len=*), intent(in) :: text
       integer(long), intent(in) :: place, length
       type(creep_table), intent(inout) :: table
       !> Are all of them numbers?
       logical, intent(out) :: is_good
-      real(real32) :: node(stored)
+      real(real32) :: node(values_per_node)
       integer(long) :: k, from, bytes
 
-      allocate(table%coefficients(values_per_node*(length/stored)), source=0.0_wp)
+      allocate(table%coefficients(length))
       is_good = .true.
-      bytes = short_bytes*stored
-      do k = 0, length/stored - 1
+      bytes = short_bytes*values_per_node
+      do k = 0, length/values_per_node - 1
          from = place + k*bytes
          node = transfer(text(from + 1:from + bytes), node)
          is_good = is_good .and. all(abs(node) <= huge(node))
-         table%coefficients(values_per_node*k + 1:values_per_node*k + stored) = real(node, wp)
+         table%coefficients(values_per_node*k + 1:values_per_node*(k + 1)) = node
       end do
    end subroutine take_coefficients
 end module contact_tables_table_file

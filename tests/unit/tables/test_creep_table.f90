@@ -67,22 +67,19 @@ contains
       call make_axis(table%x, 6, knots_xy, is_good)
       call make_axis(table%y, 6, knots_xy, is_good)
       call make_axis(table%z, 4, knots_z, is_good)
-      allocate(table%coefficients(values_per_node*4*6*6*4), source=0.0_wp)
+      allocate(table%coefficients(values_per_node*4*6*6*4))
       n = 0
       do s = 1, 4
          do i = 1, 6
             do j = 1, 6
                do k = 1, 4
-                  table%coefficients(n + 1) = p*sum(knots_xy(i + 1:i + 3))/3.0_wp
-                  table%coefficients(n + 2) = p*sum(knots_xy(j + 1:j + 3))/3.0_wp
-                  table%coefficients(n + 3) = p*sum(knots_z(k + 1:k + 3))/3.0_wp
+                  table%coefficients(n + 1:n + 3) = real(p/3.0_wp*[sum(knots_xy(i + 1:i + 3)), &
+                     & sum(knots_xy(j + 1:j + 3)), sum(knots_z(k + 1:k + 3))], real32)
                   n = n + values_per_node
                end do
             end do
          end do
       end do
-      ! as files have them
-      table%coefficients = real(real(table%coefficients, real32), wp)
    end subroutine make_table
 
    !> Forces by the formulas of the module, and derivatives by differences
@@ -239,7 +236,7 @@ contains
 
       body = bytes_of([knots_shape, knots_xy, knots_xy, knots_z])
       do k = 1, size(table%coefficients), values_per_node
-         body = body // transfer(real(table%coefficients(k:k + 2), real32), repeat(" ", 12))
+         body = body // transfer(table%coefficients(k:k + 2), repeat(" ", 12))
       end do
       content = "CONTACT table 2" // new_line("a") // transfer([1_int32, 4_int32, 1_int32, 6_int32, 6_int32, 4_int32, 9_int32, &
          & 2_int32], repeat(" ", 32)) // transfer(int(128 + len(body) + 64, int64), repeat(" ", 8)) // bytes_of([0.28_wp, 0.01_wp, &
