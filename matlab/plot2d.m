@@ -48,6 +48,10 @@ function [ opt ] = plot2d( sol, opt )
    pt = opt.facpt * pt;
 
    held = ishold;
+   if (~held && ~isempty(get(gca, 'children')))
+      % Octave would keep that of the picture before
+      legend('off');
+   end
    colors = get(gca, 'colororder');
    handles = [];
    for i = 1 : size(pt,2)

@@ -60,7 +60,6 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
       if (mirror_z==0)
          mirror_z = -1;
       end
-      inversion = [];
    elseif (any(strcmp(kind, {'prr','prw'})))
       p = read_simpack(fname);
       if ((p.type==1) ~= is_wheel)
@@ -73,12 +72,11 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
       elseif (mirror_z==0)
          mirror_z = 2*p.mirror_z - 1;
       end
-      inversion = p.inversion;
    else
       p = read_miniprof(fname);
-      inversion = [];
    end
-   p = modify_profile(p, is_wheel, mirror_y, mirror_z, scale_yz, inversion);
+   % the order of points follows from the shape; what a file says of it does not hold where y is mirrored, and may be wrong
+   p = modify_profile(p, is_wheel, mirror_y, mirror_z, scale_yz);
    if (nargin>=8 && ~isempty(make_plot) && make_plot>0)
       figure(make_plot);
       clf

@@ -108,6 +108,23 @@ check_near([q.ProfileY q.ProfileZ], [-8 1; 2 0; 12 1], 1e-12, 'columns and offse
 put('bad.ban', {'XOffset=2','','1 2','Key=3','2 3'});
 check_error(@() read_profile('bad.ban'), 'keyword stands among the numbers');
 
+% a mirrored rail is one, in metres too, and the order follows from the shape whatever the file says of it
+files = {rail, struct('ProfileY',flipud(rail.ProfileY), 'ProfileZ',flipud(rail.ProfileZ))};
+for i = 1 : 2
+   write_simpack([files{i}.ProfileY, files{i}.ProfileZ], 'order.prr');
+   text = fileread('order.prr');
+   for inversion = '01'
+      f = fopen('order.prr', 'w');
+      fwrite(f, strrep(text, "spline.begin\n", ["spline.begin\n  inversion = " inversion "\n"]));
+      fclose(f);
+      check(read_simpack('order.prr').inversion==inversion-'0', 'what the file says');
+      q = read_profile('order.prr');
+      check_near([q.ProfileY q.ProfileZ], [rail.ProfileY rail.ProfileZ], 1e-6, 'order by the shape');
+      q = read_profile('order.prr', [], 1, -1, 1000);
+      check_near([q.ProfileY q.ProfileZ], 1000*[-flipud(rail.ProfileY) flipud(rail.ProfileZ)], 1e-3, 'mirrored and scaled');
+   end
+end
+
 % --- slices: a rail that rises between two features
 mkdir_if('slices');
 for i = 1 : 5
