@@ -78,15 +78,18 @@ function [ c, known ] = curves( t, x, values, there, method )
 
    c = zeros(size(values) + [2 0]);
    known = false(size(c));
-   for j = 1 : size(values,2)
+   % columns that lack the same points are solved together
+   [masks, ~, which] = unique(there', 'rows');
+   for i = 1 : size(masks,1)
+      j = find(which==i);
       % points that follow each other; those without a neighbour are part of no surface
-      step  = diff([0; there(:,j); 0]);
+      step  = diff([0; masks(i,:)'; 0]);
       first = find(step==1);
       last  = find(step==-1) - 1;
       for r = find(last>first)'
          k = (first(r):last(r))';
          rows = [k; k(end)+1; k(end)+2];
-         if (any(known(rows,j)))
+         if (any(known(rows,j(1))))
             error('make_2dspline: point %d is missing alone between others, along u or v.', k(1)-1);
          end
          c(rows,j) = method(t, x, k, values(k,j));
@@ -99,7 +102,7 @@ end % function curves
 %------------------------------------------------------------------------------------------------------
 
 function [ c ] = curve_through( t, x, k, values )
-% Coefficients of the spline through the points x(k)
+% Coefficients of the splines through values at the points x(k), one column each
 
    n  = numel(k);
    at = (k(1):k(end)+2)';
@@ -118,7 +121,7 @@ function [ c ] = curve_through( t, x, k, values )
    end
    ends = full(ends(:,at));
    ends = bsxfun(@rdivide, ends, max(abs(ends), [], 2));
-   c = [full(b(:,at)); ends] \ [values; 0; 0];
+   c = [full(b(:,at)); ends] \ [values; zeros(2,size(values,2))];
 
 end % function curve_through
 
@@ -129,7 +132,7 @@ function [ c ] = control_points( t, x, k, values )
 
    d = diff(t);
    i = 3 + [k(1); k(end)];
-   c = [values(1) - d(i(1)-1)/d(i(1))*(values(2)-values(1)); values
-        values(end) + d(i(2))/d(i(2)-1)*(values(end)-values(end-1))];
+   c = [values(1,:) - d(i(1)-1)/d(i(1))*(values(2,:)-values(1,:)); values
+        values(end,:) + d(i(2))/d(i(2)-1)*(values(end,:)-values(end-1,:))];
 
 end % function control_points
