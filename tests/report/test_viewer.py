@@ -480,7 +480,9 @@ class Compared(Page):
         page.select_option("#quantity", "px")
         for show in ("side", "difference"):
             page.select_option("#show", show)
-            number = {"side": 2, "difference": 3}[show]
+            number, chosen_at = {"side": (2, "map-pn"), "difference": (3, "map-more")}[show]
+            self.assertEqual(page.evaluate("document.querySelector('#quantity').closest('.card').querySelector('canvas').id"),
+                             chosen_at)
             shown = page.evaluate("""k => { const m = contactReport.maps[k];
               return [...picture(m.choose(), m.mode()).values]; }""", number)
             np.testing.assert_allclose(np.array(shown), (mine["px"] - other["px"]).ravel(), atol=1e-5)

@@ -174,6 +174,10 @@ function nameMaps() {
     map.canvas.closest(".card").querySelector("h2 .name").textContent = map.title;
   });
   byId("hint-pt").hidden = sideBySide();
+  // the choice of a field stands at the map that it is for
+  const select = byId("quantity"),
+    head = maps[sideBySide() ? 0 : 3].canvas.closest(".card").querySelector("h2 .name");
+  if (head.nextElementSibling !== select) head.after(select);
 }
 function chooseCurves() {
   const names = Object.keys(columns).filter(
