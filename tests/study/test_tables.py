@@ -1,5 +1,6 @@
 """Tables of creep forces: errors against results, Kalker's limit, sliding, symmetries, slopes, other languages, damaged files."""
 import os
+import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
@@ -155,6 +156,30 @@ def test_what_is_wrong_is_told(table, file, tmp_path):
         with pytest.raises(contact.ContactError, match=words):
             build(tmp_path / "none.table", plan)
     assert not (tmp_path / "none.table").exists()
+
+
+def test_nodes_are_solved_where_they_are_needed(tmp_path, monkeypatch):
+    """Of forces with a bend across all axes a table has the error that is asked for, from fewer results than nodes"""
+    told, solved = [], []
+
+    class Bent:
+        """In place of contacts: a moment that bends where y + 0.9 z = 0.3"""
+
+        def __init__(self, *_):
+            self.cases = 0
+
+        def at(self, points, _=None):
+            self.cases += len(points)
+            solved.append(self.cases)
+            _, _, x, y, z = points.T
+            return np.column_stack([-0.5 * x, -0.5 * y, -0.5 * z * np.abs(y + 0.9 * z - 0.3)])
+
+    monkeypatch.setattr("contact.table._build.Results", Bent)
+    facts = build(tmp_path / "bent.table", Plan(tolerance=0.003, ratio=(0.8, 1.25), elements=9, points=3000), workers=1,
+                  tell=told.append)
+    nodes = np.prod([int(count) for count in re.search(r"solutions, (.*) nodes", told[-2])[1].split(" x ")])
+    assert max(facts.error) <= 0.003 and facts.points == 3000
+    assert solved[-1] < 0.7 * nodes
 
 
 def test_half_ellipses(tmp_path):

@@ -4,14 +4,15 @@ from __future__ import annotations
 import os
 import tempfile
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ContactError
-from ._file import write
+from ._file import bend, interpolated, write
 from ._look_up import Facts, Numbers, Table
 from ._results import Results, arms, creepages
 
@@ -19,10 +20,16 @@ from ._results import Results, arms, creepages
 AXES = ("shape", "offset", "x", "y", "z")
 #: Points at which the table learns where it errs, at first and each time that it has passed; the worst of them that are looked at
 _LEARN, _WORST = 1500, 150
+#: Of these, points through which lines are looked at, and nodes of a line
+_LINES, _ALONG = 50, 6
 #: Part of the tolerance that points of learning are held to, because others will err more
 _AIM = 0.85
 #: An interval is divided when it alone errs by more than this part of the tolerance
 _SHARE = 0.5
+#: Of new nodes every third along each axis is solved, and those near nodes that had been wrong by this part of the tolerance
+_STRIDE, _SPREAD = 3, 0.25
+#: New nodes are solved where third differences of those that are there exceed this part of the tolerance
+_BEND = 0.8
 #: Largest ratio of the lengths of neighbouring intervals, with room for rounding
 _GRADE = 2.01
 #: Points at which results are compared with those of three times as many elements
@@ -137,26 +144,62 @@ class _Builder:
             np.linspace(-plan.offset, plan.offset, 5) if plan.offset > 0.0 else np.zeros(1),
             np.linspace(0.0, 1.0, 5), np.linspace(-1.0, 1.0, 9), np.linspace(0.0, plan.most_z, 5) if plan.most_z < _FIRST_Z[-2]
             else np.array([*_FIRST_Z[:-1], plan.most_z])]
-        self._values = self._at_nodes(self._nodes)
+        #: Values at all nodes, shape (shape, offset, x, y, z, 3), and which of them are results
+        self._values = np.zeros((*(len(nodes) for nodes in self._nodes), 3))
+        self._is_solved = np.zeros(self._values.shape[:-1], dtype=bool)
+        self._solve(~self._is_solved)
 
     # ---- values at nodes
 
-    def _at_nodes(self, nodes: list[Numbers]) -> Numbers:
-        """Values at all nodes, shape (shape, offset, x, y, z, 3)"""
-        if self._results.cases + np.prod([len(axis) for axis in nodes]) > self._plan.most_cases:
+    def _at(self, points: Numbers) -> Numbers:
+        """Results, as long as there may be more of them"""
+        if self._results.cases + len(points) > self._plan.most_cases:
             raise ContactError(f"the tolerance of {self._plan.tolerance:g} needs more than {self._plan.most_cases} solutions; "
                                "allow a larger error or more solutions, or narrow a/b and the offset")
-        mesh = np.meshgrid(*nodes, indexing="ij")
-        points = np.column_stack([axis.ravel() for axis in mesh])
-        return self._results.at(points).reshape(*mesh[0].shape, 3)
+        return self._results.at(points)
 
     def _insert(self, axis: int, new: Numbers) -> None:
-        """More nodes along an axis"""
-        added = self._at_nodes([new if k == axis else nodes for k, nodes in enumerate(self._nodes)])
+        """More nodes along an axis. They have what the spline has so far, but where it errs"""
         whole = np.concatenate([self._nodes[axis], new])
         order = np.argsort(whole)
+        added = interpolated(self._nodes[axis], self._values, axis, new)
+        # those where forces may bend, and some everywhere; where they err they lead to others
+        chosen = _sizes(bend(self._nodes[axis], self._values, axis, new)) > _BEND * self._plan.tolerance
+        chosen[tuple(slice(None) if k == axis else slice(None, None, _STRIDE) for k in range(len(AXES)))] = True
+        before = np.zeros_like(self._is_solved)
+
+        def merged(old: NDArray[Any], more: NDArray[Any]) -> NDArray[Any]:
+            return np.take(np.concatenate([old, more], axis=axis), order, axis=axis)
+
+        self._values = merged(self._values, added)
+        self._is_solved = merged(self._is_solved, np.zeros_like(chosen))
         self._nodes[axis] = whole[order]
-        self._values = np.take(np.concatenate([self._values, added], axis=axis), order, axis=axis)
+        self._solve(merged(before, chosen))
+
+    def _solve(self, chosen: NDArray[np.bool_]) -> int:
+        """Solve the chosen nodes, and others around those that had been wrong; returns how many"""
+        begun = self._results.cases
+        while True:
+            chosen = chosen & ~self._is_solved
+            if not chosen.any():
+                return self._results.cases - begun
+            places = np.nonzero(chosen)
+            found = self._at(np.column_stack([nodes[place] for nodes, place in zip(self._nodes, places)]))
+            gap = found - self._values[places]
+            self._values[places] = found
+            self._is_solved |= chosen
+            was_wrong = _sizes(gap) > _SPREAD * self._plan.tolerance
+            chosen = np.zeros_like(chosen)
+            chosen[tuple(place[was_wrong] for place in places)] = True
+            chosen = _widened(chosen)
+
+    def _around(self, points: Numbers, wider: int) -> NDArray[np.bool_]:
+        """Nodes at the corners of the cells that have these points, and so many further ones along each axis"""
+        chosen = np.zeros(self._is_solved.shape, dtype=bool)
+        first = [np.searchsorted(nodes[1:-1], points[:, axis], side="right") for axis, nodes in enumerate(self._nodes)]
+        for steps in product(*(range(-wider, 2 + wider) if len(nodes) > 1 else (0,) for nodes in self._nodes)):
+            chosen[tuple(np.clip(place + step, 0, len(nodes) - 1) for place, step, nodes in zip(first, steps, self._nodes))] = True
+        return chosen
 
     # ---- points
 
@@ -181,7 +224,7 @@ class _Builder:
             trial = Path(folder) / "table"
             while True:
                 points = self._points(_LEARN)
-                known, true = np.concatenate([known, points]), np.concatenate([true, self._results.at(points)])
+                known, true = np.concatenate([known, points]), np.concatenate([true, self._at(points)])
                 is_first = True
                 while True:
                     self._write(trial, Facts(plan.offset > 0.0, self._elements, 2, plan.poisson, plan.ratio, plan.offset,
@@ -194,18 +237,18 @@ class _Builder:
                     if worst <= _AIM * plan.tolerance:
                         break
                     is_first = False
-                    self._refine(trial, known, errors)
+                    self._improve(known, true, errors)
                 if not is_first:
                     continue
                 points = self._points(plan.points)
-                values = self._results.at(points)
+                values = self._at(points)
                 force, moment = self._parts(trial, points, values)
                 self._tell(f"checked at {len(points)} new points: forces {100 * force:.3g} %, moment {100 * moment:.3g} %")
                 if max(force, moment) <= plan.tolerance:
                     break
                 known, true = np.concatenate([known, points]), np.concatenate([true, values])
             points = self._points(_COMPARED)
-            fine, usual = self._results.at(points, 3 * self._elements), self._results.at(points)
+            fine, usual = self._results.at(points, 3 * self._elements), self._at(points)
             self._write(trial, Facts(plan.offset > 0.0, self._elements, 2, plan.poisson, plan.ratio,
                                      plan.offset, plan.spin, plan.tolerance, (force, moment), plan.points,
                                      _largest(fine - usual), 0))
@@ -230,8 +273,7 @@ class _Builder:
 
     def _errors(self, trial: Path, points: Numbers, true: Numbers) -> Numbers:
         """Error at each point: the larger one of the forces and of the moment"""
-        gap = self._gap(trial, points, true)
-        return np.asarray(np.maximum(np.hypot(gap[:, 0], gap[:, 1]), np.abs(gap[:, 2])))
+        return _sizes(self._gap(trial, points, true))
 
     def _parts(self, trial: Path, points: Numbers, true: Numbers) -> tuple[float, float]:
         """Largest errors of forces and of the moment"""
@@ -243,35 +285,47 @@ class _Builder:
         gap[:, 2] += arms(points) * true[:, 0]
         return gap
 
-    def _refine(self, trial: Path, known: Numbers, errors: Numbers) -> None:
-        """Divide the intervals that err most, found by moving along one axis only from nodes near the worst points"""
-        order = np.argsort(errors)[::-1]
-        bad = known[order[:_WORST]][errors[order[:_WORST]] > _AIM * self._plan.tolerance]
-        scores: list[NDArray[np.float64]] = []
+    def _improve(self, known: Numbers, true: Numbers, errors: Numbers) -> None:
+        """Solve nodes around the worst points; where all of them are results, divide intervals"""
+        worst = np.argsort(errors)[:-_WORST - 1:-1]
+        worst = worst[errors[worst] > _AIM * self._plan.tolerance]
+        if not any(self._solve(self._around(known[worst], wider)) for wider in (0, 1)):
+            self._refine(known[worst[:_LINES]], true[worst[:_LINES]])
+
+    def _refine(self, bad: Numbers, true: Numbers) -> None:
+        """Divide the intervals that err most: what splines along a single axis miss on lines through the worst points"""
+        scores: list[Numbers] = []
         for axis, nodes in enumerate(self._nodes):
             score = np.zeros(max(1, len(nodes) - 1))
             if len(nodes) > 1:
-                points = bad.copy()
-                for other, steps in enumerate(self._nodes):
-                    if other != axis:
-                        points[:, other] = steps[np.abs(points[:, other, None] - steps).argmin(axis=1)]
-                points = points[np.hypot(points[:, 2]**2, points[:, 3]**2) < 1.0]
-                if len(points):
-                    found = self._errors(trial, points, self._results.at(points))
-                    place = np.clip(np.searchsorted(nodes, points[:, axis], side="right") - 1, 0, len(score) - 1)
-                    np.maximum.at(score, place, found)
+                place = np.searchsorted(nodes[1:-1], bad[:, axis], side="right")
+                count = min(_ALONG, len(nodes))
+                near = np.clip(place - count // 2 + 1, 0, len(nodes) - count)[:, None] + np.arange(count)
+                lines = np.repeat(bad, count, axis=0)
+                lines[:, axis] = nodes[near].ravel()
+                found = self._at(lines).reshape(len(bad), count, 3)
+                gap = np.array([interpolated(nodes[at], values, 0, point[axis:axis + 1])[0]
+                                for at, values, point in zip(near, found, bad)]) - true
+                np.maximum.at(score, place, _sizes(gap))
             scores.append(score)
+        # never far from the worst one at once: the next round may find less
         largest = max(float(score.max()) for score in scores)
-        limit = min(_SHARE * self._plan.tolerance, largest)
+        limit = max(min(_SHARE * self._plan.tolerance, largest), 0.25 * largest)
         for axis, (nodes, score) in enumerate(zip(list(self._nodes), scores)):
-            # never far from the worst one at once: the next round may find less
-            chosen = np.flatnonzero(score >= max(limit, 0.25 * largest)) if largest > 0.0 else np.arange(0)
-            if len(nodes) < 2 or not len(chosen):
-                continue
-            is_even = AXES[axis] in ("offset", "y")
-            self._insert(axis, _divided(nodes, chosen, is_even))
-        if largest == 0.0:
-            self._insert(4, 0.5 * (self._nodes[4][1:] + self._nodes[4][:-1]))
+            chosen = np.flatnonzero(score >= limit)
+            if len(nodes) > 1 and len(chosen):
+                self._insert(axis, _divided(nodes, chosen, AXES[axis] in ("offset", "y")))
+
+
+def _widened(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Neighbours of the chosen nodes, up to the second one along each axis"""
+    found = chosen.copy()
+    for axis in range(chosen.ndim):
+        here, there = np.moveaxis(chosen, axis, 0), np.moveaxis(found, axis, 0)
+        for step in (1, 2):
+            there[step:] |= here[:-step]
+            there[:-step] |= here[step:]
+    return found
 
 
 def _divided(nodes: Numbers, chosen: NDArray[np.intp], is_even: bool) -> Numbers:
@@ -289,6 +343,11 @@ def _divided(nodes: Numbers, chosen: NDArray[np.intp], is_even: bool) -> Numbers
         least = np.minimum(np.append(np.inf, widths[:-1]), np.append(widths[1:], np.inf))
         chosen = np.flatnonzero(widths > _GRADE * least)
     return np.sort(new)
+
+
+def _sizes(gap: Numbers) -> Numbers:
+    """The larger one of the forces and of the moment, for each point"""
+    return np.asarray(np.maximum(np.hypot(gap[..., 0], gap[..., 1]), np.abs(gap[..., 2])))
 
 
 def _largest(gap: Numbers) -> tuple[float, float]:

@@ -64,3 +64,24 @@ def _spline(places: Numbers, values: Numbers, axis: int) -> tuple[Numbers, Numbe
     from scipy.interpolate import make_interp_spline
     made = make_interp_spline(places, values, k=3, axis=axis)
     return np.asarray(made.t), np.moveaxis(made.c, 0, axis)
+
+
+def interpolated(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
+    """What the cubic spline through values along an axis has at other places"""
+    from scipy.interpolate import make_interp_spline
+    return np.asarray(make_interp_spline(places, values, k=3, axis=axis)(new))
+
+
+def bend(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
+    """Third differences of values along an axis near other places, for the intervals that these divide.
+
+    Where forces bend they are about the change of the slope times the interval, and a spline errs by up to a third of that; where
+    forces are smooth it errs by much less.
+    """
+    divided = np.moveaxis(values, axis, 0)
+    for k in (1, 2, 3):
+        divided = np.diff(divided, axis=0) / (places[k:] - places[:-k]).reshape(-1, *[1] * (values.ndim - 1))
+    interval = np.searchsorted(places[1:-1], new, side="right")
+    size = np.max([np.abs(divided[np.clip(interval + shift, 0, len(divided) - 1)]) for shift in (-2, -1, 0)], axis=0)
+    widths = np.diff(places)[interval].reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray(np.moveaxis(6.0 * widths**3 * size, 0, axis))
