@@ -386,6 +386,24 @@ static void other_abort(void) {
   real.abort();
 }
 
+/* ---- outside libraries that are linked into the program: their calls have these names (program_hdf5.cmake) ---- */
+
+void *contact_outside_malloc(size_t n);
+void *contact_outside_calloc(size_t count, size_t size);
+void *contact_outside_realloc(void *p, size_t n);
+void contact_outside_free(void *p);
+char *contact_outside_strdup(const char *text);
+void contact_outside_exit(int status);
+void contact_outside_abort(void);
+
+void *contact_outside_malloc(size_t n) { return other_malloc(n); }
+void *contact_outside_calloc(size_t count, size_t size) { return other_calloc(count, size); }
+void *contact_outside_realloc(void *p, size_t n) { return other_realloc(p, n); }
+void contact_outside_free(void *p) { release(p); }
+char *contact_outside_strdup(const char *text) { return other_strdup(text); }
+void contact_outside_exit(int status) { other_exit(status); }
+void contact_outside_abort(void) { other_abort(); }
+
 /* ---- OpenMP: threads of a team, critical sections ---- */
 
 struct team {
