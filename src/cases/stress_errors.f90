@@ -29,7 +29,7 @@ module contact_cases_stress_errors
 
 contains
 
-   !> Errors of the largest equivalent stresses at the points of a case
+   !> Errors of the largest equivalent stresses at the points of a case; NaN where they lie too near to the surface
    subroutine estimate_stress_errors(spec, coarse, result, left)
       !> Bodies and points
       type(case_spec), intent(in) :: spec
@@ -39,75 +39,94 @@ contains
       type(patch_result), intent(inout) :: result
       !> Does the patch belong to a wheel on the left side, see subsurface_stresses? Default: no
       logical, intent(in), optional :: left
+      !> By von Mises, and by Tresca
+      character(len=*), parameter :: names(2) = [character(len=10) :: "max_mises", "max_tresca"]
       type(total_list) :: list
       real(wp), allocatable :: values(:)
-      integer :: known
-      logical :: mirror
+      !> Stress by both levels, that of the coarser one as far as it is an error, at the place of the largest equivalent one
+      real(wp) :: stress(6), change(6), place(3, 2), largest(2)
+      integer :: k, known
+      logical :: is_seen
 
       if (.not. (allocated(result%errors) .and. allocated(result%subsurface))) return
-      mirror = .false.
-      if (present(left)) mirror = left
       call result%totals(list)
       known = size(result%errors%value)
       allocate(values(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
       values(:known) = result%errors%value
       if (result%errors%reason == "") then
-         values(list%place_of("max_mises")) = error_at_largest(spec, coarse, result, mirror, .false.)
-         values(list%place_of("max_tresca")) = error_at_largest(spec, coarse, result, mirror, .true.)
+         do k = 1, 2
+            call find_largest(result, k == 2, place(:, k), largest(k))
+            is_seen = largest(k) > 0.0_wp .and. abs(place(3, k)) >= least_depth*max(coarse%grid%dx, coarse%grid%dy)
+            if (.not. is_seen) cycle
+            ! both are often largest at the same point
+            if (k == 1 .or. any(place(:, k) /= place(:, 1))) &
+               & call compare_stresses(spec, coarse, result, mirrored(place(:, k), left), stress, change)
+            values(list%place_of(names(k))) = abs(equivalent(stress + change, k == 2) - largest(k)) &
+               & + (stress_floor/result%ncon + maxval(result%errors%stopping) + result%errors%window)*largest(k)
+         end do
       end if
       call move_alloc(values, result%errors%value)
    end subroutine estimate_stress_errors
 
-   !> Error of the largest equivalent stress [N/mm2]; NaN where it lies too near to the surface
-   function error_at_largest(spec, coarse, result, mirror, by_tresca) result(e)
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: coarse, result
-      !> Are stresses those of the mirror image? By Tresca, or by von Mises?
-      logical, intent(in) :: mirror, by_tresca
-      real(wp) :: e
-      !> Stresses by pressures and by all tractions, fine and coarse
-      real(wp) :: normal(6, 2), total(6, 2), change(6), place(3), largest, load
-      integer :: k
+   !> The largest equivalent stress, and its place
+   pure subroutine find_largest(result, by_tresca, place, largest)
+      !> With stresses
+      type(patch_result), intent(in) :: result
+      !> By Tresca, or by von Mises?
+      logical, intent(in) :: by_tresca
+      !> [mm], [N/mm2]; negative where there is no point
+      real(wp), intent(out) :: place(3), largest
+      integer :: i, k
+      real(wp) :: value
 
-      e = ieee_value(1.0_wp, ieee_quiet_nan)
       largest = -1.0_wp
+      place = 0.0_wp
       do k = 1, size(result%subsurface)
          associate (block => result%subsurface(k))
-            if (size(block%sigvm) == 0) cycle
-            if (by_tresca) then
-               call take(block%position, block%sigtr)
-            else
-               call take(block%position, block%sigvm)
-            end if
+            do i = 1, size(block%sigvm)
+               value = merge(block%sigtr(i), block%sigvm(i), by_tresca)
+               if (.not. value > largest) cycle
+               largest = value
+               place = block%position(:, i)
+            end do
          end associate
       end do
-      if (.not. largest > 0.0_wp .or. abs(place(3)) < least_depth*max(coarse%grid%dx, coarse%grid%dy)) return
-      if (mirror) place(2) = -place(2)
+   end subroutine find_largest
+
+   !> A point as the solution of a patch has it, which knows the right side of the track only
+   pure function mirrored(place, left)
+      !> [mm]
+      real(wp), intent(in) :: place(3)
+      !> Default: no
+      logical, intent(in), optional :: left
+      real(wp) :: mirrored(3)
+
+      mirrored = place
+      if (.not. present(left)) return
+      if (left) mirrored(2) = -place(2)
+   end function mirrored
+
+   !> Stress at a point, and the part of its difference to that of the coarser level that is its error [N/mm2]
+   subroutine compare_stresses(spec, coarse, result, place, stress, change)
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: coarse, result
+      !> [mm]
+      real(wp), intent(in) :: place(3)
+      !> xx, xy, xz, yy, yz, zz
+      real(wp), intent(out) :: stress(6), change(6)
+      !> By pressures, fine and coarse; by all tractions of the coarser level
+      real(wp) :: normal(6, 2), total(6), load
+
       normal(:, 1) = stress_of(spec, result, place, 0.0_wp)
-      total(:, 1) = stress_of(spec, result, place, 1.0_wp)
+      stress = stress_of(spec, result, place, 1.0_wp)
       ! a patch of wheel and rail whose total force is given has another load on the coarser level
       load = 1.0_wp
       if (spec%normal == normal_control%force .and. coarse%fn > 0.0_wp) load = (result%fn/coarse%fn)**peak_power
       normal(:, 2) = load*stress_of(spec, coarse, place, 0.0_wp)
-      total(:, 2) = load*stress_of(spec, coarse, place, 1.0_wp)
+      total = load*stress_of(spec, coarse, place, 1.0_wp)
       change = (normal(:, 2) - normal(:, 1))/(coarsening**2 - 1.0_wp) &
-         & + share_of_friction(result)*((total(:, 2) - normal(:, 2)) - (total(:, 1) - normal(:, 1)))
-      e = abs(equivalent(total(:, 1) + change, by_tresca) - largest) + stress_floor*largest/result%ncon &
-         & + (maxval(result%errors%stopping) + result%errors%window)*largest
-
-   contains
-
-      !> Keep the largest one and its place
-      subroutine take(position, values)
-         real(wp), intent(in) :: position(:, :), values(:)
-         integer :: i
-
-         i = maxloc(values, 1)
-         if (.not. values(i) > largest) return
-         largest = values(i)
-         place = position(:, i)
-      end subroutine take
-   end function error_at_largest
+         & + share_of_friction(result)*((total - normal(:, 2)) - (stress - normal(:, 1)))
+   end subroutine compare_stresses
 
    !> Part of the difference of the levels that is the error of the stresses by tangential tractions: the difference itself where
    !> their problem has no clean order
