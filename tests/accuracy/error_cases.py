@@ -100,7 +100,7 @@ def _falling(random, c, b1, b3, full):
 
 
 def _viscoelastic(random, c, b1, b3, full):
-    c.update(model="viscoelastic", maxout=20, margin=1.3,
+    c.update(model="viscoelastic", maxout=20, margin=1.5,
              material=f"fg = [1.0, 1.0]\ntc = [{c['a'] / 2000.0!r}, {c['a'] / 2000.0!r}]\n")
 
 
