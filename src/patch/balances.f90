@@ -98,7 +98,7 @@ contains
       real(wp), intent(out) :: virial, distances
       !> Are the slopes known wherever there is pressure?
       logical, intent(out) :: is_known
-      real(wp) :: centre(2), lowest, load
+      real(wp) :: centre(2), slopes(2), lowest, load
       integer :: ix, iy
 
       virial = 0.0_wp
@@ -117,11 +117,11 @@ contains
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
             if (.not. result%pn(ix, iy) > 0.0_wp) cycle
-            is_known = min(ix, iy) > 2 .and. ix < result%grid%mx - 1 .and. iy < result%grid%my - 1
-            if (is_known) is_known = maxval([result%h(ix - 2:ix + 2, iy), result%h(ix, iy - 2:iy + 2)]) < excluded_threshold
+            slopes = [slope(result%h(:, iy), ix), slope(result%h(ix, :), iy)]
+            is_known = all(abs(slopes) < excluded_threshold)
             if (.not. is_known) return
-            virial = virial + result%pn(ix, iy)*((result%grid%x(ix) - centre(1))*slope(result%h(ix - 2:ix + 2, iy))/result%grid%dx &
-               & + (result%grid%y(iy) - centre(2))*slope(result%h(ix, iy - 2:iy + 2))/result%grid%dy)
+            virial = virial + result%pn(ix, iy)*((result%grid%x(ix) - centre(1))*slopes(1)/result%grid%dx &
+               & + (result%grid%y(iy) - centre(2))*slopes(2)/result%grid%dy)
             distances = distances + result%pn(ix, iy)*(result%h(ix, iy) - lowest)
          end do
       end do
@@ -129,10 +129,27 @@ contains
       distances = distances*result%grid%dx*result%grid%dy/nmm_per_joule
    end subroutine distance_sums
 
-   !> Change per element in the middle of five values, exact for polynomials of degree four
-   pure real(wp) function slope(value)
-      real(wp), intent(in) :: value(5)
+   !> Change per element at a place of a line: exact for polynomials of degree four, next to the ends of degree two; huge where
+   !> it is not known
+   pure real(wp) function slope(line, i)
+      !> Values, huge where there is none
+      real(wp), intent(in) :: line(:)
+      integer, intent(in) :: i
+      integer :: n
 
-      slope = (8.0_wp*(value(4) - value(2)) - (value(5) - value(1)))/12.0_wp
+      n = size(line)
+      slope = huge(slope)
+      if (n < 3) return
+      if (maxval(line(max(1, min(i, n - 1) - 1):min(n, max(i, 2) + 1))) > excluded_threshold) return
+      if (i == 1) then
+         slope = 2.0_wp*(line(2) - line(1)) - 0.5_wp*(line(3) - line(1))
+      else if (i == n) then
+         slope = 2.0_wp*(line(n) - line(n - 1)) - 0.5_wp*(line(n) - line(n - 2))
+      else
+         slope = 0.5_wp*(line(i + 1) - line(i - 1))
+         if (i == 2 .or. i == n - 1) return
+         if (max(line(i - 2), line(i + 2)) > excluded_threshold) return
+         slope = (8.0_wp*slope - 0.5_wp*(line(i + 2) - line(i - 2)))/6.0_wp
+      end if
    end function slope
 end module contact_patch_balances

@@ -12,6 +12,7 @@ module contact_patch_level_errors
    use contact_patch_problem, only : patch_problem
    use contact_patch_quantities, only : error_law, total
    use contact_patch_result, only : error_estimate, patch_result
+   use contact_patch_turning, only : turned_round, turns
    implicit none (type, external)
    private
 
@@ -59,6 +60,8 @@ module contact_patch_level_errors
       real(wp) :: mean_across = 1.0_wp
       !> Root of the mean square of the deviations of the coefficient of friction, over its mean, where it follows slip [-]
       real(wp) :: falling = 0.0_wp
+      !> How far slip turns across the contact, by the second order of steady rolling, at most half a turn [rad]
+      real(wp) :: turning = 0.0_wp
       !> Power that the motion gives and friction does not take, and what the levels differ by in that of the motion [W]; is it so?
       real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
       logical :: balances = .false.
@@ -100,22 +103,27 @@ module contact_patch_level_errors
    !> Of unlike bodies, pressures decide where that is: what an error of stopping of pressures becomes in forces then, also with
    !> adhesion over this part of the contact in between. Measured with the same rollers, EPS from 1e-2 to 1e-5
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
-   !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy. Forces of steady
-   !> rolling; of shifts; of transient rolling
+   !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
+   !> with seeds 1001 and 1002. Forces of steady rolling; of shifts; of transient rolling
    real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp, step_floor = 0.25_wp
-   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1
+   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
+   !> there also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Normal force, largest pressure, area, energy of pressures and of tractions
-   real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.07_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
+   !> Part of the relative errors of forces that power has at least in steps of transient rolling; of random contacts (seed 2001)
+   real(wp), parameter :: power_of_forces = 0.5_wp
+   !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures and of tractions
+   real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
    !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
    !> part and of n^-order of that of tractions, and part of the error of that by the levels; of random contacts of tests/accuracy
    real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp
-   !> What levels tell of the power of the motion: part that has their sign, and part that has not
+   !> What levels tell of the power of the motion: part that has their sign, and part that has not; of random contacts of
+   !> tests/accuracy (seeds 1001 and 1002)
    real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
-   !> Forces by the second order where friction falls with slip: factor of its relative deviations times n^-2
-   real(wp), parameter :: falling_floor = 6.0_wp
+   !> Forces by the second order where friction falls with slip: factor of its relative deviations times n^-2 (seeds 1001 and 1002);
+   !> where slip turns, of its turn across the contact times n^-2 (seed 2001)
+   real(wp), parameter :: falling_floor = 6.0_wp, turning_floor = 0.15_wp
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors, too
-   !> In steps of transient rolling more so, as directions follow from the step before
+   !> In steps of transient rolling more so, as directions follow from the step before; of random contacts (seeds 1001 and 1002)
    real(wp), parameter :: least_adhesion = 0.02_wp, least_in_steps = 0.25_wp
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
    !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak
@@ -184,6 +192,8 @@ contains
       end if
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
+      if (problem%motion == motion%steady_rolling .and. order == 2) scale%turning = min(pi, scale%mean_across &
+         & *sqrt(result%grid%dx*result%grid%dy*turns(result)/max(scale%force, tiny(extent))))
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps .and. scale%order <= first_order) scale%adhesion = max(scale%adhesion, least_in_steps)
@@ -205,36 +215,6 @@ contains
          end associate
       end if
    end function scales
-
-   !> Half the differences of tractions of elements that slip, in directions more than a right angle apart, with no others or
-   !> elements in adhesion between them [N/mm2]
-   pure real(wp) function turned_round(result, most_between) result(total_change)
-      !> Solved
-      type(patch_result), intent(in) :: result
-      !> So many elements in adhesion at the most
-      integer, intent(in) :: most_between
-      integer :: ix, iy, jx, jy, side, step(2), n
-
-      total_change = 0.0_wp
-      if (result%nslip < 2) return
-      do iy = 1, result%grid%my
-         do ix = 1, result%grid%mx
-            if (result%division(ix, iy) /= element%slip) cycle
-            do side = 1, 2
-               step = merge([1, 0], [0, 1], side == 1)
-               do n = 1, most_between + 1
-                  jx = min(result%grid%mx, ix + n*step(1))
-                  jy = min(result%grid%my, iy + n*step(2))
-                  if (result%division(jx, jy) /= element%adhesion) exit
-               end do
-               if (result%division(jx, jy) /= element%slip) cycle
-               if (result%px(ix, iy)*result%px(jx, jy) + result%py(ix, iy)*result%py(jx, jy) >= 0.0_wp) cycle
-               total_change = total_change + 0.5_wp*hypot(result%px(ix, iy) - result%px(jx, jy), &
-                  & result%py(ix, iy) - result%py(jx, jy))
-            end do
-         end do
-      end do
-   end function turned_round
 
    !> Noise of the undeformed distance along x, where contact has a part [mm]: root of the mean product of third differences of
    !> neighbours, whose signs alternate; zero for what is smooth, as these have the same sign, and for waves of a few elements, as
@@ -302,12 +282,15 @@ contains
          if (is_unseen(scale)) part = 0.0_wp
          e = part*difference + by_heat(scale, part, difference, unit)
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
-         floor = friction_floor(scale)
+         floor = friction_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
          if (row%law == error_law%friction) floor = max(floor, reversal_share*scale%reversal)
       case (error_law%power)
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
          if (is_unseen(scale)) e = 0.0_wp
+         ! in a step, what friction takes is the power of the motion and that of the energy: not better than forces
+         if (scale%steps .and. .not. is_unseen(scale)) &
+            & e = max(e, power_of_forces*part_of(scale, scale%order)*scale%friction*scale%power)
          if (scale%balances) e = error_of_power(scale, unit)
          e = e + by_heat(scale, part_of(scale, scale%order), difference, unit)
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
@@ -418,18 +401,21 @@ contains
    !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
    pure real(wp) function error_of_energy(scale) result(e)
       type(scale_type), intent(in) :: scale
-      real(wp) :: parts(2), floor(2)
+      real(wp) :: parts(2), floor(2), layer
 
       parts = -[scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part_of(scale, scale%order)*scale%energy_change(2)]
       if (is_unseen(scale)) parts(2) = 0.0_wp
       floor = abs(scale%energy)*[scale%across**(-2), sqrt(scale%adhesion)*scale%across**(-scale%order)]
+      layer = 0.0_wp
+      if (scale%order < normal_order .and. .not. (scale%clean .or. scale%steps)) &
+         & layer = layer_power_floor*scale%adhesion*abs(scale%energy(2))/scale%across
       if (scale%has_normal_energy .and. scale%across >= resolved) then
-         e = hypot(scale%normal_energy + parts(2), dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)))
+         e = hypot(scale%normal_energy + parts(2), dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)) + layer)
          return
       end if
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
-      e = max(e, dot_product(energy_floor, floor))
+      e = max(e, dot_product(energy_floor, floor) + layer)
    end function error_of_energy
 
    !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak

@@ -174,6 +174,30 @@ class Order(Runs):
                 estimated = max(map(max, self.roll(2, n, 0.3, "--errors", chi=chi)))
                 self.assertTrue(0.3 < estimated / error[2, n] < 5.0, (n, estimated, error))
 
+    def test_energy_next_to_the_border(self):
+        """What the virial tells of the elastic energy needs no elements around the contact"""
+        errors = []
+        for n in 14, 18:
+            text = rolling().replace("14 14 3 5 1.2", f"{n} {n} 3 5 {1.2 * n / 14!r}")
+            errors.append(self.solve("e.inp", text, "--errors", "--order", "2")[1]["errors"]["elastic_energy_error"]["value"])
+        self.assertAlmostEqual(errors[0] / errors[1], 1.0, delta=1e-3)
+
+    def test_slip_that_turns(self):
+        """Estimates see that slip turns from element to element, around a pole in the contact and without one"""
+        scales = {"fx": 9000.0, "fy": 9000.0, "mz": 9000.0 * 15**0.5}
+
+        def solve(creep, n):
+            text = rolling().replace("0.0005 0.0002 0.0003", creep).replace("14 14 3 5", f"{n} {n} 3 5")
+            return self.solve("t.inp", text, "--errors", "--order", "2")[1]
+
+        for creep in "0 0.0001 0.002", "0.0005 0.001 0.0015":
+            exact = solve(creep, 84)["totals"]
+            for n in 15, 17, 19:
+                found = solve(creep, n)
+                true = max(abs(found["totals"][name]["value"] - exact[name]["value"]) / scale for name, scale in scales.items())
+                told = max(found["errors"][name + "_error"]["value"] / scale for name, scale in scales.items())
+                self.assertTrue(1.0 < told / true < 6.0, (creep, n, told, true))
+
     def test_transient_rolling_becomes_steady(self):
         """Ten contact lengths behind the start nothing is left of it but turns of slip that were set from another start"""
         for order, bound in (1, 1e-5), (2, 2e-4):
