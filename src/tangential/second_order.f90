@@ -286,15 +286,13 @@ contains
       integer, intent(in) :: ix, iy
       real(wp) :: w(2)
       type(local_mean) :: mean
-      real(wp) :: length, turn(2)
+      real(wp) :: turn(2)
 
       w = self%weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
       if (.not. self%turns) return
       if ((p(ix, iy, 1) - r*w(1))**2 + (p(ix, iy, 2) - r*w(2))**2 <= bound(ix, iy)**2) return
       mean = mean_slip(contact, direction, slip, ix, iy)
-      length = sqrt((slip(ix, iy, 1)**2 + slip(ix, iy, 2)**2)*(mean%value(1)**2 + mean%value(2)**2))
-      if (.not. length > 0.0_wp) return
-      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value, length)
+      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
       w = [turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
    end function acting
 
@@ -319,7 +317,7 @@ contains
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       real(wp), allocatable :: ahead(:, :, :)
       type(local_mean) :: mean
-      real(wp) :: w(2), length, turn(2)
+      real(wp) :: w(2), turn(2)
       integer :: ix, iy
 
       allocate(ahead, source=slip)
@@ -328,10 +326,9 @@ contains
             if (.not. slips(ix, iy)) cycle
             w = ahead(ix, iy, :)
             mean = mean_slip(contact, direction, ahead, ix, iy)
-            length = norm2(w)*norm2(mean%value)
-            if (.not. length > 0.0_wp) cycle
+            if (.not. any(abs(w) > 0.0_wp)) cycle
             turn = [1.0_wp, 0.0_wp]
-            if (self%turns) turn = turn_between(w, mean%value, length)
+            if (self%turns) turn = turn_between(w, mean%value)
             slip(ix, iy, :) = norm2(mean%value)/norm2(w)*[turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
          end do
       end do

@@ -44,6 +44,8 @@ module contact_tangential_slip_turns
 
    !> Share of the square of slip ahead in that here at which the mean is half way between that of two and that of three; chosen
    real(wp), parameter :: half_way = 0.02_wp
+   !> Part of the difference of slip and mean in the product of their lengths; it is of fourth order where slip is smooth; chosen
+   real(wp), parameter :: apart = 0.0625_wp
    !> Pivots below this one, where slip is small beside that of the neighbours, are raised: the inverse only preconditions; chosen
    real(wp), parameter :: least_pivot = 0.2_wp
    !> Mean over an element by slip half a step behind, half a step ahead and three halves ahead of its middle: the parabola
@@ -67,29 +69,53 @@ contains
 
    !> Cosine and sine of the turn for a slip and its mean: by the angle between them where it is small, none where they are opposed
    !>
-   !> Of an angle a the turn is 2 atan(sin a (1 + cos a)/4), 0.6 at most.
-   pure function turn_between(slip, mean, length) result(turn)
+   !> Of an angle a the turn is 2 atan(sin a (1 + cos a)/4), 0.6 at most. The product of lengths in sine and cosine has a part of
+   !> the difference of both, so that turns are smooth where either of them vanishes.
+   pure function turn_between(slip, mean) result(turn)
       !> Slip, and its mean over the element [mm]
       real(wp), intent(in) :: slip(2), mean(2)
-      !> Product of their lengths, positive
-      real(wp), intent(in) :: length
       real(wp) :: turn(2)
-      real(wp) :: half
+      real(wp) :: length, half
 
+      turn = [1.0_wp, 0.0_wp]
+      length = product_of_lengths(slip, mean)
+      if (.not. length > 0.0_wp) return
       half = 0.25_wp*(slip(1)*mean(2) - slip(2)*mean(1))/length*(1.0_wp + (slip(1)*mean(1) + slip(2)*mean(2))/length)
       turn = [1.0_wp - half**2, 2.0_wp*half]/(1.0_wp + half**2)
    end function turn_between
 
-   !> Derivative of the turn by the angle
-   pure real(wp) function turn_rate(slip, mean, length) result(rate)
+   !> Its square is |S|**2 |D|**2 + apart |S - D|**4 [mm2]
+   pure real(wp) function product_of_lengths(slip, mean) result(length)
       !> As in turn_between
-      real(wp), intent(in) :: slip(2), mean(2), length
-      real(wp) :: c, half
+      real(wp), intent(in) :: slip(2), mean(2)
 
-      c = (slip(1)*mean(1) + slip(2)*mean(2))/length
-      half = 0.25_wp*(slip(1)*mean(2) - slip(2)*mean(1))/length*(1.0_wp + c)
-      rate = 0.5_wp*(2.0_wp*c**2 + c - 1.0_wp)/(1.0_wp + half**2)
-   end function turn_rate
+      length = sqrt((slip(1)**2 + slip(2)**2)*(mean(1)**2 + mean(2)**2) &
+         & + apart*((slip(1) - mean(1))**2 + (slip(2) - mean(2))**2)**2)
+   end function product_of_lengths
+
+   !> Derivatives of the angle of the turn by the slip and by its mean
+   pure subroutine differentiate_turn(slip, mean, by_slip, by_mean)
+      !> As in turn_between, not both zero
+      real(wp), intent(in) :: slip(2), mean(2)
+      !> [1/mm]
+      real(wp), intent(out) :: by_slip(2), by_mean(2)
+      real(wp) :: length, sine, cosine, half, factor, pull(2)
+
+      length = product_of_lengths(slip, mean)
+      sine = (slip(1)*mean(2) - slip(2)*mean(1))/length
+      cosine = (slip(1)*mean(1) + slip(2)*mean(2))/length
+      half = 0.25_wp*sine*(1.0_wp + cosine)
+      ! those of the cross and the dot product; then of the length, by which sine and cosine fall
+      by_slip = (1.0_wp + cosine)*[mean(2), -mean(1)] + sine*mean
+      by_mean = (1.0_wp + cosine)*[-slip(2), slip(1)] + sine*slip
+      factor = sine*(1.0_wp + 2.0_wp*cosine)/length
+      pull = 2.0_wp*apart*sum((slip - mean)**2)*(slip - mean)
+      by_slip = by_slip - factor*(sum(mean**2)*slip + pull)
+      by_mean = by_mean - factor*(sum(slip**2)*mean - pull)
+      factor = 0.5_wp/(length*(1.0_wp + half**2))
+      by_slip = factor*by_slip
+      by_mean = factor*by_mean
+   end subroutine differentiate_turn
 
    subroutine linearise_turns(self, weight, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
@@ -172,25 +198,23 @@ contains
       !> Number of the element, whose place is known
       integer, intent(in) :: k
       type(local_mean) :: mean
-      real(wp) :: w(2), next(2), length, rate, to_mean(2), bend
+      real(wp) :: w(2), next(2), by_slip(2), to_mean(2), bend
 
       associate (ix => self%at(2, k), iy => self%at(4, k))
          mean = mean_slip(contact, direction, slip, ix, iy)
          w = slip(ix, iy, :)
          next = slip(mean%ahead, iy, :)
       end associate
-      length = sqrt(sum(w**2)*sum(mean%value**2))
-      if (.not. length > 0.0_wp) return
+      if (.not. product_of_lengths(w, mean%value) > 0.0_wp) return
       self%at(1, k) = mean%behind
       self%at(3, k) = mean%ahead
-      self%row(:, k) = self%row(1, k)*turn_between(w, mean%value, length)
+      self%row(:, k) = self%row(1, k)*turn_between(w, mean%value)
       associate (row => self%row(:, k))
          self%across(:, k) = [-row(2)*w(1) - row(1)*w(2), row(1)*w(1) - row(2)*w(2)]
       end associate
-      rate = turn_rate(w, mean%value, length)
-      to_mean = rate/sum(mean%value**2)*[-mean%value(2), mean%value(1)]
+      call differentiate_turn(w, mean%value, by_slip, to_mean)
       self%by(:, 1, k) = mean%share(1)*to_mean
-      self%by(:, 2, k) = mean%share(2)*to_mean - rate/sum(w**2)*[-w(2), w(1)]
+      self%by(:, 2, k) = mean%share(2)*to_mean + by_slip
       self%by(:, 3, k) = mean%share(3)*to_mean
       if (mean%of_two <= 0.0_wp .or. mean%of_two >= 1.0_wp) return
       ! the share of the mean of two, of which s (1 - s) is the derivative by the logarithm of the ratio of both squares

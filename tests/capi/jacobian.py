@@ -119,7 +119,7 @@ def agree(order):
     compare(f"order {order}, height given", make(order=order), position(1.4, z=0.1), force_given=False)
     compare(f"order {order}, 0.5 mm in the flange", make(element=0.5, order=order), position(5.4), scale=0.3)
     compare(f"order {order}, left", make("left", order=order), position(5.5, side=-1))
-    compare(f"order {order}, backwards", make(order=order), position(2.0, vs=-SPEED, vpitch=SPEED / RADIUS))
+    compare(f"order {order}, backwards", make(order=order), position(2.0, vs=-SPEED, vpitch=SPEED / RADIUS), scale=2.0)
     compare(f"order {order}, roller", make(roller=True, order=order), position(1.0, roller=True))
     two = {"d_comb": 0.5, "d_sep": 1.0, "order": order}
     compare(f"order {order}, two patches", make(cant=0.05, **two), position(6.05, yaw=0.01, roll=0.0, fz=90e3))

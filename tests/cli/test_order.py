@@ -133,6 +133,27 @@ class Order(Runs):
                 self.assertTrue(words.endswith(f" of order 1 ({reason})" if reason else " of order 2"), words)
                 self.assertEqual(usual["totals"] == one["totals"], name != "plain")
 
+    def test_centre_of_sliding_within_an_element(self):
+        """The mean slip over that element vanishes, and its turn does not jump there: neighbours have nearly the same forces"""
+        case = """[[case]]
+module = "contact"
+motion = "steady_rolling"
+normal = "force"
+kinematics = { fn = 10.0, cksi = 3.507061191278639e-06, ceta = 6.371278392218111e-07, cphi = 8.967427223470155e-07 }
+friction = { fstat = 0.3, fkin = 0.3 }
+material = { poiss = [0.28, 0.28], gg = [82000.0, 82000.0] }
+rolling = { veloc = 1000.0, dq = 1.0 }
+grid = { form = "hertz_axes", mx = 31, my = 34, aa = 4.577743897939514, bb = 5.461205466573335, scale = 1.05 }
+iteration = { order = 2 }
+"""
+        lateral = [6.371278392218111e-07 * (1.0 + 1e-4 * k) for k in range(-4, 5)]
+        others = "".join(f"[[case]]\nestimate = \"fresh\"\nkinematics.ceta = {value!r}\n" for value in lateral)
+        self.run_first("a.toml", case + others)
+        patches = [json.loads(line)["patches"][0] for line in (self.folder / "a.jsonl").read_text().splitlines()[:len(lateral) + 1]]
+        self.assertEqual([patch["solver"]["tangential_order"] for patch in patches], [2] * (len(lateral) + 1))
+        forces = [patch["totals"]["fy_rel"]["value"] for patch in patches[1:]]
+        self.assertLess(max(forces) - min(forces), 5e-4)
+
     def roll(self, order, n, offset, *options, distance=6.6, chi=0.0, motion=2):
         """Relative FX and FY, and MZ over the bound, behind a quarter, a half and all of a distance in steps of one element
 
