@@ -17,6 +17,7 @@ module contact_tangential_problem
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_second_order, only : second_order
+   use contact_tangential_slip_turns, only : acting_slip
    use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
    private
@@ -236,7 +237,8 @@ contains
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
             if (allocated(problem%second)) then
-               z = p(ix, iy, :) - r*problem%second%acting(problem%contact, problem%direction, p, problem%bound, slip, r, ix, iy)
+               z = p(ix, iy, :) - r*acting_slip(problem%second%weight, problem%second%turns, problem%contact, problem%direction, &
+                  & p, problem%bound, slip, r, ix, iy)
             else
                z = p(ix, iy, :) - r*slip(ix, iy, :)
             end if

@@ -32,8 +32,6 @@ module contact_tangential_second_order
    contains
       !> u := u + kappa p
       procedure :: add_terms
-      !> Slip of an element as the contact conditions see it: weighted, and turned where it slips
-      procedure :: acting
       !> Before and behind the approximate inverse of the operator: stiff elements left out
       procedure :: leave_stiff, keep_stiff
       !> Slip in the middle of elements in place of that half a step ahead
@@ -271,30 +269,6 @@ contains
          if (self%stiff(k)) u(self%at(1, k), self%at(2, k), :) = v(self%at(1, k), self%at(2, k), :)
       end do
    end subroutine keep_stiff
-
-   pure function acting(self, contact, direction, p, bound, slip, r, ix, iy) result(w)
-      class(second_order), intent(in) :: self
-      !> Elements in contact, shape (mx, my)
-      logical, intent(in) :: contact(:, :)
-      !> Rolling towards increasing (+1) or decreasing (-1) x
-      integer, intent(in) :: direction
-      !> Tractions [N/mm2], shape (mx, my, 2), and their bound, shape (mx, my)
-      real(wp), intent(in) :: p(:, :, :), bound(:, :)
-      !> Slip per step [mm], shape (mx, my, 2), and its scale [(N/mm2)/mm]
-      real(wp), intent(in) :: slip(:, :, :), r
-      !> The element
-      integer, intent(in) :: ix, iy
-      real(wp) :: w(2)
-      type(local_mean) :: mean
-      real(wp) :: turn(2)
-
-      w = self%weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
-      if (.not. self%turns) return
-      if ((p(ix, iy, 1) - r*w(1))**2 + (p(ix, iy, 2) - r*w(2))**2 <= bound(ix, iy)**2) return
-      mean = mean_slip(contact, direction, slip, ix, iy)
-      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
-      w = [turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
-   end function acting
 
    subroutine turn_round(self, mx, my)
       class(second_order), intent(inout) :: self

@@ -8,7 +8,7 @@ module contact_tangential_slip_turns
    implicit none (type, external)
    private
 
-   public :: local_mean, mean_slip, slip_turns, turn_between
+   public :: acting_slip, local_mean, mean_slip, slip_turns, turn_between
 
    !> Derivative of the acting slip by the slip, in elements where it is not the identity: the weight and the turn, and the
    !> change of the angle by the slip of the element and of its neighbours along the row
@@ -117,6 +117,42 @@ contains
       by_mean = factor*by_mean
    end subroutine differentiate_turn
 
+   !> Slip of an element as the contact conditions see it: weighted, and turned where it slips [mm]
+   pure function acting_slip(weight, is_turned, contact, direction, p, bound, slip, r, ix, iy) result(w)
+      !> Weights of the rows of the equations [-], shape (mx, my)
+      real(wp), intent(in) :: weight(:, :)
+      !> Is slip turned?
+      logical, intent(in) :: is_turned
+      !> Elements in contact, shape (mx, my)
+      logical, intent(in) :: contact(:, :)
+      !> Rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
+      !> Tractions [N/mm2], shape (mx, my, 2), and their bound, shape (mx, my)
+      real(wp), intent(in) :: p(:, :, :), bound(:, :)
+      !> Slip per step [mm], shape (mx, my, 2), and its scale [(N/mm2)/mm]
+      real(wp), intent(in) :: slip(:, :, :), r
+      !> Its column and row
+      integer, intent(in) :: ix, iy
+      real(wp) :: w(2)
+      type(local_mean) :: mean
+      real(wp) :: turn(2)
+
+      w = weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
+      if (.not. is_turned) return
+      if (.not. leaves_disc([p(ix, iy, 1), p(ix, iy, 2)], w, bound(ix, iy), r)) return
+      mean = mean_slip(contact, direction, slip, ix, iy)
+      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
+      w = [turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
+   end function acting_slip
+
+   !> Does an element slip? Its traction less its slip lies outside of the disc of its bound
+   pure logical function leaves_disc(p, slip, bound, r) result(leaves)
+      !> Traction and bound [N/mm2], weighted slip [mm] and its scale [(N/mm2)/mm]
+      real(wp), intent(in) :: p(2), slip(2), bound, r
+
+      leaves = (p(1) - r*slip(1))**2 + (p(2) - r*slip(2))**2 > bound**2
+   end function leaves_disc
+
    subroutine linearise_turns(self, weight, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
       !> Weights of the rows of the equations [-], shape (mx, my)
@@ -149,8 +185,9 @@ contains
       do iy = 1, size(contact, 2)
          do ix = 1, size(contact, 1)
             if (.not. contact(ix, iy)) cycle
-            slips = is_turned .and. (p(ix, iy, 1) - r*weight(ix, iy)*slip(ix, iy, 1))**2 &
-               & + (p(ix, iy, 2) - r*weight(ix, iy)*slip(ix, iy, 2))**2 > bound(ix, iy)**2
+            slips = is_turned
+            if (slips) slips = leaves_disc([p(ix, iy, 1), p(ix, iy, 2)], weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)], &
+               & bound(ix, iy), r)
             if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
             k = self%n + 1
             self%n = k

@@ -16,6 +16,9 @@ from ._file import bend, interpolated, write
 from ._look_up import Facts, Numbers, Table
 from ._results import Results, arms, creepages
 
+# Numbers below are chosen where nothing else is said: they decide how many solutions a table takes. How well it is does not depend
+# on them, as it is checked at points of which it was not made.
+
 #: Axes of a table and of its points, in their order
 AXES = ("shape", "offset", "x", "y", "z")
 #: Points at which the table learns where it errs, at first and each time that it has passed; the worst of them that are looked at

@@ -4,6 +4,7 @@ from __future__ import annotations
 import hashlib
 import struct
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -59,17 +60,21 @@ def write(path: Path, nodes: list[Numbers], values: Numbers, facts: Facts) -> No
     path.write_bytes(content + hashlib.sha256(content).hexdigest().encode())
 
 
+def _through(places: Numbers, values: Numbers, axis: int) -> Any:
+    """The cubic spline through values along an axis"""
+    from scipy.interpolate import make_interp_spline
+    return make_interp_spline(places, values, k=3, axis=axis)
+
+
 def _spline(places: Numbers, values: Numbers, axis: int) -> tuple[Numbers, Numbers]:
     """Knots and coefficients of the cubic spline through values along an axis"""
-    from scipy.interpolate import make_interp_spline
-    made = make_interp_spline(places, values, k=3, axis=axis)
+    made = _through(places, values, axis)
     return np.asarray(made.t), np.moveaxis(made.c, 0, axis)
 
 
 def interpolated(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
     """What the cubic spline through values along an axis has at other places"""
-    from scipy.interpolate import make_interp_spline
-    return np.asarray(make_interp_spline(places, values, k=3, axis=axis)(new))
+    return np.asarray(_through(places, values, axis)(new))
 
 
 def bend(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
