@@ -24,6 +24,12 @@
 %   cntc_boundbox   - the rectangle that holds the elements in contact.
 %   matlab_color    - colours of lines by their numbers.
 %
+% Fields of structs whose names have dots, as 'kincns.t_digit'.
+%
+%   mygetfield      - the field of a struct.
+%   mysetfield      - set it.
+%   myisfield       - is it there?
+%
 % Wheel and rail profiles.
 %
 %   read_profile    - read a profile of any kind.

@@ -9,7 +9,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   expnam   experiment name, with a folder if need be, without extension. Cases without .mat files are read from
 %            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
 %   icase    number of the case (default 1)
-%   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them)
+%   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them); one that the case does not have gives []
+%            and a warning
 %
 % Fields of the struct; arrays have one row per grid row, so s.pn(iy,ix) belongs to (s.x(ix), s.y(iy)):
 %
@@ -52,8 +53,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
    end
    if (isempty(patches))
       patches = guarded(expnam, 'loadcase', @() hdf5_patches(expnam, icase));
-      if (ipatch>0)
-         patches = patches(ipatch : min(ipatch,numel(patches)));
+      if (ipatch>0 && ~isempty(patches))
+         patches = the_patch(patches, ipatch, expnam, icase);
       end
    end
    if (isempty(patches))
@@ -72,17 +73,40 @@ end % function loadcase
 
 %------------------------------------------------------------------------------------------------------
 
+function [ patches ] = the_patch( patches, ipatch, expnam, icase )
+% One of the patches of a case
+
+   npatch = numel(patches);
+   if (ipatch>npatch)
+      warning('loadcase: case %d of "%s" has %d contact patch(es), there is no number %d.', icase, expnam, npatch, ipatch);
+      patches = {[]};
+   else
+      patches = patches(ipatch);
+   end
+
+end % function the_patch
+
+%------------------------------------------------------------------------------------------------------
+
 function [ patches ] = mat_patches( expnam, icase, ipatch )
 % Structs of the .mat files of a case: of one patch, or all of them; {} when there are no files
 
    patches = {};
    fname = '';
-   if (ipatch<=0)
+   if (ipatch<=1)
       % module 3 has no letters
       fname = result_file(expnam, icase, 0, '.mat');
    end
    if (isempty(fname))
       fname = result_file(expnam, icase, max(1,ipatch), '.mat');
+   end
+   if (isempty(fname) && ipatch>1)
+      % the first one knows how many there are
+      patches = mat_patches(expnam, icase, 0);
+      if (~isempty(patches))
+         patches = the_patch(patches, ipatch, expnam, icase);
+      end
+      return
    end
    if (isempty(fname))
       return

@@ -155,14 +155,17 @@ function draw( a, b, val, levels, opt )
          view([0 90]);
          return
       case 'contourf'
-         [c, h] = contourf(a, b, val, args{:});
+         [c, h] = filled_contours(a, b, val, args{:});
+         view([0 90]);
       case 'contour'
          [c, h] = contour(a, b, val, args{:});
       otherwise
          error('plotstrs: option typplot must be ''surf'', ''contour'' or ''contourf''.');
    end
    if (strcmp(opt.clabel, 'on'))
-      clabel(c, h);
+      if (~isempty(c))
+         clabel(c, h);
+      end
    elseif (~strcmp(opt.clabel, 'off'))
       error('plotstrs: option clabel must be ''on'' or ''off''.');
    end

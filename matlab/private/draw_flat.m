@@ -116,14 +116,13 @@ function draw_contours( xm, ym, xc, yc, val, azel )
       error('plot3d: typplot = ''contourf'' needs at least 2 x 2 elements, shown are %d x %d.', numel(xm), numel(ym));
    end
    missing = isnan(val);
+   if (all(missing(:)))
+      return
+   end
    low  = min(val(:));
    high = max(val(:));
-   if (~(high>low))
-      error('plot3d: typplot = ''contourf'' needs values that are not all the same.');
-   end
    val(missing) = low;
-   levels = low + (high-low)*(0:11)/12;
-   contourf(xm, ym, val, levels);
+   filled_contours(xm, ym, val, low + (high-low)*(0:11)/12);
    if (any(missing(:)))
       z = sign(azel(2)) * ones(numel(yc), numel(xc));
       c = ones(numel(ym), numel(xm), 3);

@@ -88,8 +88,11 @@ install(TARGETS contact EXPORT contact LIBRARY ARCHIVE)
 install(TARGETS contact_static ARCHIVE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/matlab DESTINATION ${CMAKE_INSTALL_DATADIR}/contact
   FILES_MATCHING PATTERN *.m PATTERN *.c)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME})
+set(licences ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${licences})
+if(CONTACT_FFT STREQUAL "pocketfft")
+  install(FILES ${PROJECT_SOURCE_DIR}/src/fft/pocketfft/LICENSE.md DESTINATION ${licences} RENAME pocketfft)
+endif()
 
 # Inside a wheel of Python: library and program in the package's folder, see src/packaging/pyproject.toml
 if(SKBUILD)

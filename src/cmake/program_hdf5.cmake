@@ -29,6 +29,13 @@ foreach(archive IN LISTS archives)
   endif()
 endforeach()
 
+# Its licence asks for its notice beside binaries that have it inside: no archives without it
+find_file(CONTACT_HDF5_NOTICE NAMES copyright COPYING NO_DEFAULT_PATH
+  PATHS /usr/share/doc/libhdf5-dev /usr/share/licenses/hdf5-static /usr/share/licenses/hdf5)
+if(NOT CONTACT_HDF5_NOTICE)
+  return()
+endif()
+
 include(CheckFortranSourceCompiles)
 set(CMAKE_REQUIRED_INCLUDES ${HDF5_Fortran_INCLUDE_DIRS})
 set(CMAKE_REQUIRED_LIBRARIES ${archives} ${needed})
@@ -62,9 +69,5 @@ add_custom_target(contact_hdf5_archives DEPENDS ${copies})
 add_library(hdf5_archives INTERFACE)
 target_link_libraries(hdf5_archives INTERFACE ${copies} ${needed})
 add_dependencies(hdf5_archives contact_hdf5_archives)
-# Its licence asks for the notice beside binaries that have it inside
-find_file(CONTACT_HDF5_NOTICE copyright PATHS /usr/share/doc/libhdf5-dev NO_DEFAULT_PATH)
-if(CONTACT_HDF5_NOTICE)
-  install(FILES ${CONTACT_HDF5_NOTICE} DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME} RENAME HDF5)
-endif()
+install(FILES ${CONTACT_HDF5_NOTICE} DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME} RENAME HDF5)
 set(CONTACT_PROGRAM_HDF5 hdf5_archives)

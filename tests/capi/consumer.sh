@@ -24,6 +24,12 @@ fi
 library_folder=$(dirname "$(find "$work/prefix" -name libcontact.a)")
 prefix/bin/contact --version
 
+echo "-- notices of what is linked in"
+ldd prefix/bin/contact | grep -q libhdf5 || grep -qi "hdf *group" prefix/share/licenses/contact/HDF5
+case $(prefix/bin/contact --version) in
+  *pocketfft*) grep -q "Max-Planck" prefix/share/licenses/contact/pocketfft ;;
+esac
+
 # run NAME PROGRAM
 run() {
   mkdir -p "results/$1"

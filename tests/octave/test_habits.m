@@ -35,6 +35,20 @@ check_near([t.mater.ga t.mater.si t.mater.ak t.fric.fstat], [s.mater.ga s.mater.
 [b{1:9}] = loadstrs('subsurface', 1);
 check(isstruct(b{1}) && isempty(b{9}), 'more blocks are asked for than there are');
 
+% --- one patch by its number
+check_same_struct(loadcase('cattaneo', 2, 1), loadcase('cattaneo', 2), 0, 'patch 1 of basic contact');
+lastwarn('');
+s = loadcase('cattaneo', 2, 2);
+check(isempty(s) && ~isempty(strfind(lastwarn(), 'has 1 contact patch')), 'a patch that is not there is []');
+check_error(@() loadcase('cattaneo', 99, 2), 'there are no results of case 99');
+
+% --- fields by names with dots
+s = mysetfield(struct('a',1), 'b.c', [3 4]);
+check(isequal(s, struct('a',1, 'b',struct('c',[3 4]))), 'mysetfield');
+check(isequal(mysetfield(s, 'b.c', {2}, 5).b.c, [3 5]), 'with subscripts');
+check(isequal(mygetfield(s, 'b.c'), [3 4]) && isequal(mygetfield([s s], 'a'), [1 1]), 'mygetfield');
+check(myisfield(s, 'b.c') && myisfield(s, 'b') && myisfield(s, '') && ~myisfield(s, 'b.d') && ~myisfield(s, 'a.c'), 'myisfield');
+
 % --- options completed
 o = plot2d([], struct('yslc',1));
 check(o.yslc==1 && isfield(o,'pxory'), 'plot2d([], opt)');

@@ -95,6 +95,16 @@ snap('plot3d_one_row');
 opt.field = 'pn';   opt.typplot = 'contourf';   opt.view = 'rail';
 plot3d(w, opt);
 snap('plot3d_contourf');
+% one value everywhere, and none at all
+even = loadcase('cattaneo', 2);
+even.mu(:) = 0.25;
+opt.field = 'mu';   opt.exterval = [];
+plot3d(even, opt);
+c = get(colors_shown(), 'cdata');
+check(all(c(:)==0.25), 'contourf of a constant field');
+opt.exterval = NaN;   even.eldiv(:) = 0;
+plot3d(even, opt);
+check(isempty(findobj(gca,'type','hggroup')), 'contourf without a value');
 opt = plot3d;   opt.field = 'pn';   opt.colormap = 'none';   opt.zrange = [0 2000];
 plot3d(w, opt);
 check_near(zlim(), [0 2000], 0, 'zrange');
@@ -230,6 +240,9 @@ snap('plotstrs_contourf');
 opt.typplot = 'contour';   opt.cntrlvl = [200 400 600];   opt.clabel = 'on';
 plotstrs(b, opt);
 snap('plotstrs_contour');
+opt.typplot = 'contourf';   opt.cntrlvl = [1e5 2e5];
+plotstrs(b, opt);
+check(~isempty(findobj(gca,'type','surface')), 'contours above all values');
 opt = plotstrs;   opt.typplot = 'surf';   opt.dir = 'z';   opt.zslc = 1;
 for name = {'ux','uy','uz','hydro','tresca','sigma1','sigma2','sigma3','sigxx','sigxy','sigxz','sigyy','sigyz','sigzz'}
    opt.field = name{1};
