@@ -83,8 +83,6 @@ contains
       call choose_input(state%place, has_both)
       if (.not. is_readable_format(state%place%input)) state%log%terms => tell_in_digits
       associate (input => state%place%input)
-         if (state%place%shortened) call state%log%line(" The suffix " // input(index(input, ".", back=.true.):) // &
-            & " is taken off, the experiment is '" // state%place%name // "'")
          if (has_both) call state%log%line(" There are " // state%place%name // input_suffix // " and " // state%place%name // &
             & readable_suffix // "; " // input // " is read; with its suffix the other one is")
       end associate

@@ -65,7 +65,8 @@ class Start(Page):
         self.assertIn("Case     1", page.inner_text("#messages"))
         # the first case may not have ended yet
         page.wait_for_function("document.getElementById('progress').value >= 1")
-        page.wait_for_selector("tr[data-name=cattaneo] button:has-text('run'):disabled")
+        page.wait_for_selector("tr[data-name=cattaneo] button:has-text('run')[aria-disabled=true]")
+        page.click("tr[data-name=cattaneo] button:has-text('run')")
         page.click("#stop")
         page.wait_for_function(STATE, arg="stopped")
         page.wait_for_selector("tr[data-name=long] .warn")
@@ -97,12 +98,14 @@ class Start(Page):
             page.wait_for_selector("#new-answer.error")
             self.assertIn("POISS", page.inner_text("#new-answer").upper())
             page.fill("#new-poiss", "0.28")
+            self.assertTrue(page.is_disabled("#new-to"), "nothing varies yet")
             page.select_option("#new-vary", "y_ws")
             page.fill("#new-to", "4")
             page.fill("#new-count", "3")
             page.click("text=write the input")
             page.wait_for_selector("tr[data-name='study/made%d']" % size["width"])
-            self.assertIn("3 cases checked", page.inner_text("#new-answer"))
+            self.assertIn("made%d.inp: 3 cases checked" % size["width"], page.inner_text("#new-answer"))
+            self.assertTrue(page.is_visible("text=run it"))
             self.assert_accessible(page)
             self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), size["width"])
             page.click("#way button:has-text('top')")
@@ -110,6 +113,40 @@ class Start(Page):
             page.go_back()
             page.wait_for_selector("tr[data-name='study/cattaneo']")
         self.troubles = [text for text in self.troubles if "422" not in text]
+        self.no_troubles()
+
+    def test_by_keyboard_alone(self):
+        """The focus stays where it was when the list is drawn anew, and goes to what a button opens"""
+        page = self.start(viewport=DESKTOP)
+        focus = "() => document.activeElement.getAttribute('aria-label') || document.activeElement.id"
+
+        def reach(label):
+            for _ in range(40):
+                if page.evaluate(focus) == label:
+                    return
+                page.keyboard.press("Tab")
+            self.fail("no way to " + label)
+
+        reach("run cattaneo")
+        page.keyboard.press("Enter")
+        page.wait_for_selector("#state.good")
+        page.wait_for_selector("tr[data-name=cattaneo] a")
+        self.assertEqual(page.evaluate(focus), "run cattaneo")
+        page.keyboard.press("Tab")
+        self.assertEqual(page.evaluate(focus), "look at cattaneo")
+        reach("input long.inp")
+        page.keyboard.press("Enter")
+        page.wait_for_function("() => document.activeElement.id === 'input'")
+        page.focus("#back")
+        page.keyboard.press("Enter")
+        self.assertEqual(page.evaluate(focus), "input long.inp")
+        page.focus("#fresh")
+        page.keyboard.press("Enter")
+        page.wait_for_function("() => document.activeElement.id === 'new-kind'")
+        page.focus("[aria-label='folder study']")
+        page.keyboard.press("Enter")
+        page.wait_for_selector("tr[data-name='study/cattaneo']")
+        self.assertEqual(page.evaluate(focus), "fresh")
         self.no_troubles()
 
 

@@ -18,7 +18,7 @@ from .job import program_path
 #: A name of a new experiment, cases of a new experiment at most, and the time that its check may take [s]
 NAME, MOST_CASES, CHECK_TIME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}"), 500, 30.0
 
-STEEL = [("gg", "Modulus of rigidity", "N/mm2", 82000.0), ("poiss", "Poisson ratio", "", 0.28)]
+STEEL = [("gg", "Modulus of rigidity", "N/mm\u00b2", 82000.0), ("poiss", "Poisson ratio", "", 0.28)]
 #: Kinds of experiments. A field is (name, label, unit, value to begin with) or, for a choice, (name, label, [(value, words)]), or,
 #: for a file, (name, label, "profile", endings of likely ones); "vary" names the fields that can change from case to case, with
 #: the group of the input in which each stands
@@ -230,7 +230,8 @@ def _written(base: str, form: str, text: str) -> str:
         raise Refused("%s could not be written: %s" % (source, reason.strerror)) from None
     keep = False
     try:
-        told = _program(base, "--confine", "--", "3", source)
+        name = os.path.basename(base)
+        told = _program(base, "--confine", "--", "3", name + ".toml").replace(name + ".toml:", "%s.%s:" % (name, form))
         if form != "toml":
             _program(base, "convert", source)
         keep = form == "toml"

@@ -1,6 +1,6 @@
 // The start page of `contact report --serve`: folders, experiments, the run that goes on, the text of an input, a form.
 const byId = id => document.getElementById(id);
-const page = { folder: "", running: false, stream: null, begun: 0, title: "Messages" };
+const page = { folder: "", running: false, stream: null, begun: 0, title: "Messages", opener: "" };
 
 function element(tag, text, name) {
   const e = document.createElement(tag);
@@ -46,13 +46,21 @@ async function list() {
     return answer.status === 404 ? list() : undefined;
   }
   const found = await answer.json(),
-    table = byId("files");
+    table = byId("files"),
+    focused = table.parentElement.contains(document.activeElement) ? labelOf(document.activeElement) : "";
   showWay(found.folders);
   offerBeside(found.files.filter(file => file.result !== "none"));
   table.replaceChildren();
   if (!found.files.length) table.append(element("caption", "There is no input in this folder."));
   for (const file of found.files) table.append(rowOf(file));
+  if (focused) focusOn(focused);
   return undefined;
+}
+// The list is drawn anew when something changes; whoever uses the keyboard stays where he was
+const labelOf = e => e.getAttribute("aria-label") || e.textContent;
+function focusOn(label) {
+  const buttons = [...byId("list").querySelectorAll("button, a, select")];
+  (buttons.find(e => labelOf(e) === label) || buttons[0]).focus();
 }
 function rowOf(file) {
   const row = element("tr"),
@@ -70,7 +78,8 @@ function rowOf(file) {
     );
   for (const mode of ["check", "run"]) {
     const b = button(mode, () => begin(mode, file.name), `${mode} ${file.name}`);
-    b.disabled = page.running;
+    // a button that is disabled loses the focus
+    b.setAttribute("aria-disabled", page.running);
     actions.append(b);
   }
   if (file.result !== "none") {
@@ -133,11 +142,13 @@ function tell(text, kind) {
   byId("state").className = "state " + (kind || "");
 }
 function show(what) {
+  page.opener = document.activeElement === document.body ? "" : labelOf(document.activeElement);
   for (const id of ["messages", "input", "form"]) byId(id).hidden = id !== what;
   byId("back").hidden = what === "messages";
   if (innerWidth <= 900) byId("side").scrollIntoView();
 }
 async function begin(mode, name) {
+  if (page.running) return undefined;
   const answer = await fetch(`/${mode}?name=${encodeURIComponent(name)}`, { method: "POST" });
   show("messages");
   if (!answer.ok) return tell(await answer.text(), "bad");
@@ -211,6 +222,7 @@ async function showInput(name, form) {
   byId("what").textContent = `${name}.${form}`;
   show("input");
   byId("input").scrollTop = 0;
+  byId("input").focus({ preventScroll: true });
 }
 
 // ---------------------------------------------------------------- a new experiment
@@ -285,6 +297,12 @@ function drawForm(kind) {
   send.type = "submit";
   send.className = "whole";
   byId("form").replaceChildren(...rows, send, answer);
+  const varied = byId("new-vary");
+  varied.onchange = () => {
+    for (const id of ["new-to", "new-count"]) byId(id).disabled = !varied.value;
+  };
+  varied.onchange();
+  first.focus({ preventScroll: true });
   if (fields.some(f => f[2] === "profile") && !offer.profiles.length)
     answer.textContent = "There are no profiles in this folder: put them into it, or into one below it.";
 }
@@ -310,6 +328,7 @@ async function sendForm() {
   box.className = "whole" + (answer.ok ? "" : " error");
   if (!answer.ok) {
     box.textContent = await answer.text();
+    box.scrollIntoView({ block: "nearest" });
     return;
   }
   const made = await answer.json();
@@ -319,7 +338,10 @@ async function sendForm() {
       .trim()
       .split("\n")
       .map(text => text.trim()),
+    "",
   ].join("\n");
+  box.append(button("run it", () => begin("run", made.name)));
+  box.scrollIntoView({ block: "nearest" });
   list();
 }
 
@@ -328,8 +350,10 @@ byId("stop").onclick = () => {
   byId("stop").textContent = "stop at once";
 };
 byId("back").onclick = () => {
+  const opener = page.opener;
   byId("what").textContent = page.title;
   show("messages");
+  focusOn(opener);
 };
 byId("fresh").onclick = openForm;
 byId("form").onsubmit = event => {
