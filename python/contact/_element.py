@@ -489,6 +489,8 @@ class Element:
         model, parameters
             M digit and the numbers it asks for beyond the elastic ones.
         """
+        if hasattr(g, "__len__") or hasattr(nu, "__len__"):
+            raise TypeError("g and nu are numbers, those of body 1; body 2 has g2 and nu2")
         values = [nu, nu if nu2 is None else nu2, g, g if g2 is None else g2, *parameters]
         self._do(cntc.setmaterialparameters, self.number, self._icp, model, values)
 

@@ -226,6 +226,8 @@ def wheel_on_rail():
     close(left.patches[0].pn, patch.pn[::-1], 1e-6 * patch.max_pressure, "pressures too")
     with contact.WheelRail("right") as pair:
         raises(contact.ContactError, pair.solve, "profile", "no profiles")
+    with contact.Problem() as problem:
+        raises(TypeError, lambda: problem.set_material((82000.0, 200.0), (0.28, 0.42)), "g2", "two materials")
     raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
 
 

@@ -478,6 +478,13 @@ class Compared(Page):
         mine, other = self.values("cattaneo"), self.values("less")
         self.assertGreater(abs(mine["px"] - other["px"]).max(), 0.01)
         page.select_option("#quantity", "px")
+        # a difference of one sign keeps its colour: less is blue, more is red, nothing is white
+        for low, high, at, blue in ((-0.2, 0, 0, True), (0, 0.2, 1, False), (-0.3, -0.1, 0, True), (0, 0, 0.5, None)):
+            told = page.evaluate("([l, h, at]) => { const s = coloursOf([l, h], 'signed'); return [s.low, s.high, s.colour(at)]; }",
+                                 [low, high, at])
+            self.assertEqual(told[0], -told[1])
+            red, _, right = told[2]
+            self.assertTrue(abs(red - right) < 5 if blue is None else (right > red) == blue, (low, high, told))
         for show in ("side", "difference"):
             page.select_option("#show", show)
             number, chosen_at = {"side": (2, "map-pn"), "difference": (3, "map-more")}[show]

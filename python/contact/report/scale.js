@@ -24,16 +24,16 @@ function rangeOf(values) {
   }
   return [low, high];
 }
-// Colours of a range: symmetric about zero when both signs occur, from zero when that is near
+// Colours of a range: symmetric about zero when both signs occur, and of differences always; from zero when that is near
 function coloursOf([low, high], map) {
   if (!(high >= low)) {
     low = 0;
     high = 1;
   }
-  const negative = low < 0 && high <= -0.02 * low;
-  const signed = low < 0 && high > 0 && -low > 0.02 * high && !negative;
+  const negative = low < 0 && high <= -0.02 * low && map !== "signed";
+  const signed = map === "signed" || (low < 0 && high > 0 && -low > 0.02 * high && !negative);
   if (signed) {
-    high = Math.max(high, -low);
+    high = Math.max(high, -low) || 1;
     low = -high;
   } else if (low > 0 && low < 0.6 * high) low = 0;
   if (high <= low) {
