@@ -66,7 +66,8 @@ class Start(Page):
         # the first case may not have ended yet
         page.wait_for_function("document.getElementById('progress').value >= 1")
         page.wait_for_selector("tr[data-name=cattaneo] button:has-text('run')[aria-disabled=true]")
-        page.click("tr[data-name=cattaneo] button:has-text('run')")
+        page.click("tr[data-name=cattaneo] button:has-text('run')", force=True)
+        self.assertEqual(page.inner_text("#what"), "Run of long", "one experiment runs at a time")
         page.click("#stop")
         page.wait_for_function(STATE, arg="stopped")
         page.wait_for_selector("tr[data-name=long] .warn")
