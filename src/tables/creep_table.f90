@@ -22,6 +22,7 @@
 !> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
 !> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
 module contact_tables_creep_table
+   use, intrinsic :: iso_c_binding, only : c_double, c_float, c_int
    use, intrinsic :: iso_fortran_env, only : real32
    use contact_base_kinds, only : wp
    use contact_tables_axis, only : find_basis, order, spline_axis
@@ -71,6 +72,27 @@ module contact_tables_creep_table
       !> Coefficients: values of a node first, then along z, y, x, offset, shape; short, as memory is what look-ups wait for
       real(real32), allocatable :: coefficients(:)
    end type creep_table
+
+   interface
+      !> Nodes along z summed over all other axes, in sums.c
+      pure subroutine contact_table_sums(coefficients, blocks, start, weight, row, plane, x, y, sums, slope_x, slope_y) bind(c)
+         import :: c_double, c_float, c_int, order, stretch
+         !> Of the table
+         real(c_float), intent(in) :: coefficients(*)
+         !> Blocks of nodes along x, y, z; coefficients before each, its weight
+         integer(c_int), value :: blocks
+         integer(c_int), intent(in) :: start(order**2)
+         real(c_double), intent(in) :: weight(order**2)
+         !> Coefficients from one node along y, and along x, to the next
+         integer(c_int), value :: row, plane
+         !> Basis functions along x and y
+         real(c_double), intent(in) :: x(order), y(order)
+         !> The sums, and with slopes those for derivatives by x and y
+         real(c_double), intent(inout) :: sums(stretch, 3)
+         !> Slopes of the basis functions; absent: no derivatives
+         real(c_double), intent(in), optional :: slope_x(order), slope_y(order)
+      end subroutine contact_table_sums
+   end interface
 
 contains
 
@@ -201,10 +223,10 @@ contains
       call find_basis(table%y, place(2), first(4), basis(:, 4), slope(:, 4))
       call find_basis(table%z, place(3), first(5), basis(:, 5), slope(:, 5))
       if (.not. present(df)) then
-         call sum_values(table, first, basis, f)
+         call sum_nodes(table, first, basis, slope, f)
          return
       end if
-      call sum_slopes(table, first, basis, slope, f, by_x, by_y, by_z)
+      call sum_nodes(table, first, basis, slope, f, by_x, by_y, by_z)
       ! derivatives of the place (first index) by v1, v2 and u3, then by u
       inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
          & (1.0_wp - place(2)*r2)/whole, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
@@ -238,83 +260,33 @@ contains
       end do
    end subroutine find_blocks
 
-   !> Nodes along z, summed over shape and offset
-   pure function sum_blocks(coefficients, shift, blocks, start, weight) result(sums)
-      !> Of the table
-      real(real32), intent(in), contiguous :: coefficients(:)
-      !> Coefficients from the beginning of a block to the first node
-      integer, intent(in) :: shift
-      !> Blocks, coefficients before each, its weight
-      integer, intent(in) :: blocks, start(order**2)
-      real(wp), intent(in) :: weight(order**2)
-      !> Values of the nodes, which stay in registers until all blocks are in them
-      real(wp) :: sums(stretch)
-      integer :: k, l, n
-
-      sums = 0.0_wp
-      do l = 1, blocks
-         n = start(l) + shift
-         do k = 1, stretch
-            sums(k) = sums(k) + weight(l)*coefficients(n + k)
-         end do
-      end do
-   end function sum_blocks
-
-   !> The spline
-   pure subroutine sum_values(table, first, basis, value)
-      type(creep_table), intent(in) :: table
-      !> First coefficient along shape, offset, x, y, z
-      integer, intent(in) :: first(5)
-      !> Basis functions along them
-      real(wp), intent(in) :: basis(order, 5)
-      !> Of all values
-      real(wp), intent(out) :: value(values_per_node)
-      real(wp) :: weight(order**2), near(stretch), sums(stretch)
-      integer :: start(order**2), i, j, blocks, row
-
-      call find_blocks(table, first, basis(:, 1:2), blocks, start, weight)
-      row = values_per_node*table%z%count
-      sums = 0.0_wp
-      do i = 1, order
-         do j = 1, order
-            near = sum_blocks(table%coefficients, ((i - 1)*table%y%count + j - 1)*row, blocks, start, weight)
-            sums = sums + (basis(i, 3)*basis(j, 4))*near
-         end do
-      end do
-      value = along_z(sums, basis(:, 5))
-   end subroutine sum_values
-
-   !> The spline with its derivatives
-   pure subroutine sum_slopes(table, first, basis, slope, value, by_x, by_y, by_z)
+   !> The spline, and its derivatives where they are wanted
+   pure subroutine sum_nodes(table, first, basis, slope, value, by_x, by_y, by_z)
       type(creep_table), intent(in) :: table
       !> First coefficient along shape, offset, x, y, z
       integer, intent(in) :: first(5)
       !> Basis functions along them and their slopes
       real(wp), intent(in) :: basis(order, 5), slope(order, 5)
       !> Of all values: the spline and its derivatives by x, y, z
-      real(wp), dimension(values_per_node), intent(out) :: value, by_x, by_y, by_z
-      real(wp) :: weight(order**2)
-      real(wp), dimension(stretch) :: near, sums, sums_x, sums_y
-      integer :: start(order**2), i, j, blocks, row
+      real(wp), intent(out) :: value(values_per_node)
+      real(wp), dimension(values_per_node), intent(out), optional :: by_x, by_y, by_z
+      real(wp) :: weight(order**2), sums(stretch, 3)
+      integer :: start(order**2), blocks, row, plane
 
       call find_blocks(table, first, basis(:, 1:2), blocks, start, weight)
       row = values_per_node*table%z%count
-      sums = 0.0_wp
-      sums_x = 0.0_wp
-      sums_y = 0.0_wp
-      do i = 1, order
-         do j = 1, order
-            near = sum_blocks(table%coefficients, ((i - 1)*table%y%count + j - 1)*row, blocks, start, weight)
-            sums = sums + (basis(i, 3)*basis(j, 4))*near
-            sums_x = sums_x + (slope(i, 3)*basis(j, 4))*near
-            sums_y = sums_y + (basis(i, 3)*slope(j, 4))*near
-         end do
-      end do
-      value = along_z(sums, basis(:, 5))
-      by_x = along_z(sums_x, basis(:, 5))
-      by_y = along_z(sums_y, basis(:, 5))
-      by_z = along_z(sums, slope(:, 5))
-   end subroutine sum_slopes
+      plane = row*table%y%count
+      if (present(by_x)) then
+         call contact_table_sums(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums, &
+            & slope(:, 3), slope(:, 4))
+         by_x = along_z(sums(:, 2), basis(:, 5))
+         by_y = along_z(sums(:, 3), basis(:, 5))
+         by_z = along_z(sums(:, 1), slope(:, 5))
+      else
+         call contact_table_sums(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums)
+      end if
+      value = along_z(sums(:, 1), basis(:, 5))
+   end subroutine sum_nodes
 
    !> A stretch of nodes by functions along z
    pure function along_z(sums, weight) result(value)

@@ -8,7 +8,7 @@ import contact
 import numpy as np
 import pytest
 from contact.table import Plan, Table, build
-from contact.table._results import Results, arms, creepages
+from contact.table._results import Results, arms, creepages, sides
 
 FN, MU, GG = 70e3, 0.3, 82e3
 LIMIT = MU * FN
@@ -180,6 +180,19 @@ def test_nodes_are_solved_where_they_are_needed(tmp_path, monkeypatch):
     nodes = np.prod([int(count) for count in re.search(r"solutions, (.*) nodes", told[-2])[1].split(" x ")])
     assert max(facts.error) <= 0.003 and facts.points == 3000
     assert solved[-1] < 0.7 * nodes
+
+
+def test_few_elements_where_most_slides():
+    """Against a grid three times as fine: what it misses is less there than elsewhere, though there are fewer elements"""
+    random = np.random.default_rng(3)
+    points = random.uniform([np.log(0.5), 0.0, 0.0, -1.0, 0.0], [np.log(2.0), 0.0, 1.0, 1.0, 0.85], (150, 5))
+    radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
+    points, radius = points[radius < 1.0], radius[radius < 1.0]
+    size = sides(points, 15).min(axis=1)
+    assert set(size[radius < 0.4]) == {15} and size[radius > 0.9].max() <= 9
+    gap = Results(0.28, 15, False, 2).at(points) - Results(0.28, 45, False, 2).at(points)
+    error = np.maximum(np.hypot(gap[:, 0], gap[:, 1]), np.abs(gap[:, 2]))
+    assert error.max() < 6e-3 and error[radius > 0.6].max() < 1.5e-3 and error[radius > 0.8].max() < 4e-4
 
 
 def test_half_ellipses(tmp_path):

@@ -22,6 +22,9 @@ _WINDOW = 1.05
 _NEAREST = 1e-4
 #: From this z on there are more elements a side, by this factor; chosen by comparison with finer grids
 _MUCH_SPIN, _MORE = 0.85, 1.5
+#: Where most of the contact slides, the grid matters less: from this (x**4 + y**4)**(1/4) on there are fewer elements a side,
+#: down to this part of them in full sliding, but not less than so many; chosen by comparison with finer grids
+_MUCH_SLIP, _FEWER, _FEW = 0.4, 0.35, 9
 #: KX, KY, KP by powers of a/b, as in src/tables/creep_table.f90
 _SCALES = ([1.0964, 0.325, -0.004], [0.8005, 0.4393, -0.0067], [0.4147, 1.0184, 0.0565, -0.0013])
 
@@ -60,9 +63,12 @@ def sides(points: Numbers, elements: int) -> NDArray[np.int_]:
     """Elements along and across for points, shape (n, 2).
 
     A contact has more along its longer side. With large spin, sliding turns round within a few elements: there are more of them.
+    There are fewer where most of the contact slides.
     """
     wide = np.exp(0.5 * np.abs(points[:, 0]))
-    more = elements * np.where(points[:, 4] > _MUCH_SPIN, _MORE, 1.0)
+    radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
+    part = np.interp(radius, [_MUCH_SLIP, 1.0], [1.0, _FEWER])
+    more = np.maximum(elements * part, min(elements, _FEW)) * np.where(points[:, 4] > _MUCH_SPIN, _MORE, 1.0)
     both = np.column_stack([np.where(points[:, 0] > 0.0, wide, 1.0), np.where(points[:, 0] < 0.0, wide, 1.0)]) * more[:, None]
     return np.asarray(np.rint(both), dtype=np.int_)
 

@@ -1,0 +1,49 @@
+/* Sums over the nodes around a place, most of the work of a look-up; called from creep_table.f90.
+ *
+ * In C, as it is compiled twice: for all processors, and for those with AVX2 and FMA, which are asked when it runs. Both have the
+ * same numbers but for rounding. Vectors are those of GCC and Clang. */
+#include <stddef.h>
+#include <string.h>
+
+/* Nodes along an axis, values of a node, numbers of a stretch of nodes along z */
+enum { ORDER = 4, VALUES = 3, STRETCH = ORDER * VALUES };
+
+/* What is summed: coefficients; the blocks of nodes along x, y, z, coefficients before the first node of each, its weight;
+ * coefficients from one node along y, and along x, to the next; functions along x and y, and their slopes, null where not wanted */
+typedef struct {
+  const float *coefficients;
+  int blocks;
+  const int *start;
+  const double *weight;
+  ptrdiff_t row, plane;
+  const double *x, *y, *slope_x, *slope_y;
+} stretches;
+
+void contact_table_sums(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
+                        const double *x, const double *y, double *sums, const double *slope_x, const double *slope_y);
+
+#define SUM sum_by_twos
+#define LANES 2
+#define WIDENED(v) {(v)[0], (v)[1]}
+#include "sums_by_lanes.h"
+
+#ifdef __x86_64__
+#define SUM __attribute__((target("avx2,fma"))) sum_by_fours
+#define LANES 4
+#define WIDENED(v) {(v)[0], (v)[1], (v)[2], (v)[3]}
+#include "sums_by_lanes.h"
+
+static int has_fours(void) { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+#else
+static int has_fours(void) { return 0; }
+#define sum_by_fours sum_by_twos
+#endif
+
+void contact_table_sums(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
+                        const double *x, const double *y, double *sums, const double *slope_x, const double *slope_y) {
+  const stretches all = {coefficients, blocks, start, weight, row, plane, x, y, slope_x, slope_y};
+  if (has_fours())
+    sum_by_fours(&all, sums);
+  else
+    sum_by_twos(&all, sums);
+}
