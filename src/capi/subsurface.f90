@@ -222,7 +222,11 @@ contains
       code = library_code%success
       left = .false.
       if (allocated(problem%spec%wheel_rail)) left = problem%spec%wheel_rail%left
-      call subsurface_stresses(request, patch, error, left)
+      if (number == 0) then
+         call subsurface_stresses(request, patch, error, left, problem%session%shelf)
+      else
+         call subsurface_stresses(request, patch, error, left)
+      end if
       if (.not. allocated(error) .and. allocated(patch%subsurface)) then
          log = library_log()
          !$omp critical (contact_printing)

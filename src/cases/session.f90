@@ -23,6 +23,7 @@ module contact_cases_session
    use contact_patch_solve, only : check_problem, solve_patch
    use contact_patch_wear, only : derive_wear
    use contact_patch_workspace, only : patch_workspace, release_workspace
+   use contact_subsurface_response_shelf, only : response_shelf
    implicit none (type, external)
    private
 
@@ -35,6 +36,8 @@ module contact_cases_session
       type(patch_problem) :: problem
       !> The level that errors are estimated from; unallocated before they are asked for
       type(coarse_level), allocatable :: coarse
+      !> What stresses below the surface keep from case to case
+      type(response_shelf) :: shelf
       !> The grid for which a warning has named a larger one
       type(potential_contact) :: advised
       !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy [1/mm]; 0 for none
@@ -123,7 +126,7 @@ contains
          session%coarse%state%started = .false.
       end if
       if (.not. spec%has_stress) return
-      call subsurface_stresses(spec, result, error)
+      call subsurface_stresses(spec, result, error, shelf=session%shelf)
       if (allocated(error)) return
       call warn_of_steps(result, log)
       if (spec%estimates_errors) call estimate_stress_errors(spec, session%coarse%result, result)

@@ -13,6 +13,7 @@ module contact_cases_subsurface
    use contact_subsurface_invariants, only : stress_invariants
    use contact_subsurface_load, only : new_surface_load, surface_load
    use contact_subsurface_points, only : expand_points, list_points, point_block, point_set, stepped_depth, stepped_points
+   use contact_subsurface_response_shelf, only : response_shelf
    use contact_text_words, only : integer_text, real_text
    use contact_subsurface_stress, only : subsurface_field
    implicit none (type, external)
@@ -28,7 +29,7 @@ module contact_cases_subsurface
 contains
 
    !> Displacements, stresses and their invariants in the blocks of points of a case
-   subroutine subsurface_stresses(spec, result, error, left)
+   subroutine subsurface_stresses(spec, result, error, left, shelf)
       type(case_spec), intent(in) :: spec
       !> A solved patch; columns and rows of the blocks are those of its grid
       type(patch_result), intent(inout) :: result
@@ -36,6 +37,8 @@ contains
       !> Does the patch belong to a wheel on the left side, of which it is the mirror image? Points and results are then
       !> in the coordinates of the left side. Default: no
       logical, intent(in), optional :: left
+      !> What cases that follow each other keep for the first block; absent: nothing
+      type(response_shelf), intent(inout), optional :: shelf
       type(surface_load) :: load
       type(potential_contact) :: area
       character(len=60) :: text
@@ -54,8 +57,13 @@ contains
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
          call spec%limits%deadline%watch("before the stresses below the surface", error)
-         if (.not. allocated(error)) &
-            & call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error)
+         if (.not. allocated(error)) then
+            if (k == 1) then
+               call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error, shelf)
+            else
+               call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error)
+            end if
+         end if
          if (.not. allocated(error)) cycle
          write(text, "(A, I0)") "subsurface block ", k
          call add_context(error, trim(text))
@@ -123,7 +131,7 @@ contains
    end function stress_memory
 
    !> One block
-   subroutine block_stresses(load, block, area, limits, result, error)
+   subroutine block_stresses(load, block, area, limits, result, error, shelf)
       type(surface_load), intent(in) :: load
       type(point_block), intent(in) :: block
       !> The elements in contact and those beside them
@@ -131,6 +139,8 @@ contains
       type(case_limits), intent(in) :: limits
       type(subsurface_result), intent(out) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> As for subsurface_stresses
+      type(response_shelf), intent(inout), optional :: shelf
       type(point_set) :: points
       character(len=160) :: text
       integer :: n
@@ -153,7 +163,7 @@ contains
       allocate(result%sighyd(n), result%sigvm(n), result%sigtr(n), result%sigma1(n), result%sigma2(n), result%sigma3(n))
       call list_points(points, result%position)
       result%stepped = stepped_points(points, area)
-      call subsurface_field(load, points, result%displacement, result%stress)
+      call subsurface_field(load, points, result%displacement, result%stress, shelf)
       call stress_invariants(result%stress, result%sighyd, result%sigvm, result%sigtr, result%sigma1, result%sigma2, &
          & result%sigma3)
    end subroutine block_stresses

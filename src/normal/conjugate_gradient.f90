@@ -52,6 +52,8 @@ module contact_normal_conjugate_gradient
    integer, parameter :: patience = 60
    !> The first pressures reach up to this part of the range of undeformed distances, at least to the length [mm]; chosen
    real(wp), parameter :: first_depth = 0.3_wp, min_range = 1.0e-10_wp
+   !> Round-off of one product, relative to the largest displacement, and the part of the tolerance that it may reach; chosen
+   real(wp), parameter :: of_a_product = 1.0e-15_wp, is_small = 1.0e-3_wp
    !> Totals that agree to this are left as they are: round-off
    real(wp), parameter :: same_force = 1.0e-14_wp
 
@@ -172,14 +174,14 @@ contains
       type(log_type), intent(inout), optional :: log
       character(len=96) :: line
       real(wp) :: rz, dq, dr, worst, scale, h_min, best
-      integer :: it, since_best
+      integer :: it, since_best, updates
       logical :: exact_u
 
       h_min = minval(problem%h)
       level%previous = 0.0_wp
       level%d = 0.0_wp
       rz = 1.0_wp
-      exact_u = .true.
+      updates = 0
       best = huge(best)
       since_best = 0
       call pressure_displacement(problem, operator, p, level%u)
@@ -200,13 +202,13 @@ contains
             end if
          end if
          if (worst <= tolerance*scale) then
-            if (exact_u) then
+            if (updates*of_a_product*maxval(abs(level%u)) <= is_small*tolerance*scale) then
                report%ended = ending%converged
                exit
             end if
-            ! the displacements were updated: believe the end only when they are computed anew
+            ! products were added up, and their round-off counts: believe the end only when it is left out
             call pressure_displacement(problem, operator, p, level%u)
-            exact_u = .true.
+            updates = 0
             cycle
          end if
          if (worst < is_smaller*best) then
@@ -234,6 +236,7 @@ contains
             exit
          end if
          call take_step(problem, operator, level, dr/dq, p, exact_u)
+         updates = merge(0, updates + 1, exact_u)
       end do
    end subroutine iterate
 

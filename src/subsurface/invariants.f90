@@ -44,17 +44,17 @@ contains
       integer, parameter :: max_sweeps = 20
       !> Entries whose squares might underflow; the largest entry is 1
       real(wp), parameter :: negligible = 1.0e-100_wp
-      !> Off-diagonal entries end the sweeps at this part of the precision of the machine: they change no digit by then
-      real(wp), parameter :: converged = 0.01_wp
       real(wp) :: a(3, 3), c, s, t, theta, scale, row
       integer :: p, q, r, sweep
 
       scale = maxval(abs(stress))
       principal = 0.0_wp
       if (.not. scale > 0.0_wp) return
-      a = reshape(stress([1, 2, 3, 2, 4, 5, 3, 5, 6])/scale, [3, 3])
+      a(:, 1) = stress(1:3)/scale
+      a(:, 2) = [stress(2), stress(4), stress(5)]/scale
+      a(:, 3) = [stress(3), stress(5), stress(6)]/scale
       do sweep = 1, max_sweeps
-         if (max(abs(a(1, 2)), abs(a(1, 3)), abs(a(2, 3))) < converged*epsilon(1.0_wp)) exit
+         if (all_settled(a)) exit
          do p = 1, 2
             do q = p + 1, 3
                if (abs(a(p, q)) < negligible) cycle
@@ -80,4 +80,23 @@ contains
       principal(2) = max(min(a(1, 1), a(2, 2)), min(max(a(1, 1), a(2, 2)), a(3, 3)))
       principal = scale*principal
    end function principal_stresses
+
+   !> Do entries off the diagonal change no digit of the eigenvalues any more?
+   !>
+   !> They change them by their squares over the differences of the eigenvalues, and by themselves at most.
+   pure logical function all_settled(a) result(settled)
+      !> Symmetric, the largest entry is about 1
+      real(wp), intent(in) :: a(3, 3)
+      !> Part of the precision of the machine that no digit shows
+      real(wp), parameter :: converged = 0.01_wp
+      integer :: p, q
+
+      settled = .true.
+      do p = 1, 2
+         do q = p + 1, 3
+            settled = settled .and. min(abs(a(p, q)), a(p, q)**2/max(abs(a(p, p) - a(q, q)), tiny(1.0_wp))) &
+               & < converged*epsilon(1.0_wp)
+         end do
+      end do
+   end function all_settled
 end module contact_subsurface_invariants

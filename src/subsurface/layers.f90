@@ -2,18 +2,19 @@
 !>
 !> The response in a centre to a load on an element depends on the difference of their columns
 !> and rows only, so the fields at one depth are convolutions. The tractions are transformed once for
-!> all depths. The 27 responses of a depth, nine fields by three tractions, are even or odd in each
-!> coordinate: real or imaginary spectra, of which up to four, of different symmetry, are obtained
-!> from one real transform of their sum. Only the nine wanted fields are transformed back. Depths are
-!> independent and shared out among threads.
+!> all depths, the 27 responses of a depth, nine fields by three tractions, in packs of up to four
+!> (contact_subsurface_response_packs). Only the nine wanted fields are transformed back. Depths are
+!> independent and shared out among threads. Cases that follow each other may keep the spectra of their responses.
 module contact_subsurface_layers
    use contact_base_kinds, only : wp
    use contact_fft_plan, only : fft_plan, good_size
    use contact_grid_potential_contact, only : potential_contact
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
-      & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_x, &
-      & odd_in_y, source_derivatives
+      & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_y, &
+      & source_derivatives
    use contact_subsurface_load, only : surface_load
+   use contact_subsurface_response_packs, only : add_products, choose_packs, group, n_parts, response_pack, transform_pack
+   use contact_subsurface_response_shelf, only : response_shelf
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
@@ -30,15 +31,16 @@ module contact_subsurface_layers
       integer :: px = 1, py = 1
    end type layer_window
 
-   !> Fields that are worked on together, to save memory: displacements, normal and shear stresses
-   integer, parameter :: group(3, 3) = reshape([1, 2, 3,  4, 7, 9,  5, 6, 8], [3, 3])
    !> Memory for all threads together [bytes], which bounds their number
    real(wp), parameter :: memory = 1.0e9_wp
+   !> Spectra are kept for all places of loads on the grid where these make the padded window larger by this factor at most;
+   !> chosen: products take about a third of what the responses take
+   real(wp), parameter :: most_widening = 4.0_wp
 
 contains
 
    !> Displacements and stresses in element centres
-   subroutine transform_layers(load, ix, iy, z, displacement, stress)
+   subroutine transform_layers(load, ix, iy, z, displacement, stress, shelf)
       !> Tractions of the surface and the constants of the bodies
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points, ascending; they may lie outside the grid
@@ -49,23 +51,71 @@ contains
       real(wp), intent(out) :: displacement(3, size(ix), size(iy), size(z))
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz
       real(wp), intent(out) :: stress(6, size(ix), size(iy), size(z))
+      !> What cases that follow each other keep; absent: nothing
+      type(response_shelf), intent(inout), optional :: shelf
       type(layer_window) :: window
+      type(response_pack), allocatable :: packs(:)
       complex(wp), allocatable :: spectrum(:, :, :)
+      logical :: stores
       integer :: threads
 
       displacement = 0.0_wp
       stress = 0.0_wp
       if (.not. any(load%acts) .or. size(displacement) == 0) return
       call find_window(load, ix, iy, window)
+      call choose_packs(load%acts, packs)
+      stores = .false.
+      if (present(shelf)) call consult(shelf, load, ix, iy, z, size(packs), window, stores)
       call transform_loads(load, window, spectrum)
       threads = 1
       !$ threads = omp_get_max_threads()
       ! responses 27/4, spectra and fields of a group and rows of two plans, in padded windows of reals
       threads = min(threads, size(z), max(1, int(memory/(8.0_wp*16.0_wp*real(window%px, wp)*real(window%py, wp)))))
       !$omp parallel num_threads(threads) default(shared)
-      call share_of_layers(load, window, spectrum, ix, iy, z, displacement, stress)
+      call share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
       !$omp end parallel
+      if (.not. stores) return
+      shelf%nx = window%nx
+      shelf%ny = window%ny
    end subroutine transform_layers
+
+   !> The window of a case whose spectra are kept, or shall be
+   subroutine consult(shelf, load, ix, iy, z, n_packs, window, stores)
+      type(response_shelf), intent(inout) :: shelf
+      type(surface_load), intent(in) :: load
+      !> Columns and rows of the points, ascending
+      integer, intent(in) :: ix(:), iy(:)
+      !> Depths [mm]
+      real(wp), intent(in) :: z(:)
+      !> Number of spectra of a depth
+      integer, intent(in) :: n_packs
+      !> That of loads and points; on return as large as that of the spectra
+      type(layer_window), intent(inout) :: window
+      !> Shall the spectra of this case be kept?
+      logical, intent(out) :: stores
+      type(layer_window) :: wide
+
+      stores = .false.
+      if (.not. shelf%is_for(load, z)) then
+         call shelf%note(load, z)
+         return
+      end if
+      wide = window
+      if (window%nx <= shelf%nx .and. window%ny <= shelf%ny) then
+         wide%nx = shelf%nx
+         wide%ny = shelf%ny
+         call pad(wide)
+         window = wide
+         return
+      end if
+      ! loads anywhere on the grid
+      wide%nx = max(window%nx, ix(size(ix)) - 1, load%grid%mx - ix(1))
+      wide%ny = max(window%ny, iy(size(iy)) - 1, load%grid%my - iy(1))
+      call pad(wide)
+      if (real(wide%px, wp)*wide%py > most_widening*real(window%px, wp)*window%py) return
+      call shelf%make_room([wide%py/2 + 1, wide%px/2 + 1, n_parts, n_packs, size(z)], stores)
+      if (stores) window = wide
+   end subroutine consult
 
    !> Number of padded elements, and of differences between points and loads, as measures of the cost
    pure subroutine padded_size(load, ix, iy, padded, differences)
@@ -96,10 +146,16 @@ contains
          window%nx = max(ix1 - box%ix0, box%ix1 - ix(1))
          window%ny = max(iy1 - box%iy0, box%iy1 - iy(1))
       end associate
-      ! differences of both signs without overlap
+      call pad(window)
+   end subroutine find_window
+
+   !> Padded size that holds differences of both signs without overlap
+   pure subroutine pad(window)
+      type(layer_window), intent(inout) :: window
+
       window%px = good_size(2*window%nx + 1)
       window%py = good_size(2*window%ny + 1)
-   end subroutine find_window
+   end subroutine pad
 
    !> Spectra of px, py, pn, scaled for the back transform
    subroutine transform_loads(load, window, spectrum)
@@ -125,31 +181,54 @@ contains
    end subroutine transform_loads
 
    !> The layers that fall to one thread, with its own plans and scratch
-   subroutine share_of_layers(load, window, spectrum, ix, iy, z, displacement, stress)
+   subroutine share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
       type(surface_load), intent(in) :: load
       type(layer_window), intent(in) :: window
       !> Spectra of the tractions, shape (py, px/2 + 1, 3)
       complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
+      type(response_pack), intent(in) :: packs(:)
       integer, intent(in) :: ix(:), iy(:)
       real(wp), intent(in) :: z(:)
       real(wp), contiguous, intent(inout) :: displacement(:, :, :, :), stress(:, :, :, :)
+      !> Has the spectra of this window, or gets them, or is empty
+      type(response_shelf), intent(inout), optional :: shelf
       type(fft_plan) :: plan, period_plan
       !> Responses by differences 0...nx, 0...ny, shape (0:nx, 0:ny, 9, 3)
       real(wp), allocatable :: response(:, :, :, :)
-      real(wp), allocatable :: field(:, :), period(:, :)
+      real(wp), allocatable :: field(:, :), period(:, :), factor(:, :, :)
       complex(wp), allocatable :: product(:, :, :), packed(:, :)
-      integer :: f, g, jx, jy, layer
+      logical :: keeps, serves
+      integer :: f, g, jx, jy, layer, n
 
+      keeps = .false.
+      serves = .false.
+      if (present(shelf)) then
+         keeps = allocated(shelf%factor)
+         serves = keeps .and. shelf%nx >= 0
+      end if
       call plan%prepare(window%mx, window%my, window%px, window%py)
-      call period_plan%prepare(window%px, window%py, window%px, window%py)
-      allocate(response(0:window%nx, 0:window%ny, n_fields, 3), field(window%mx, window%my))
-      allocate(product(window%py, plan%kx, 3), period(window%px, window%py), packed(window%py, plan%kx))
+      allocate(field(window%mx, window%my), product(window%py, plan%kx, 3))
+      if (.not. serves) then
+         call period_plan%prepare(window%px, window%py, window%px, window%py)
+         allocate(response(0:window%nx, 0:window%ny, n_fields, 3), period(window%px, window%py), packed(window%py, plan%kx), &
+            & factor(window%py/2 + 1, plan%kx, n_parts))
+      end if
       !$omp do schedule(dynamic)
       do layer = 1, size(z)
          if (abs(z(layer)) > farthest_point) cycle
-         call fill_responses(load, window, z(layer), response)
+         if (.not. serves) call fill_responses(load, window, z(layer), response)
          do g = 1, size(group, 2)
-            call multiply_group(load%acts, group(:, g), response, spectrum, period_plan, product, period, packed)
+            product = (0.0_wp, 0.0_wp)
+            do n = 1, size(packs)
+               if (packs(n)%group /= g) cycle
+               if (serves) then
+                  call add_products(packs(n), shelf%factor(:, :, :, n, layer), spectrum, product)
+                  cycle
+               end if
+               call transform_pack(packs(n), response, period_plan, period, packed, factor)
+               call add_products(packs(n), factor, spectrum, product)
+               if (keeps) shelf%factor(:, :, :, n, layer) = factor
+            end do
             do f = 1, size(group, 1)
                call plan%backward(product(:, :, f), field)
                do jy = 1, size(iy)
@@ -167,121 +246,8 @@ contains
       ! no barrier: a thread may have left, see base/guard.c
       !$omp end do nowait
       call plan%release()
-      call period_plan%release()
+      if (.not. serves) call period_plan%release()
    end subroutine share_of_layers
-
-   !> Spectra of a group of fields: products of responses and tractions, summed
-   !>
-   !> Of a real field, the part that is even or odd in x and in y has a spectrum that is real or
-   !> imaginary and even or odd in the second frequency. So a sum of four fields, one of each
-   !> symmetry, can be taken apart again.
-   subroutine multiply_group(acts, fields, response, spectrum, plan, product, period, packed)
-      logical, intent(in) :: acts(3)
-      !> Numbers of the fields
-      integer, intent(in) :: fields(:)
-      !> Responses by differences 0...nx, 0...ny
-      real(wp), contiguous, intent(in) :: response(0:, 0:, :, :)
-      !> Spectra of the tractions, shape (py, px/2 + 1, 3)
-      complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
-      !> Transforms of full periods
-      type(fft_plan), intent(inout) :: plan
-      !> Spectra of the fields, shape (py, px/2 + 1, 3)
-      complex(wp), contiguous, intent(inout) :: product(:, :, :)
-      !> Scratch: a period, shape (px, py), and its spectrum, shape (py, px/2 + 1)
-      real(wp), contiguous, intent(inout) :: period(:, :)
-      complex(wp), contiguous, intent(inout) :: packed(:, :)
-      logical :: done(n_fields, 3), odd_x, odd_y, taken(4)
-      integer :: chosen(4), f, n, part, t
-
-      product = (0.0_wp, 0.0_wp)
-      done = .true.
-      do t = 1, 3
-         if (acts(t)) done(fields, t) = .false.
-      end do
-      do while (.not. all(done))
-         period = 0.0_wp
-         taken = .false.
-         chosen = 0
-         do n = 1, 3*size(fields)
-            f = fields(1 + mod(n - 1, size(fields)))
-            t = 1 + (n - 1)/size(fields)
-            part = 1 + merge(1, 0, odd_in_x(f, t)) + merge(2, 0, odd_in_y(f, t))
-            if (done(f, t) .or. taken(part)) cycle
-            taken(part) = .true.
-            done(f, t) = .true.
-            chosen(part) = n
-            call add_to_period(response(:, :, f, t), odd_in_x(f, t), odd_in_y(f, t), period)
-         end do
-         call plan%forward(period, packed)
-         do part = 1, 4
-            if (chosen(part) == 0) cycle
-            f = 1 + mod(chosen(part) - 1, size(fields))
-            t = 1 + (chosen(part) - 1)/size(fields)
-            odd_x = mod(part - 1, 2) == 1
-            odd_y = part > 2
-            call add_product(packed, odd_x, odd_y, spectrum(:, :, t), product(:, :, f))
-         end do
-      end do
-   end subroutine multiply_group
-
-   !> Continue a response to negative differences and add it to a full period
-   pure subroutine add_to_period(response, odd_x, odd_y, period)
-      !> Differences 0...nx, 0...ny
-      real(wp), contiguous, intent(in) :: response(0:, 0:)
-      logical, intent(in) :: odd_x, odd_y
-      !> One period, shape (px, py); difference 0 stands at (1, 1)
-      real(wp), contiguous, intent(inout) :: period(:, :)
-      real(wp) :: row(0:ubound(response, 1)), sx, sy
-      integer :: k, l, nx, px
-
-      nx = ubound(response, 1)
-      px = size(period, 1)
-      sx = merge(-1.0_wp, 1.0_wp, odd_x)
-      sy = merge(-1.0_wp, 1.0_wp, odd_y)
-      do l = 0, ubound(response, 2)
-         row = response(:, l)
-         ! an odd response vanishes where it changes its sign
-         if (odd_x) row(0) = 0.0_wp
-         if (odd_y .and. l == 0) cycle
-         period(1:nx + 1, l + 1) = period(1:nx + 1, l + 1) + row
-         do k = 1, nx
-            period(px + 1 - k, l + 1) = period(px + 1 - k, l + 1) + sx*row(k)
-         end do
-         if (l == 0) cycle
-         row = sy*row
-         period(1:nx + 1, size(period, 2) + 1 - l) = period(1:nx + 1, size(period, 2) + 1 - l) + row
-         do k = 1, nx
-            period(px + 1 - k, size(period, 2) + 1 - l) = period(px + 1 - k, size(period, 2) + 1 - l) + sx*row(k)
-         end do
-      end do
-   end subroutine add_to_period
-
-   !> Take one part out of a spectrum of several responses and add its product with a traction
-   pure subroutine add_product(packed, odd_x, odd_y, traction, product)
-      !> Spectrum of a sum of responses, shape (py, px/2 + 1)
-      complex(wp), contiguous, intent(in) :: packed(:, :)
-      !> Symmetry of the part
-      logical, intent(in) :: odd_x, odd_y
-      !> Spectra of the traction and of the field
-      complex(wp), contiguous, intent(in) :: traction(:, :)
-      complex(wp), contiguous, intent(inout) :: product(:, :)
-      real(wp) :: factor(size(packed, 1)), turned
-      integer :: k, py
-
-      py = size(packed, 1)
-      turned = merge(-0.5_wp, 0.5_wp, odd_y)
-      do k = 1, size(packed, 2)
-         if (odd_x .eqv. odd_y) then
-            factor(1) = (0.5_wp + turned)*real(packed(1, k))
-            factor(2:) = 0.5_wp*real(packed(2:, k)) + turned*real(packed(py:2:-1, k))
-            product(:, k) = product(:, k) + cmplx(factor*real(traction(:, k)), factor*aimag(traction(:, k)), wp)
-         else
-            factor(1) = (0.5_wp + turned)*aimag(packed(1, k))
-            factor(2:) = 0.5_wp*aimag(packed(2:, k)) + turned*aimag(packed(py:2:-1, k))
-            product(:, k) = product(:, k) + cmplx(-factor*aimag(traction(:, k)), factor*real(traction(:, k)), wp)
-         end if
-      end do
-   end subroutine add_product
 
    !> Responses at one depth by differences of columns and rows that are not negative
    pure subroutine fill_responses(load, window, z, response)

@@ -5,6 +5,7 @@ module contact_subsurface_stress
    use contact_subsurface_layers, only : padded_size, transform_layers
    use contact_subsurface_load, only : surface_load
    use contact_subsurface_points, only : list_points, point_set
+   use contact_subsurface_response_shelf, only : response_shelf
    implicit none (type, external)
    private
 
@@ -25,7 +26,7 @@ contains
    !> Displacements and stresses in a set of points, in body 1 for z >= 0 and in body 2 for z < 0
    !>
    !> By fast transforms where the points are centres of elements and it pays off, else by direct sums.
-   subroutine subsurface_field(load, points, displacement, stress)
+   subroutine subsurface_field(load, points, displacement, stress, shelf)
       !> Tractions of the surface and the constants of the bodies
       type(surface_load), intent(in) :: load
       !> Sorted coordinates
@@ -34,6 +35,8 @@ contains
       real(wp), contiguous, intent(out) :: displacement(:, :)
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz, shape (6, n)
       real(wp), contiguous, intent(out) :: stress(:, :)
+      !> What cases that follow each other keep for the points of a block; absent: nothing
+      type(response_shelf), intent(inout), optional :: shelf
       integer, allocatable :: ix(:), iy(:)
       real(wp), allocatable :: position(:, :)
       integer :: body, point
@@ -42,7 +45,7 @@ contains
       call find_centres(points%x, load%grid%xl, load%grid%dx, ix)
       call find_centres(points%y, load%grid%yl, load%grid%dy, iy)
       if (transforms_pay(load, ix, iy)) then
-         call transform_layers(load, ix, iy, points%z, displacement, stress)
+         call transform_layers(load, ix, iy, points%z, displacement, stress, shelf)
       else
          allocate(position(3, points%n()))
          call list_points(points, position)

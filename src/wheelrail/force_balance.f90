@@ -77,8 +77,10 @@ module contact_wheelrail_force_balance
    real(wp), parameter :: largest_growth = 4.0_wp
    !> Slopes that differ by more than this part are not the same
    real(wp), parameter :: alike = 0.2_wp
-   !> Trials stay this part of a bracket away from its ends
+   !> Trials stay this part of a bracket away from its ends, or of the last step where that is shorter
    real(wp), parameter :: margin = 1.0e-3_wp
+   !> While no trial is below the force, one that misses it by this part of what the one before missed is no slow one
+   real(wp), parameter :: quick = 0.1_wp
    !> Trials with estimated forces that fall further and further below zero, after which the ratio of friction leads nowhere
    integer, parameter :: max_falling = 5
    !> A force that rises this many times as much as the contact is stiff seems to jump, and jumps
@@ -139,7 +141,7 @@ contains
       class(force_balance), intent(inout) :: self
       !> Guess for the first trial [mm]
       real(wp), intent(in) :: guess
-      real(wp) :: width
+      real(wp) :: away, width
 
       if (self%trials == 0) then
          z = min(max(guess, self%touch + self%resolution), self%highest)
@@ -155,6 +157,7 @@ contains
          return
       end if
       width = self%high%z - self%low%z
+      away = margin*min(width, abs(self%last%z - self%before%z))
       if (self%from_above >= 3 .and. newton_from(self, self%high) < self%touch + margin*width) then
          ! everything points to a force at the first touch
          z = self%touch + 2.0_wp*self%resolution
@@ -171,9 +174,9 @@ contains
             z = newton_from(self, self%high)
          end if
          if (.not. (z > self%low%z + margin*width .and. z < self%high%z - margin*width)) z = 0.5_wp*(self%low%z + self%high%z)
-      else if (.not. (z > self%low%z + margin*width .and. z < self%high%z - margin*width)) then
+      else if (.not. (z > self%low%z + away .and. z < self%high%z - away)) then
          z = interpolated(self)
-         z = min(max(z, self%low%z + margin*width), self%high%z - margin*width)
+         z = min(max(z, self%low%z + away), self%high%z - away)
       end if
    end function next_trial
 
@@ -330,7 +333,8 @@ contains
          width = self%high%z - self%low%z
          self%from_above = merge(0, self%from_above + 1, self%low%z > self%touch)
          self%slow = self%slow + 1
-         if (width <= 0.5_wp*self%old_width) then
+         if (width <= 0.5_wp*self%old_width .or. (self%from_above > 0 &
+            & .and. abs(force - self%target) < quick*abs(self%before%force - self%target))) then
             self%slow = 0
             self%old_width = width
          end if

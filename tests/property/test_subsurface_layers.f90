@@ -6,6 +6,7 @@ program test_subsurface_layers
    use contact_subsurface_layers, only : transform_layers
    use contact_subsurface_load, only : new_surface_load, surface_load
    use contact_subsurface_points, only : list_points, point_set
+   use contact_subsurface_response_shelf, only : response_shelf
    use contact_subsurface_stress, only : subsurface_field
    use contact_test_harness, only : test_suite
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
@@ -18,6 +19,7 @@ program test_subsurface_layers
 
    call suite%start("subsurface layers")
    call shapes(suite)
+   call series(suite)
    call threads(suite)
    call linear_and_mirrored(suite)
    call incompressible(suite)
@@ -104,6 +106,42 @@ contains
       end do
       call new_surface_load(load, grid, p(:, :, 3), p(:, :, 1), p(:, :, 2), gg, nu, bilinear)
    end subroutine make_load
+
+   !> Cases that follow each other have the fields of single ones, whatever grows, shrinks, moves, comes or goes
+   subroutine series(suite)
+      type(test_suite), intent(inout) :: suite
+      !> First and last loaded column and row of each case
+      integer, parameter :: loaded(4, 9) = reshape([9, 9, 6, 6,  8, 10, 5, 7,  1, 18, 1, 13,  2, 4, 11, 13,  2, 4, 11, 13, &
+         & 5, 12, 3, 9,  5, 12, 3, 9,  1, 18, 1, 13,  7, 7, 2, 12], [4, 9])
+      !> Cases: the third to the fifth have spectra, the sixth and seventh no tractions, the eighth another depth
+      logical, parameter :: with_tractions(9) = [.true., .true., .true., .true., .true., .false., .false., .false., .true.], &
+         & keeps(9) = [.false., .true., .true., .true., .true., .false., .true., .false., .false.]
+      integer, parameter :: ix(4) = [1, 7, 15, 18], iy(3) = [1, 2, 13]
+      type(surface_load) :: load
+      type(potential_contact) :: grid
+      type(response_shelf) :: shelf
+      real(wp), allocatable :: p(:, :, :)
+      real(wp) :: u(3, 12, 9), s(6, 12, 9), u1(3, 12, 9), s1(6, 12, 9), z(9), worst
+      integer :: k
+      logical :: as_planned
+
+      worst = 0.0_wp
+      as_planned = .true.
+      z = depth
+      do k = 1, size(keeps)
+         call make_load(18, 13, 0.3_wp, 0.4_wp, loaded(:, k), .false., grid, p, load)
+         if (.not. with_tractions(k)) &
+            & call new_surface_load(load, grid, p(:, :, 3), 0.0_wp*p(:, :, 1), 0.0_wp*p(:, :, 1), gg, nu, .false.)
+         if (k == 8) z(3) = 2.0_wp*z(3)
+         call transform_layers(load, ix, iy, z, u, s)
+         call transform_layers(load, ix, iy, z, u1, s1, shelf)
+         as_planned = as_planned .and. (keeps(k) .eqv. shelf%nx >= 0)
+         worst = max(worst, maxval(abs(u1 - u))/maxval(abs(u)), maxval(abs(s1 - s))/maxval(abs(s)))
+      end do
+      write(*, "(a, es9.1)") "cases that follow each other:", worst
+      call suite%check(worst < 1e-13_wp, "cases that follow each other have the fields of single ones")
+      call suite%check(as_planned, "spectra are kept from the second case of a series on")
+   end subroutine series
 
    !> Results do not depend on the number of threads
    subroutine threads(suite)
