@@ -88,7 +88,7 @@ contains
       turned = problem
       if (allocated(turned%second)) then
          call turned%second%turn_round(mx, my)
-         call workspace%turns%turn_round(mx, my)
+         call workspace%turns%turn_round()
       end if
       call number_unknowns(workspace, space)
       do j = 1, size(weight, 4)

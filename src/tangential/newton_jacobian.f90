@@ -107,7 +107,7 @@ contains
       !> Gets weights, directions and the residual field
       type(newton_workspace), intent(inout) :: workspace
       integer :: ix, iy
-      real(wp) :: z(2), length, g
+      real(wp) :: z(2), square, share, g
 
       if (allocated(workspace%point)) deallocate(workspace%point)
       if (problem%hardens()) then
@@ -116,29 +116,36 @@ contains
       end if
       workspace%trial_slip = solution%slip
       if (allocated(problem%second)) then
-         call workspace%turns%linearise(problem%second%weight, problem%second%turns, problem%contact, problem%direction, &
-            & solution%p, problem%bound, solution%slip, system%r)
+         call workspace%turns%linearise(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
+            & problem%direction, solution%p, problem%bound, solution%slip, system%r)
          call workspace%turns%act(workspace%trial_slip)
       end if
       do iy = 1, problem%my
          do ix = 1, problem%mx
             workspace%weight(ix, iy) = 0.0_wp
-            workspace%direction(ix, iy, :) = 0.0_wp
-            workspace%residual(ix, iy, :) = 0.0_wp
+            workspace%direction(ix, iy, 1) = 0.0_wp
+            workspace%direction(ix, iy, 2) = 0.0_wp
+            workspace%residual(ix, iy, 1) = 0.0_wp
+            workspace%residual(ix, iy, 2) = 0.0_wp
             if (.not. problem%contact(ix, iy)) cycle
             g = problem%bound(ix, iy)
-            z = solution%p(ix, iy, :) - system%r*workspace%trial_slip(ix, iy, :)
-            length = sqrt(z(1)**2 + z(2)**2)
+            z(1) = solution%p(ix, iy, 1) - system%r*workspace%trial_slip(ix, iy, 1)
+            z(2) = solution%p(ix, iy, 2) - system%r*workspace%trial_slip(ix, iy, 2)
+            square = z(1)**2 + z(2)**2
             if (g <= 0.0_wp) then
                z = 0.0_wp
-            else if (length <= g) then
+            else if (square <= g**2) then
                workspace%weight(ix, iy) = 1.0_wp
             else
-               workspace%weight(ix, iy) = g/length
-               workspace%direction(ix, iy, :) = z/length
-               z = z*(g/length)
+               share = 1.0_wp/sqrt(square)
+               workspace%direction(ix, iy, 1) = share*z(1)
+               workspace%direction(ix, iy, 2) = share*z(2)
+               share = g*share
+               workspace%weight(ix, iy) = share
+               z = share*z
             end if
-            workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
+            workspace%residual(ix, iy, 1) = solution%p(ix, iy, 1) - z(1)
+            workspace%residual(ix, iy, 2) = solution%p(ix, iy, 2) - z(2)
          end do
       end do
    end subroutine linearise

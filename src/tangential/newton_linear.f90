@@ -66,19 +66,19 @@ contains
             do j = 1, restart
                call precondition(problem, operator, system, workspace, v(:n, j), z(:n, j), preconditionings)
                call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
-               before = norm2(v(:n, j + 1))
+               before = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
                do k = 1, j
-                  h(k, j) = dot_product(v(:n, k), v(:n, j + 1))
-                  v(:n, j + 1) = v(:n, j + 1) - h(k, j)*v(:n, k)
+                  h(k, j) = inner(n, v(:, k), v(:, j + 1))
+                  call add(n, -h(k, j), v(:, k), v(:, j + 1))
                end do
-               after = norm2(v(:n, j + 1))
+               after = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
                if (after < shortened*before) then
                   do k = 1, j
-                     t = dot_product(v(:n, k), v(:n, j + 1))
+                     t = inner(n, v(:, k), v(:, j + 1))
                      h(k, j) = h(k, j) + t
-                     v(:n, j + 1) = v(:n, j + 1) - t*v(:n, k)
+                     call add(n, -t, v(:, k), v(:, j + 1))
                   end do
-                  after = norm2(v(:n, j + 1))
+                  after = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
                end if
                h(j + 1, j) = after
                if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
@@ -102,7 +102,7 @@ contains
                y(k) = (s(k) - dot_product(h(k, k + 1:used), y(k + 1:used)))/h(k, k)
             end do
             do k = 1, used
-               x(:n) = x(:n) + y(k)*z(:n, k)
+               call add(n, y(k), z(:, k), x)
             end do
             beta = abs(s(used + 1))
             if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
@@ -119,6 +119,35 @@ contains
          end do
       end associate
    end subroutine solve_linear
+
+   !> Inner product, of vectors whose squares neither overflow nor vanish
+   !>
+   !> Four sums in turn, which the compiler may take together.
+   pure real(wp) function inner(n, a, b)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: a(n), b(n)
+      real(wp) :: sums(4)
+      integer :: k, whole
+
+      whole = n - mod(n, 4)
+      sums = 0.0_wp
+      do k = 1, whole, 4
+         sums = sums + a(k:k + 3)*b(k:k + 3)
+      end do
+      inner = (sums(1) + sums(3)) + (sums(2) + sums(4))
+      do k = whole + 1, n
+         inner = inner + a(k)*b(k)
+      end do
+   end function inner
+
+   !> b := b + factor a
+   pure subroutine add(n, factor, a, b)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: factor, a(n)
+      real(wp), intent(inout) :: b(n)
+
+      b = b + factor*a
+   end subroutine add
 
    !> out := M^-1 v, bordered
    subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)

@@ -17,7 +17,7 @@ module contact_tangential_problem
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_second_order, only : second_order
-   use contact_tangential_slip_turns, only : acting_slip
+   use contact_tangential_slip_turns, only : turned_residual
    use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
    private
@@ -191,7 +191,7 @@ contains
       !> Traction bounds, prescribed forces, yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
-      real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
       real(wp) :: sum_g
@@ -211,7 +211,7 @@ contains
       !> Traction bounds and yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
-      real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
 
@@ -222,42 +222,77 @@ contains
    pure real(wp) function squared_residual(problem, p, slip, r) result(square)
       !> As in contact_residual
       type(tangential_problem), intent(in) :: problem
+      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
+      real(wp), intent(in) :: r
+      real(wp) :: total, scale
+
+      if (problem%hardens()) then
+         call add_yielding(problem, p, slip, r, total, scale)
+      else
+         total = plain_residual(problem, p, slip, r)
+         scale = sum(problem%bound**2, mask=problem%contact)
+      end if
+      square = 0.0_wp
+      if (scale > 0.0_wp) square = total/scale
+   end function squared_residual
+
+   !> Sum of |p - P_g(p - r S)|**2 over the contact [(N/mm2)2], where limits are bounds
+   pure real(wp) function plain_residual(problem, p, slip, r) result(total)
+      !> As in contact_residual
+      type(tangential_problem), intent(in) :: problem
+      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
+      real(wp), intent(in) :: r
+      real(wp) :: z(2), square
+      integer :: ix, iy
+
+      if (allocated(problem%second)) then
+         total = turned_residual(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
+            & problem%direction, p, problem%bound, slip, r)
+         return
+      end if
+      total = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) cycle
+            z = [p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2)]
+            square = z(1)**2 + z(2)**2
+            if (square > problem%bound(ix, iy)**2) z = z*(problem%bound(ix, iy)/sqrt(square))
+            total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
+         end do
+      end do
+   end function plain_residual
+
+   !> The same where the return map takes the place of the projection, and the sum of squares that it counts beside
+   pure subroutine add_yielding(problem, p, slip, r, total, scale)
+      !> As in contact_residual
+      type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :), r
+      !> [(N/mm2)2]
+      real(wp), intent(out) :: total, scale
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
       integer :: ix, iy
       !> Limits far below the bound of friction count as this part of it: no more figures are left in p - r S
       real(wp), parameter :: min_share = 1.0e-4_wp
-      real(wp) :: z(2), length, total, scale, acts
+      real(wp) :: z(2), length
 
-      if (problem%hardens()) before = limits_before(problem, p, slip, r)
+      before = limits_before(problem, p, slip, r)
       total = 0.0_wp
       scale = 0.0_wp
       do iy = 1, problem%my
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
-            if (allocated(problem%second)) then
-               z = p(ix, iy, :) - r*acting_slip(problem%second%weight, problem%second%turns, problem%contact, problem%direction, &
-                  & p, problem%bound, slip, r, ix, iy)
-            else
-               z = p(ix, iy, :) - r*slip(ix, iy, :)
-            end if
+            z = p(ix, iy, :) - r*slip(ix, iy, :)
             length = sqrt(z(1)**2 + z(2)**2)
-            if (allocated(before)) then
-               point = returned(problem, length, ix, iy, before(ix, iy), r)
-               if (point%state /= element%adhesion) z = z*(point%radius/length)
-            else if (length > problem%bound(ix, iy)) then
-               z = z*(problem%bound(ix, iy)/length)
-            end if
+            point = returned(problem, length, ix, iy, before(ix, iy), r)
+            if (point%state /= element%adhesion) z = z*(point%radius/length)
             total = total + sum((p(ix, iy, :) - z)**2)
-            acts = problem%bound(ix, iy)
-            if (allocated(before)) acts = max(min(acts, before(ix, iy)), min_share*acts)
-            scale = scale + acts**2
+            associate (bound => problem%bound(ix, iy))
+               scale = scale + max(min(bound, before(ix, iy)), min_share*bound)**2
+            end associate
          end do
       end do
-      square = 0.0_wp
-      if (scale > 0.0_wp) square = total/scale
-   end function squared_residual
+   end subroutine add_yielding
 
    !> Return map of an element
    pure type(yield_point) function returned(problem, length, ix, iy, before, r) result(point)

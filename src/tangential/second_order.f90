@@ -284,7 +284,7 @@ contains
    pure subroutine centre_slip(self, contact, slips, direction, slip)
       class(second_order), intent(in) :: self
       !> Elements in contact, and those in slip, shape (mx, my)
-      logical, intent(in) :: contact(:, :), slips(:, :)
+      logical, contiguous, intent(in) :: contact(:, :), slips(:, :)
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
       !> On entry half a step ahead [mm], shape (mx, my, 2)
@@ -299,7 +299,7 @@ contains
          do ix = 1, size(contact, 1)
             if (.not. slips(ix, iy)) cycle
             w = ahead(ix, iy, :)
-            mean = mean_slip(contact, direction, ahead, ix, iy)
+            mean = mean_slip(size(contact, 1), size(contact, 2), contact, direction, ahead, ix, iy)
             if (.not. any(abs(w) > 0.0_wp)) cycle
             turn = [1.0_wp, 0.0_wp]
             if (self%turns) turn = turn_between(w, mean%value)

@@ -8,31 +8,33 @@ module contact_tangential_slip_turns
    implicit none (type, external)
    private
 
-   public :: acting_slip, local_mean, mean_slip, slip_turns, turn_between
+   public :: local_mean, mean_slip, slip_turns, turn_between, turned_residual
 
    !> Derivative of the acting slip by the slip, in elements where it is not the identity: the weight and the turn, and the
    !> change of the angle by the slip of the element and of its neighbours along the row
    type :: slip_turns
-      !> How many elements; columns of the neighbour behind, of the element and of the neighbour ahead, that of the element
-      !> where there is none, and row; shape (4, mx my)
-      integer :: n = 0
+      !> Elements of the window, and how many of them are here
+      integer :: window = 0, n = 0
+      !> Numbers in the window, counted row by row, of the neighbour behind, of the element and of the neighbour ahead, that of the
+      !> element where there is none; shape (3, window)
       integer, allocatable :: at(:, :)
-      !> Weight times cosine and sine of the turn [-]; what the acting slip changes by per angle [mm]; shape (2, mx my)
+      !> Weight times cosine and sine of the turn [-]; what the acting slip changes by per angle [mm]; shape (2, window)
       real(wp), allocatable :: row(:, :), across(:, :)
       !> The same for the way back: the row over its square, and what the slip changes by per angle, without weight and turn
       real(wp), allocatable :: back(:, :), bare(:, :)
-      !> The angle per slip behind, here and ahead [1/mm], shape (2, 3, mx my)
+      !> The angle per slip behind, here and ahead [1/mm], shape (2, 3, window)
       real(wp), allocatable :: by(:, :, :)
       !> Elimination of the angles, a tridiagonal system for each row: factors of the former one and of the next, and of the
-      !> right-hand side, shape (mx my)
+      !> right-hand side, shape (window)
       real(wp), allocatable :: former(:), next(:), pivot(:)
-      !> Scratch: changes of the angles, shape (mx my)
+      !> Scratch: changes of the angles, shape (window)
       real(wp), allocatable :: angle(:)
       !> Is the transposed derivative in use, of a contact that is turned by half a turn?
       logical :: is_transposed = .false.
    contains
-      !> Derivative at a slip, and the acting slip there
+      !> Derivative at a slip
       procedure :: linearise => linearise_turns
+      !> Slip into acting slip, at that of the derivative
       procedure :: act
       !> Change of slip into change of acting slip, and back
       procedure :: apply, invert
@@ -93,174 +95,183 @@ contains
          & + apart*((slip(1) - mean(1))**2 + (slip(2) - mean(2))**2)**2)
    end function product_of_lengths
 
-   !> Derivatives of the angle of the turn by the slip and by its mean
-   pure subroutine differentiate_turn(slip, mean, by_slip, by_mean)
-      !> As in turn_between, not both zero
+   !> The turn again, and derivatives of its angle by the slip and by its mean
+   pure subroutine differentiate_turn(slip, mean, length, turn, by_slip, by_mean)
+      !> As in turn_between
       real(wp), intent(in) :: slip(2), mean(2)
+      !> Their product of lengths [mm2], positive
+      real(wp), intent(in) :: length
+      !> Cosine and sine [-]
+      real(wp), intent(out) :: turn(2)
       !> [1/mm]
       real(wp), intent(out) :: by_slip(2), by_mean(2)
-      real(wp) :: length, sine, cosine, half, factor, pull(2)
+      real(wp) :: sine, cosine, half, factor, pull(2), scale
 
-      length = product_of_lengths(slip, mean)
-      sine = (slip(1)*mean(2) - slip(2)*mean(1))/length
-      cosine = (slip(1)*mean(1) + slip(2)*mean(2))/length
+      scale = 1.0_wp/length
+      sine = (slip(1)*mean(2) - slip(2)*mean(1))*scale
+      cosine = (slip(1)*mean(1) + slip(2)*mean(2))*scale
       half = 0.25_wp*sine*(1.0_wp + cosine)
       ! those of the cross and the dot product; then of the length, by which sine and cosine fall
-      by_slip = (1.0_wp + cosine)*[mean(2), -mean(1)] + sine*mean
-      by_mean = (1.0_wp + cosine)*[-slip(2), slip(1)] + sine*slip
-      factor = sine*(1.0_wp + 2.0_wp*cosine)/length
-      pull = 2.0_wp*apart*sum((slip - mean)**2)*(slip - mean)
-      by_slip = by_slip - factor*(sum(mean**2)*slip + pull)
-      by_mean = by_mean - factor*(sum(slip**2)*mean - pull)
-      factor = 0.5_wp/(length*(1.0_wp + half**2))
+      factor = sine*(1.0_wp + 2.0_wp*cosine)*scale
+      pull = 2.0_wp*apart*((slip(1) - mean(1))**2 + (slip(2) - mean(2))**2)*(slip - mean)
+      by_slip = (1.0_wp + cosine)*[mean(2), -mean(1)] + sine*mean - factor*((mean(1)**2 + mean(2)**2)*slip + pull)
+      by_mean = (1.0_wp + cosine)*[-slip(2), slip(1)] + sine*slip - factor*((slip(1)**2 + slip(2)**2)*mean - pull)
+      factor = 1.0_wp/(1.0_wp + half**2)
+      turn = [1.0_wp - half**2, 2.0_wp*half]*factor
+      factor = 0.5_wp*scale*factor
       by_slip = factor*by_slip
       by_mean = factor*by_mean
    end subroutine differentiate_turn
 
-   !> Slip of an element as the contact conditions see it: weighted, and turned where it slips [mm]
-   pure function acting_slip(weight, is_turned, contact, direction, p, bound, slip, r, ix, iy) result(w)
-      !> Weights of the rows of the equations [-], shape (mx, my)
-      real(wp), intent(in) :: weight(:, :)
+   !> Sum of |p - P_g(p - r S)|**2 over the contact, S the acting slip: weighted, and turned in elements that slip [(N/mm2)2]
+   pure real(wp) function turned_residual(mx, my, weight, is_turned, contact, direction, p, bound, slip, r) result(total)
+      !> Size of the window
+      integer, intent(in) :: mx, my
+      !> Weights of the rows of the equations [-]
+      real(wp), intent(in) :: weight(mx, my)
       !> Is slip turned?
       logical, intent(in) :: is_turned
-      !> Elements in contact, shape (mx, my)
-      logical, intent(in) :: contact(:, :)
+      !> Elements in contact
+      logical, intent(in) :: contact(mx, my)
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
-      !> Tractions [N/mm2], shape (mx, my, 2), and their bound, shape (mx, my)
-      real(wp), intent(in) :: p(:, :, :), bound(:, :)
-      !> Slip per step [mm], shape (mx, my, 2), and its scale [(N/mm2)/mm]
-      real(wp), intent(in) :: slip(:, :, :), r
-      !> Its column and row
-      integer, intent(in) :: ix, iy
-      real(wp) :: w(2)
+      !> Tractions, and their bound [N/mm2]
+      real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
+      !> Slip per step [mm], and its scale [(N/mm2)/mm]
+      real(wp), intent(in) :: slip(mx, my, 2), r
       type(local_mean) :: mean
-      real(wp) :: turn(2)
+      real(wp) :: w(2), z(2), turn(2), square
+      integer :: ix, iy
 
-      w = weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
-      if (.not. is_turned) return
-      if (.not. leaves_disc([p(ix, iy, 1), p(ix, iy, 2)], w, bound(ix, iy), r)) return
-      mean = mean_slip(contact, direction, slip, ix, iy)
-      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
-      w = [turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
-   end function acting_slip
+      total = 0.0_wp
+      do iy = 1, my
+         do ix = 1, mx
+            if (.not. contact(ix, iy)) cycle
+            w = r*weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
+            z = [p(ix, iy, 1) - w(1), p(ix, iy, 2) - w(2)]
+            square = z(1)**2 + z(2)**2
+            if (square <= bound(ix, iy)**2) then
+               total = total + (w(1)**2 + w(2)**2)
+               cycle
+            end if
+            if (is_turned) then
+               mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
+               turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
+               z = [p(ix, iy, 1) - (turn(1)*w(1) - turn(2)*w(2)), p(ix, iy, 2) - (turn(2)*w(1) + turn(1)*w(2))]
+               square = z(1)**2 + z(2)**2
+            end if
+            if (square > bound(ix, iy)**2) z = z*(bound(ix, iy)/sqrt(square))
+            total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
+         end do
+      end do
+   end function turned_residual
 
-   !> Does an element slip? Its traction less its slip lies outside of the disc of its bound
-   pure logical function leaves_disc(p, slip, bound, r) result(leaves)
-      !> Traction and bound [N/mm2], weighted slip [mm] and its scale [(N/mm2)/mm]
-      real(wp), intent(in) :: p(2), slip(2), bound, r
-
-      leaves = (p(1) - r*slip(1))**2 + (p(2) - r*slip(2))**2 > bound**2
-   end function leaves_disc
-
-   subroutine linearise_turns(self, weight, is_turned, contact, direction, p, bound, slip, r)
+   subroutine linearise_turns(self, mx, my, weight, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
-      !> Weights of the rows of the equations [-], shape (mx, my)
-      real(wp), intent(in) :: weight(:, :)
-      !> Is slip turned?
+      !> As in turned_residual
+      integer, intent(in) :: mx, my
+      real(wp), intent(in) :: weight(mx, my)
       logical, intent(in) :: is_turned
-      !> Elements in contact, shape (mx, my)
-      logical, intent(in) :: contact(:, :)
-      !> Rolling towards increasing (+1) or decreasing (-1) x
+      logical, intent(in) :: contact(mx, my)
       integer, intent(in) :: direction
-      !> Tractions [N/mm2], shape (mx, my, 2), and their bound, shape (mx, my)
-      real(wp), intent(in) :: p(:, :, :), bound(:, :)
-      !> Slip per step [mm], shape (mx, my, 2), and its scale [(N/mm2)/mm]
-      real(wp), intent(in) :: slip(:, :, :), r
-      integer :: ix, iy, k, most
+      real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
+      real(wp), intent(in) :: slip(mx, my, 2), r
+      real(wp) :: factor
+      integer :: ix, iy, k
       logical :: slips
 
-      most = size(contact)
-      if (allocated(self%at)) then
-         if (size(self%at, 2) /= most) deallocate(self%at, self%row, self%across, self%back, self%bare, self%by, self%former, &
-            & self%next, self%pivot, self%angle)
-      end if
-      if (.not. allocated(self%at)) then
-         allocate(self%at(4, most), self%by(2, 3, most))
-         allocate(self%row(2, most), self%across(2, most), self%back(2, most), self%bare(2, most))
-         allocate(self%former(most), self%next(most), self%pivot(most), self%angle(most))
-      end if
-      self%n = 0
-      self%is_transposed = .false.
-      do iy = 1, size(contact, 2)
-         do ix = 1, size(contact, 1)
+      call fit_turns(self, mx*my)
+      k = 0
+      do iy = 1, my
+         do ix = 1, mx
             if (.not. contact(ix, iy)) cycle
-            slips = is_turned
-            if (slips) slips = leaves_disc([p(ix, iy, 1), p(ix, iy, 2)], weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)], &
-               & bound(ix, iy), r)
+            factor = r*weight(ix, iy)
+            slips = is_turned .and. (p(ix, iy, 1) - factor*slip(ix, iy, 1))**2 &
+               & + (p(ix, iy, 2) - factor*slip(ix, iy, 2))**2 > bound(ix, iy)**2
             if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
-            k = self%n + 1
-            self%n = k
-            self%at(:, k) = [ix, ix, ix, iy]
+            k = k + 1
+            self%at(:, k) = ix + mx*(iy - 1)
             self%row(:, k) = [weight(ix, iy), 0.0_wp]
             self%across(:, k) = 0.0_wp
             self%by(:, :, k) = 0.0_wp
-            if (slips) call linearise_element(self, contact, direction, slip, k)
+            if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
+               & self%across(:, k), self%by(:, :, k))
+            factor = 1.0_wp/weight(ix, iy)**2
+            self%back(:, k) = factor*self%row(:, k)
+            self%bare(1, k) = self%back(1, k)*self%across(1, k) + self%back(2, k)*self%across(2, k)
+            self%bare(2, k) = self%back(1, k)*self%across(2, k) - self%back(2, k)*self%across(1, k)
          end do
       end do
-      do k = 1, self%n
-         associate (row => self%row(:, k), across => self%across(:, k))
-            self%back(:, k) = row/(row(1)**2 + row(2)**2)
-            self%bare(1, k) = self%back(1, k)*across(1) + self%back(2, k)*across(2)
-            self%bare(2, k) = self%back(1, k)*across(2) - self%back(2, k)*across(1)
-         end associate
-      end do
+      self%n = k
       call eliminate(self)
    end subroutine linearise_turns
 
-   !> slip := acting slip
+   !> Arrays for a window of so many elements
+   subroutine fit_turns(self, window)
+      class(slip_turns), intent(inout) :: self
+      integer, intent(in) :: window
+
+      self%is_transposed = .false.
+      if (self%window == window) return
+      if (allocated(self%at)) deallocate(self%at, self%row, self%across, self%back, self%bare, self%by, self%former, &
+         & self%next, self%pivot, self%angle)
+      allocate(self%at(3, window), self%by(2, 3, window))
+      allocate(self%row(2, window), self%across(2, window), self%back(2, window), self%bare(2, window))
+      allocate(self%former(window), self%next(window), self%pivot(window), self%angle(window))
+      self%window = window
+   end subroutine fit_turns
+
    pure subroutine act(self, slip)
       class(slip_turns), intent(in) :: self
-      !> That of the derivative [mm], shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      !> That of the derivative [mm]
+      real(wp), intent(inout) :: slip(self%window, 2)
       real(wp) :: x
       integer :: k
 
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k))
-            x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = self%row(1, k)*x - self%row(2, k)*slip(ix, iy, 2)
-            slip(ix, iy, 2) = self%row(2, k)*x + self%row(1, k)*slip(ix, iy, 2)
+         associate (i => self%at(2, k), row => self%row(:, k))
+            x = slip(i, 1)
+            slip(i, 1) = row(1)*x - row(2)*slip(i, 2)
+            slip(i, 2) = row(2)*x + row(1)*slip(i, 2)
          end associate
       end do
    end subroutine act
 
    !> Turn of an element in slip, and what it changes by
-   pure subroutine linearise_element(self, contact, direction, slip, k)
-      class(slip_turns), intent(inout) :: self
-      !> As in linearise_turns
-      logical, intent(in) :: contact(:, :)
+   pure subroutine linearise_element(mx, my, contact, direction, slip, ix, iy, at, row, across, by)
+      !> As in turned_residual
+      integer, intent(in) :: mx, my
+      logical, intent(in) :: contact(mx, my)
       integer, intent(in) :: direction
-      real(wp), intent(in) :: slip(:, :, :)
-      !> Number of the element, whose place is known
-      integer, intent(in) :: k
+      real(wp), intent(in) :: slip(mx, my, 2)
+      !> The element
+      integer, intent(in) :: ix, iy
+      !> Of the element, see slip_turns; those without a turn on entry
+      integer, intent(inout) :: at(3)
+      real(wp), intent(inout) :: row(2), across(2), by(2, 3)
       type(local_mean) :: mean
-      real(wp) :: w(2), next(2), by_slip(2), to_mean(2), bend
+      real(wp) :: w(2), behind(2), next(2), turn(2), by_slip(2), to_mean(2), bend, length
 
-      associate (ix => self%at(2, k), iy => self%at(4, k))
-         mean = mean_slip(contact, direction, slip, ix, iy)
-         w = slip(ix, iy, :)
-         next = slip(mean%ahead, iy, :)
-      end associate
-      if (.not. product_of_lengths(w, mean%value) > 0.0_wp) return
-      self%at(1, k) = mean%behind
-      self%at(3, k) = mean%ahead
-      self%row(:, k) = self%row(1, k)*turn_between(w, mean%value)
-      associate (row => self%row(:, k))
-         self%across(:, k) = [-row(2)*w(1) - row(1)*w(2), row(1)*w(1) - row(2)*w(2)]
-      end associate
-      call differentiate_turn(w, mean%value, by_slip, to_mean)
-      self%by(:, 1, k) = mean%share(1)*to_mean
-      self%by(:, 2, k) = mean%share(2)*to_mean + by_slip
-      self%by(:, 3, k) = mean%share(3)*to_mean
+      mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
+      w = [slip(ix, iy, 1), slip(ix, iy, 2)]
+      length = product_of_lengths(w, mean%value)
+      if (.not. length > 0.0_wp) return
+      call differentiate_turn(w, mean%value, length, turn, by_slip, to_mean)
+      at(1) = mean%behind + mx*(iy - 1)
+      at(3) = mean%ahead + mx*(iy - 1)
+      row = row(1)*turn
+      across = [-row(2)*w(1) - row(1)*w(2), row(1)*w(1) - row(2)*w(2)]
+      by(:, 1) = mean%share(1)*to_mean
+      by(:, 2) = mean%share(2)*to_mean + by_slip
+      by(:, 3) = mean%share(3)*to_mean
       if (mean%of_two <= 0.0_wp .or. mean%of_two >= 1.0_wp) return
       ! the share of the mean of two, of which s (1 - s) is the derivative by the logarithm of the ratio of both squares
-      associate (iy => self%at(4, k))
-         bend = 2.0_wp*mean%of_two*(1.0_wp - mean%of_two)*sum(to_mean*((by_two(1) - by_three(1))*slip(mean%behind, iy, :) &
-            & + (by_two(2) - by_three(2))*w + (by_two(3) - by_three(3))*next))
-      end associate
-      self%by(:, 2, k) = self%by(:, 2, k) + bend/sum(w**2)*w
-      self%by(:, 3, k) = self%by(:, 3, k) - bend/sum(next**2)*next
+      behind = [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)]
+      next = [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)]
+      behind = to_mean*((by_two(1) - by_three(1))*behind + (by_two(2) - by_three(2))*w + (by_two(3) - by_three(3))*next)
+      bend = 2.0_wp*mean%of_two*(1.0_wp - mean%of_two)*(behind(1) + behind(2))
+      by(:, 2) = by(:, 2) + bend/(w(1)**2 + w(2)**2)*w
+      by(:, 3) = by(:, 3) - bend/(next(1)**2 + next(2)**2)*next
    end subroutine linearise_element
 
    !> Factors for `invert`
@@ -288,7 +299,6 @@ contains
       integer :: side
 
       change = 0.0_wp
-      if (self%at(4, j) /= self%at(4, k)) return
       do side = 1, 3
          if (self%at(side, k) == self%at(2, j)) change = change + self%by(1, side, k)*self%bare(1, j) &
             & + self%by(2, side, k)*self%bare(2, j)
@@ -298,14 +308,13 @@ contains
    !> self%angle := changes of the angles by a field of slip
    pure subroutine find_angles(self, slip)
       class(slip_turns), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: slip(:, :, :)
+      real(wp), intent(in) :: slip(self%window, 2)
       integer :: k
 
       do k = 1, self%n
          associate (at => self%at(:, k), by => self%by(:, :, k))
-            self%angle(k) = by(1, 1)*slip(at(1), at(4), 1) + by(2, 1)*slip(at(1), at(4), 2) &
-               & + by(1, 2)*slip(at(2), at(4), 1) + by(2, 2)*slip(at(2), at(4), 2) &
-               & + by(1, 3)*slip(at(3), at(4), 1) + by(2, 3)*slip(at(3), at(4), 2)
+            self%angle(k) = by(1, 1)*slip(at(1), 1) + by(2, 1)*slip(at(1), 2) + by(1, 2)*slip(at(2), 1) &
+               & + by(2, 2)*slip(at(2), 2) + by(1, 3)*slip(at(3), 1) + by(2, 3)*slip(at(3), 2)
          end associate
       end do
    end subroutine find_angles
@@ -313,14 +322,14 @@ contains
    !> slip := slip + what self%angle has to do with the slip behind, here and ahead
    pure subroutine add_by_angles(self, slip)
       class(slip_turns), intent(in) :: self
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      real(wp), intent(inout) :: slip(self%window, 2)
       integer :: j, k
 
       do k = 1, self%n
          do j = 1, 3
-            associate (ix => self%at(j, k), iy => self%at(4, k))
-               slip(ix, iy, 1) = slip(ix, iy, 1) + self%angle(k)*self%by(1, j, k)
-               slip(ix, iy, 2) = slip(ix, iy, 2) + self%angle(k)*self%by(2, j, k)
+            associate (i => self%at(j, k))
+               slip(i, 1) = slip(i, 1) + self%angle(k)*self%by(1, j, k)
+               slip(i, 2) = slip(i, 2) + self%angle(k)*self%by(2, j, k)
             end associate
          end do
       end do
@@ -328,34 +337,34 @@ contains
 
    pure subroutine apply(self, slip)
       class(slip_turns), intent(inout) :: self
-      !> [mm], shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      !> [mm]
+      real(wp), intent(inout) :: slip(self%window, 2)
       real(wp) :: x
       integer :: k
 
       call find_angles(self, slip)
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k), row => self%row(:, k))
-            x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = row(1)*x - row(2)*slip(ix, iy, 2) + self%angle(k)*self%across(1, k)
-            slip(ix, iy, 2) = row(2)*x + row(1)*slip(ix, iy, 2) + self%angle(k)*self%across(2, k)
+         associate (i => self%at(2, k), row => self%row(:, k))
+            x = slip(i, 1)
+            slip(i, 1) = row(1)*x - row(2)*slip(i, 2) + self%angle(k)*self%across(1, k)
+            slip(i, 2) = row(2)*x + row(1)*slip(i, 2) + self%angle(k)*self%across(2, k)
          end associate
       end do
    end subroutine apply
 
    pure subroutine apply_transposed(self, slip)
       class(slip_turns), intent(inout) :: self
-      !> Shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      !> A field of the window
+      real(wp), intent(inout) :: slip(self%window, 2)
       real(wp) :: x
       integer :: k
 
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k), row => self%row(:, k))
-            x = slip(ix, iy, 1)
-            self%angle(k) = self%across(1, k)*x + self%across(2, k)*slip(ix, iy, 2)
-            slip(ix, iy, 1) = row(1)*x + row(2)*slip(ix, iy, 2)
-            slip(ix, iy, 2) = row(1)*slip(ix, iy, 2) - row(2)*x
+         associate (i => self%at(2, k), row => self%row(:, k))
+            x = slip(i, 1)
+            self%angle(k) = self%across(1, k)*x + self%across(2, k)*slip(i, 2)
+            slip(i, 1) = row(1)*x + row(2)*slip(i, 2)
+            slip(i, 2) = row(1)*slip(i, 2) - row(2)*x
          end associate
       end do
       call add_by_angles(self, slip)
@@ -363,46 +372,45 @@ contains
 
    pure subroutine invert(self, slip)
       class(slip_turns), intent(inout) :: self
-      !> [mm], shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      !> [mm]
+      real(wp), intent(inout) :: slip(self%window, 2)
       real(wp) :: other, x
       integer :: k
 
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k), back => self%back(:, k))
-            x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = back(1)*x + back(2)*slip(ix, iy, 2)
-            slip(ix, iy, 2) = back(1)*slip(ix, iy, 2) - back(2)*x
+         associate (i => self%at(2, k), back => self%back(:, k))
+            x = slip(i, 1)
+            slip(i, 1) = back(1)*x + back(2)*slip(i, 2)
+            slip(i, 2) = back(1)*slip(i, 2) - back(2)*x
          end associate
       end do
       call find_angles(self, slip)
       other = 0.0_wp
       do k = 1, self%n
-         self%angle(k) = (self%angle(k) - self%former(k)*other)*self%pivot(k)
-         other = self%angle(k)
+         other = (self%angle(k) - self%former(k)*other)*self%pivot(k)
+         self%angle(k) = other
       end do
       other = 0.0_wp
       do k = self%n, 1, -1
-         self%angle(k) = self%angle(k) - self%next(k)*other
-         other = self%angle(k)
-         associate (ix => self%at(2, k), iy => self%at(4, k))
-            slip(ix, iy, 1) = slip(ix, iy, 1) - self%angle(k)*self%bare(1, k)
-            slip(ix, iy, 2) = slip(ix, iy, 2) - self%angle(k)*self%bare(2, k)
+         other = self%angle(k) - self%next(k)*other
+         associate (i => self%at(2, k))
+            slip(i, 1) = slip(i, 1) - other*self%bare(1, k)
+            slip(i, 2) = slip(i, 2) - other*self%bare(2, k)
          end associate
       end do
    end subroutine invert
 
    pure subroutine invert_transposed(self, slip)
       class(slip_turns), intent(inout) :: self
-      !> Shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      !> A field of the window
+      real(wp), intent(inout) :: slip(self%window, 2)
       real(wp) :: other, x
       integer :: k
 
       other = 0.0_wp
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k))
-            self%angle(k) = self%bare(1, k)*slip(ix, iy, 1) + self%bare(2, k)*slip(ix, iy, 2)
+         associate (i => self%at(2, k))
+            self%angle(k) = self%bare(1, k)*slip(i, 1) + self%bare(2, k)*slip(i, 2)
          end associate
          if (k > 1) self%angle(k) = self%angle(k) - self%next(k - 1)*other
          other = self%angle(k)
@@ -416,34 +424,30 @@ contains
       self%angle(:self%n) = -self%angle(:self%n)
       call add_by_angles(self, slip)
       do k = 1, self%n
-         associate (ix => self%at(2, k), iy => self%at(4, k), back => self%back(:, k))
-            x = slip(ix, iy, 1)
-            slip(ix, iy, 1) = back(1)*x - back(2)*slip(ix, iy, 2)
-            slip(ix, iy, 2) = back(1)*slip(ix, iy, 2) + back(2)*x
+         associate (i => self%at(2, k), back => self%back(:, k))
+            x = slip(i, 1)
+            slip(i, 1) = back(1)*x - back(2)*slip(i, 2)
+            slip(i, 2) = back(1)*slip(i, 2) + back(2)*x
          end associate
       end do
    end subroutine invert_transposed
 
-   subroutine turn_turns_round(self, mx, my)
+   subroutine turn_turns_round(self)
       class(slip_turns), intent(inout) :: self
-      !> Size of the window
-      integer, intent(in) :: mx, my
 
-      self%at(1:3, :self%n) = mx + 1 - self%at(1:3, :self%n)
-      self%at(4, :self%n) = my + 1 - self%at(4, :self%n)
+      self%at(:, :self%n) = self%window + 1 - self%at(:, :self%n)
       self%is_transposed = .true.
    end subroutine turn_turns_round
 
    !> Mean of the slip over an element
    !>
    !> At the border of adhesion, where nothing slips ahead, it is that of two; else that by three, with a smooth transition.
-   pure type(local_mean) function mean_slip(contact, direction, slip, ix, iy) result(mean)
-      !> Elements in contact, shape (mx, my)
-      logical, intent(in) :: contact(:, :)
-      !> Rolling towards increasing (+1) or decreasing (-1) x
+   pure type(local_mean) function mean_slip(mx, my, contact, direction, slip, ix, iy) result(mean)
+      !> As in turned_residual
+      integer, intent(in) :: mx, my
+      logical, intent(in) :: contact(mx, my)
       integer, intent(in) :: direction
-      !> Slip per step [mm], shape (mx, my, 2)
-      real(wp), intent(in) :: slip(:, :, :)
+      real(wp), intent(in) :: slip(mx, my, 2)
       !> The element
       integer, intent(in) :: ix, iy
       logical :: has_behind, has_ahead
@@ -452,9 +456,9 @@ contains
 
       behind = ix - direction
       ahead = ix + direction
-      has_behind = behind >= 1 .and. behind <= size(contact, 1)
+      has_behind = behind >= 1 .and. behind <= mx
       if (has_behind) has_behind = contact(behind, iy)
-      has_ahead = ahead >= 1 .and. ahead <= size(contact, 1)
+      has_ahead = ahead >= 1 .and. ahead <= mx
       if (has_ahead) has_ahead = contact(ahead, iy)
       if (.not. has_behind) behind = ix
       if (.not. has_ahead) ahead = ix
