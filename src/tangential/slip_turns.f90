@@ -168,13 +168,19 @@ contains
 
    subroutine linearise_turns(self, mx, my, weight, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
-      !> As in turned_residual
+      !> Size of the window
       integer, intent(in) :: mx, my
+      !> Weights of the rows of the equations [-]
       real(wp), intent(in) :: weight(mx, my)
+      !> Is slip turned?
       logical, intent(in) :: is_turned
+      !> Elements in contact
       logical, intent(in) :: contact(mx, my)
+      !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
+      !> Tractions, and their bound [N/mm2]
       real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
+      !> Slip per step [mm], and its scale [(N/mm2)/mm]
       real(wp), intent(in) :: slip(mx, my, 2), r
       real(wp) :: factor
       integer :: ix, iy, k
@@ -443,10 +449,13 @@ contains
    !>
    !> At the border of adhesion, where nothing slips ahead, it is that of two; else that by three, with a smooth transition.
    pure type(local_mean) function mean_slip(mx, my, contact, direction, slip, ix, iy) result(mean)
-      !> As in turned_residual
+      !> Size of the window
       integer, intent(in) :: mx, my
+      !> Elements in contact
       logical, intent(in) :: contact(mx, my)
+      !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
+      !> Slip per step [mm]
       real(wp), intent(in) :: slip(mx, my, 2)
       !> The element
       integer, intent(in) :: ix, iy
