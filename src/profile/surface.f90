@@ -443,7 +443,7 @@ contains
    end subroutine on_line
 
    !> Height z of the visible point at y, dz/dy and dz/du
-   pure subroutine at(self, y, z, z_y, z_u, found, piece)
+   pure subroutine at(self, y, z, z_y, z_u, found, piece, z_yy, z_uy)
       class(surface_cut), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
@@ -453,24 +453,34 @@ contains
       logical, intent(out) :: found
       !> Piece of the section that is looked at first, and the one that holds the point
       integer, intent(inout) :: piece
-      real(wp) :: across, y_u, t
+      !> How both derivatives change along y, per mm
+      real(wp), intent(out), optional :: z_yy, z_uy
+      real(wp) :: across, y_u, t, bend
 
       z = 0.0_wp
       z_y = 0.0_wp
       z_u = 0.0_wp
+      if (present(z_yy)) z_yy = 0.0_wp
+      if (present(z_uy)) z_uy = 0.0_wp
       found = self%present
       if (found) call self%curve%locate(y, piece, t, found)
       if (.not. found) return
       ! all four functions have the same pieces
       associate (cy => self%curve%y%c, cz => self%curve%z%c, cy_u => self%y_u%c, cz_u => self%z_u%c)
          across = cy(1, piece) + t*(2.0_wp*cy(2, piece) + t*3.0_wp*cy(3, piece))
+         across = sign(max(abs(across), vertical), across)
          z = cz(0, piece) + t*(cz(1, piece) + t*(cz(2, piece) + t*cz(3, piece)))
-         z_y = cz(1, piece) + t*(2.0_wp*cz(2, piece) + t*3.0_wp*cz(3, piece))
+         z_y = (cz(1, piece) + t*(2.0_wp*cz(2, piece) + t*3.0_wp*cz(3, piece)))/across
          z_u = cz_u(0, piece) + t*(cz_u(1, piece) + t*(cz_u(2, piece) + t*cz_u(3, piece)))
          y_u = cy_u(0, piece) + t*(cy_u(1, piece) + t*(cy_u(2, piece) + t*cy_u(3, piece)))
+         z_u = z_u - z_y*y_u
+         if (.not. (present(z_yy) .and. present(z_uy))) return
+         ! derivatives along the section, over dy/ds
+         bend = 2.0_wp*(cz(2, piece) + t*3.0_wp*cz(3, piece) - z_y*(cy(2, piece) + t*3.0_wp*cy(3, piece)))
+         z_yy = bend/across**2
+         z_uy = (cz_u(1, piece) + t*(2.0_wp*cz_u(2, piece) + t*3.0_wp*cz_u(3, piece)) &
+            & - z_y*(cy_u(1, piece) + t*(2.0_wp*cy_u(2, piece) + t*3.0_wp*cy_u(3, piece))))/across - z_yy*y_u
       end associate
-      z_y = z_y/sign(max(abs(across), vertical), across)
-      z_u = z_u - z_y*y_u
    end subroutine at
 
    !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 where there is none

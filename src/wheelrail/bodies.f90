@@ -21,8 +21,8 @@ module contact_wheelrail_bodies
    type :: known_point
       !> Lateral position [mm]; none yet
       real(wp) :: y = huge(1.0_wp)
-      !> Height [mm], its derivatives across [-] and along the mesh, per mm or rad
-      real(wp) :: z = 0.0_wp, z_y = 0.0_wp, z_u = 0.0_wp
+      !> Height [mm], its derivatives across [-] and along the mesh, per mm or rad, and how these change across
+      real(wp) :: z = 0.0_wp, z_y = 0.0_wp, z_u = 0.0_wp, z_yy = 0.0_wp, z_uy = 0.0_wp
    end type known_point
 
    !> Sections on an even mesh
@@ -267,12 +267,13 @@ contains
       if (.not. found) return
       z = low%z*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high%z*t**2*(3.0_wp - 2.0_wp*t) &
          & + self%step*t*(1.0_wp - t)*(low%z_u*(1.0_wp - t) - high%z_u*t)
-      z_y = (1.0_wp - t)*low%z_y + t*high%z_y
+      z_y = low%z_y*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high%z_y*t**2*(3.0_wp - 2.0_wp*t) &
+         & + self%step*t*(1.0_wp - t)*(low%z_uy*(1.0_wp - t) - high%z_uy*t)
       if (present(z_place)) z_place = 6.0_wp*t*(1.0_wp - t)*(high%z - low%z)/self%step &
          & + low%z_u*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high%z_u*t*(2.0_wp - 3.0_wp*t)
    end subroutine strip_at
 
-   !> The point of a section; very near the one that was found last along its tangent
+   !> The point of a section; near the one that was found last along its parabola
    subroutine find_on_section(self, number, y, point, found)
       type(strip), intent(inout) :: self
       !> Number of the section, from 1
@@ -282,17 +283,21 @@ contains
       type(known_point), intent(out) :: point
       !> Is there such a point?
       logical, intent(out) :: found
-      !> As far as this [mm] a tangent is the curve: what bends leave is a millionth of a millionth of a millimetre
-      real(wp), parameter :: nearness = 2.0e-6_wp
+      !> As far as this [mm] a parabola is the curve: what is left is some millionths of a millionth of a millimetre
+      real(wp), parameter :: nearness = 2.0e-4_wp
+      real(wp) :: way
 
       point = self%known(number)
-      found = abs(y - point%y) <= nearness
+      way = y - point%y
+      found = abs(way) <= nearness
       if (found) then
-         point%z = point%z + (y - point%y)*point%z_y
+         point%z = point%z + way*(point%z_y + 0.5_wp*way*point%z_yy)
+         point%z_y = point%z_y + way*point%z_yy
+         point%z_u = point%z_u + way*point%z_uy
          return
       end if
       call self%need(number)
-      call self%sections(number)%at(y, point%z, point%z_y, point%z_u, found, self%piece(number))
+      call self%sections(number)%at(y, point%z, point%z_y, point%z_u, found, self%piece(number), point%z_yy, point%z_uy)
       if (.not. found) return
       point%y = y
       self%known(number) = point
@@ -396,10 +401,10 @@ contains
       real(wp), intent(inout) :: place, n
       !> Does the line along n meet the wheel?
       logical, intent(out) :: found
-      real(wp) :: base(3), q(3), k(3), rho, z, z_y, z_around, correction
+      real(wp) :: base(3), q(3), k(3), rho, z, z_y, z_around, around, correction
       integer :: step
-      !> Of a step [mm]: what remains after Newton's method is a thousandth of it at most
-      real(wp), parameter :: tolerance = 1.0e-6_wp
+      !> Way along the surface in a step of Newton's method [mm]: what remains is its square over the radius of the surface
+      real(wp), parameter :: short_way = 3.0e-5_wp
 
       associate (radius => bodies%placement%wheel_radius)
          if (.not. allocated(bodies%wheel_strip)) then
@@ -414,9 +419,10 @@ contains
             call bodies%wheel_strip%at(atan2(q(1), q(3)), q(2), z, z_y, found, z_around)
             if (.not. found) return
             ! radius + z - rho = 0
-            correction = (radius + z - rho)/((k(1)*q(1) + k(3)*q(3))/rho - z_y*k(2) - z_around*(k(1)*q(3) - k(3)*q(1))/rho**2)
+            around = (k(1)*q(3) - k(3)*q(1))/rho
+            correction = (radius + z - rho)/((k(1)*q(1) + k(3)*q(3))/rho - z_y*k(2) - z_around*around/rho)
             n = n + correction
-            if (abs(correction) <= tolerance) return
+            if (abs(correction)*hypot(k(2), around) <= short_way) return
          end do
          found = .false.
       end associate
