@@ -13,7 +13,7 @@ from contact import _library
 from contact.study import _dataset, _engine, _study, sample, save, span
 from contact.study._parts import numbers_of, places
 from contact.study._scene import Scene
-from contact.study._store import FILE, Store
+from contact.study._store import FILE, Store, distinct
 
 SLIPS = {"kinematics.cksi": [0.0, 0.002, -0.005], "kinematics.cphi": [0.0, 0.0004]}
 PAIR = EXAMPLES / "wheel_on_rail.toml"
@@ -28,6 +28,17 @@ def same(one, other, names=None):
             assert one[name].values.tobytes() == other[name].values.tobytes(), name
         elif name not in ("reason", "reasons"):
             np.testing.assert_array_equal(one[name].values, other[name].values)
+
+
+@pytest.mark.parametrize("count, kinds", [(0, 2), (1, 2), (500, 2), (500, 20), (500, 2**63)])
+def test_keys_that_are_equal(count, kinds):
+    """First places and numbers of keys, as numpy finds them by another way"""
+    keys = np.random.default_rng(2).integers(0, kinds, (count, 2)).astype(np.uint64)
+    first, inverse = distinct(keys)
+    if count:
+        np.testing.assert_array_equal(first, np.sort(np.unique(keys, axis=0, return_index=True)[1]))
+    assert first.shape == (0,) or (np.diff(first) > 0).all()
+    np.testing.assert_array_equal(keys[first][inverse], keys)
 
 
 def test_totals_are_those_of_the_objects():

@@ -16,7 +16,7 @@ from ..errors import ContactError
 from ._batch import Column
 from ._scene import Scene
 from ._space import Space, Values
-from ._store import Keys, Places, Store
+from ._store import Keys, Places, Store, distinct
 from ._task import Done
 
 #: Values of the variable status
@@ -76,7 +76,7 @@ class Survey:
 
 def survey(store: Store, keys: Keys, wanted: Wanted) -> Survey:
     """Look through a store, batch by batch."""
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    first, inverse = distinct(keys)
     places = Places(keys[first])
     batch = np.full(len(first), -1, dtype=np.int64)
     found = Survey(1, {}, (0, 0), {}, batch, {"": 0})
@@ -95,7 +95,7 @@ def survey(store: Store, keys: Keys, wanted: Wanted) -> Survey:
             if name.partition(",")[0] in wanted.fields:
                 found.elements = (max(found.elements[0], values.shape[0]), max(found.elements[1], values.shape[1]))
         found.units.update(done.units)
-    found.batch = batch[inverse.ravel()]
+    found.batch = batch[inverse]
     return found
 
 
@@ -104,8 +104,7 @@ def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, 
     """The dataset of a study, from what is in its store; as a part of a whole with the variables and sizes of that."""
     scene, totals, fields = wanted.scene, wanted.totals, wanted.fields
     steps = scene.steps
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    inverse = inverse.ravel()
+    first, inverse = distinct(keys)
     places = Places(keys[first])
     numbers = store.numbers() if whole is None else [int(number) for number in np.unique(whole.batch) if number >= 0]
     most = whole.patches if whole is not None else _most_patches(store, places) if scene.is_wheel_rail else 1

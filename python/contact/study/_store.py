@@ -86,6 +86,22 @@ class Store:
         return int(self._base.execute("SELECT total(length(data) + length(keys)) FROM batches").fetchone()[0])
 
 
+def distinct(keys: Keys) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where each different key stands first, in ascending order, and for each key its number among these."""
+    order = np.lexsort((keys[:, 1], keys[:, 0]))
+    ordered = keys[order]
+    is_new = np.ones(len(keys), dtype=bool)
+    is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    # equal keys keep their order when they are sorted
+    leaders = order[is_new]
+    first = np.sort(leaders)
+    number = np.empty(len(keys), dtype=np.intp)
+    number[first] = np.arange(len(first))
+    inverse = np.empty(len(keys), dtype=np.intp)
+    inverse[order] = number[leaders][np.cumsum(is_new) - 1]
+    return first, inverse
+
+
 class Places:
     """Places of points by their keys."""
 

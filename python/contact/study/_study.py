@@ -25,7 +25,7 @@ from ._expression import evaluate
 from ._progress import Progress, Wanted, duration
 from ._scene import Scene
 from ._space import Axis, Rule, Values, make_space
-from ._store import Keys, Places, Store
+from ._store import Keys, Places, Store, distinct
 from ._task import Task, solve_task
 
 #: Of a dataset, a quantity that follows from it: a formula, or a function
@@ -161,10 +161,8 @@ class Study:
             parts = [_as_bytes(self._columns[path][portion]) for path in paths]
             rows = np.concatenate(parts, axis=1) if parts else np.zeros((portion.stop - first, 0), dtype=np.uint8)
             data, width = rows.tobytes(), rows.shape[1]
-            for k in range(len(rows)):
-                one = start.copy()
-                one.update(data[k * width:(k + 1) * width])
-                made[first + k] = np.frombuffer(one.digest(), dtype=np.uint64)
+            digests = b"".join(_digest(start, data[k * width:(k + 1) * width]) for k in range(len(rows)))
+            made[portion] = np.frombuffer(digests, dtype=np.uint64).reshape(-1, 2)
         self._made = made
         return made
 
@@ -261,7 +259,7 @@ class Study:
             there = Places(store.keys()).of(keys) >= 0
             todo = np.flatnonzero(self._chosen & ~there)
             # the same inputs at two points are one case
-            todo = todo[np.sort(np.unique(keys[todo], axis=0, return_index=True)[1])] if len(todo) else todo
+            todo = todo[distinct(keys[todo])[0]]
             self._check(todo)
             shown = Progress(len(todo), int((there & self._chosen).sum()), progress)
             pace = _Pace(points_per_task, len(todo), doers.workers)
@@ -422,6 +420,13 @@ def _portions(count: int, pace: _Pace) -> Iterator[slice]:
         last = min(count, first + pace.size)
         yield slice(first, last)
         first = last
+
+
+def _digest(start: hashlib.blake2b, data: bytes) -> bytes:
+    """Digest of what was hashed so far, and of some bytes more"""
+    one = start.copy()
+    one.update(data)
+    return one.digest()
 
 
 def _as_bytes(values: Values) -> NDArray[np.uint8]:
