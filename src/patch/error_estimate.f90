@@ -15,7 +15,7 @@ module contact_patch_error_estimate
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch
    use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, mean_friction, residual_share, &
-      & scale_of, scale_type, scales
+      & scale_of, scale_type, scales, traction_error
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
@@ -126,7 +126,7 @@ contains
       real(wp), intent(in), optional :: approach_change
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
-      real(wp) :: load, difference
+      real(wp) :: load, difference, coarse_power
       integer :: k
 
       if (result%errors%reason /= "") return
@@ -154,7 +154,9 @@ contains
       if (scale%balances) then
          scale%motion_change = motion_power(problem, result)
          scale%surplus = result%friction_power - scale%motion_change
-         scale%motion_change = scale%motion_change - load*motion_power(level%problem, level%result)
+         coarse_power = load*motion_power(level%problem, level%result)
+         scale%coarse_surplus = load*level%result%friction_power - coarse_power
+         scale%motion_change = scale%motion_change - coarse_power
       end if
       if (allocated(problem%thermal) .and. allocated(problem%friction)) then
          if (problem%friction%driver() == friction_driver%temperature) &
@@ -169,6 +171,7 @@ contains
          if (scale_of(fine%rows(k), scale) > 0.0_wp) scale%friction = max(scale%friction, &
             & difference/scale_of(fine%rows(k), scale))
       end do
+      result%errors%traction = traction_error(scale)
       do k = 1, fine%length
          if (fine%rows(k)%law == error_law%none .or. is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)

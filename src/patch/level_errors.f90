@@ -12,12 +12,13 @@ module contact_patch_level_errors
    use contact_patch_problem, only : patch_problem
    use contact_patch_quantities, only : error_law, total
    use contact_patch_result, only : error_estimate, patch_result
+   use contact_patch_step_errors, only : energy_of_forces, force_error, power_error
    use contact_patch_turning, only : turned_round, turns
    implicit none (type, external)
    private
 
-   public :: coupled_friction_floor, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, scale_type, &
-      & scales
+   public :: coupled_friction_floor, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, &
+      & scale_type, scales, traction_error, trusted
 
    !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
    !> centre: its share falls with the root of the element
@@ -39,9 +40,15 @@ module contact_patch_level_errors
       real(wp) :: gain = 0.0_wp
       !> Differences of the levels in tangential forces, relative to the largest one [-]
       real(wp) :: friction = 0.0_wp
+      !> Are both forces prescribed, so that the moment alone has an error?
+      logical :: is_moment_alone = .false.
+      !> Tangential tractions over what friction bears [-]
+      real(wp) :: used = 0.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Does it go in steps of transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
+      !> Length of a step of transient rolling [elements]
+      real(wp) :: step = 0.0_wp
       !> Relative error of the normal problem by the levels, over that of so many elements in general, at least 1
       real(wp) :: irregular = 1.0_wp
       !> May what the levels tell be a rare sample of an error that jumps with the offset of the grid?
@@ -64,6 +71,8 @@ module contact_patch_level_errors
       real(wp) :: turning = 0.0_wp
       !> Power that the motion gives and friction does not take, and what the levels differ by in that of the motion [W]; is it so?
       real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
+      !> The first of these of the coarser level [W]
+      real(wp) :: coarse_surplus = 0.0_wp
       logical :: balances = .false.
       !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
       real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
@@ -104,18 +113,19 @@ module contact_patch_level_errors
    !> adhesion over this part of the contact in between. Measured with the same rollers, EPS from 1e-2 to 1e-5
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
-   !> with seeds 1001 and 1002. Forces of steady rolling; of shifts; of transient rolling
-   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp, step_floor = 0.25_wp
+   !> with seeds 1001 and 1002. Forces of steady rolling; of shifts
+   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp
+   !> Part of these that moments have where both forces are prescribed; of random contacts (seed 3101)
+   real(wp), parameter :: moment_alone = 0.5_wp
    !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
    !> there also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Part of the relative errors of forces that power has at least in steps of transient rolling; of random contacts (seed 2001)
-   real(wp), parameter :: power_of_forces = 0.5_wp
    !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
    !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
-   !> part and of n^-order of that of tractions, and part of the error of that by the levels; of random contacts of tests/accuracy
-   real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp
+   !> part and of n^-order of that of tractions, and part of the error of that by the levels; error in general over n^-2 of the
+   !> part of pressures; of random contacts of tests/accuracy
+   real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp, usual_energy = 0.07_wp
    !> What levels tell of the power of the motion: part that has their sign, and part that has not; of random contacts of
    !> tests/accuracy (seeds 1001 and 1002)
    real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
@@ -123,11 +133,11 @@ module contact_patch_level_errors
    !> where slip turns, of its turn across the contact times n^-2 (seed 2001)
    real(wp), parameter :: falling_floor = 6.0_wp, turning_floor = 0.15_wp
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors, too
-   !> In steps of transient rolling more so, as directions follow from the step before; of random contacts (seeds 1001 and 1002)
-   real(wp), parameter :: least_adhesion = 0.02_wp, least_in_steps = 0.25_wp
+   real(wp), parameter :: least_adhesion = 0.02_wp
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
-   !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak
-   real(wp), parameter :: trust = 0.8_wp, peak_trust = 0.75_wp
+   !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak of
+   !> like and of unlike bodies
+   real(wp), parameter :: trust = 0.8_wp, peak_trust(2) = [0.65_wp, 0.75_wp]
    !> Parts of the elastic energy have errors of opposite signs more often than not: median of their sum over the root of squares
    real(wp), parameter :: opposite = 0.45_wp
    !> Part of a residual that shows in forces; measured between tolerances of 1e-2 and 1e-4
@@ -186,17 +196,19 @@ contains
       scale%roughness = roughness_share*max(alternation(problem%h, result%division), &
          & alternation(transpose(problem%h), transpose(result%division)))/max(abs(result%pen), tiny(extent))
       if (scale%force > 0.0_wp) then
+         scale%used = result%grid%dx*result%grid%dy*sum(hypot(result%px, result%py))/scale%force
          scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
          if (scale%coupling > 0.0_wp) scale%gain = reversal_gain*min(1.0_wp, scale%across*result%grid%dx*result%grid%dy &
             & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
       end if
+      scale%is_moment_alone = problem%n_forces == 2
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       if (problem%motion == motion%steady_rolling .and. order == 2) scale%turning = min(pi, scale%mean_across &
          & *sqrt(result%grid%dx*result%grid%dy*turns(result)/max(scale%force, tiny(extent))))
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
-      if (scale%steps .and. scale%order <= first_order) scale%adhesion = max(scale%adhesion, least_in_steps)
+      if (scale%steps) scale%step = result%dq/result%grid%dx
       ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
       scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
       ! tractions are singular at edges that are given
@@ -268,7 +280,7 @@ contains
       type(scale_type), intent(in) :: scale
       !> Its relative parts
       type(error_estimate), intent(in) :: errors
-      real(wp) :: floor, part, stopping, unit
+      real(wp) :: floor, full_power, part, stopping, unit
 
       stopping = maxval(errors%stopping)
       unit = scale_of(row, scale)
@@ -280,24 +292,27 @@ contains
       case (error_law%friction, error_law%creepage)
          part = part_of(scale, scale%order)
          if (is_unseen(scale)) part = 0.0_wp
-         e = part*difference + by_heat(scale, part, difference, unit)
+         e = part*difference
+         if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across)*unit
+         e = e + by_heat(scale, part, difference, unit)
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
          floor = friction_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
+         if (scale%is_moment_alone .and. row%law == error_law%friction) floor = moment_alone*floor
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
          if (row%law == error_law%friction) floor = max(floor, reversal_share*scale%reversal)
       case (error_law%power)
+         full_power = max(scale%power, unit, tiny(unit))
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
          if (is_unseen(scale)) e = 0.0_wp
-         ! in a step, what friction takes is the power of the motion and that of the energy: not better than forces
-         if (scale%steps .and. .not. is_unseen(scale)) &
-            & e = max(e, power_of_forces*part_of(scale, scale%order)*scale%friction*scale%power)
+         if (is_long_step(scale)) e = power_error(unit/full_power, difference/full_power, scale%friction, scale%adhesion, &
+            & scale%mean_across, scale%step)*full_power
          if (scale%balances) e = error_of_power(scale, unit)
          e = e + by_heat(scale, part_of(scale, scale%order), difference, unit)
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
          if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
             & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
-         floor = floor*max(scale%power, unit)/max(unit, tiny(unit))
-         if (scale%balances) then
+         floor = floor*full_power/max(unit, tiny(unit))
+         if (scale%balances .or. is_long_step(scale)) then
             floor = 0.0_wp
          else if (scale%jumps) then
             e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
@@ -342,7 +357,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       if (scale%order <= first_order) then
-         floor = merge(step_floor, rolling_floor(1), scale%steps)/scale%mean_across
+         floor = rolling_floor(1)/scale%mean_across
       else
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)/scale%mean_across**2
       end if
@@ -352,6 +367,24 @@ contains
       if (is_unseen(scale)) floor = floor*scale%irregular
       if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling/scale%across)
    end function friction_floor
+
+   !> Is it a step of transient rolling that the second order is not made for?
+   pure logical function is_long_step(scale)
+      type(scale_type), intent(in) :: scale
+
+      is_long_step = scale%steps .and. scale%order <= first_order
+   end function is_long_step
+
+   !> Relative error of tangential tractions, where levels tell little of it at a single point: in transient rolling, and where
+   !> friction follows temperatures; zero otherwise
+   pure real(wp) function traction_error(scale) result(e)
+      !> See scales, with differences of the levels
+      type(scale_type), intent(in) :: scale
+
+      e = scale%warmed/(coarsening**scale%heat_order - 1.0_wp)
+      if (is_unseen(scale)) e = e + friction_floor(scale)
+      if (is_long_step(scale)) e = e + force_error(scale%friction, scale%adhesion, scale%mean_across)
+   end function traction_error
 
    !> Do the levels tell nothing about tractions? Steps of one element are no steps of one element on a coarser level
    pure logical function is_unseen(scale)
@@ -396,26 +429,31 @@ contains
       told = part_of(scale, scale%order)*abs(scale%motion_change)
       if (scale%jumps) told = trusted(told, floor, trust)
       e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
+      ! a surplus that jumps with the offset of the grid may be small by accident: that of the coarser level is another sample of it
+      if (scale%jumps) e = max(e, part_of(scale, scale%order)*abs(scale%coarse_surplus))
    end function error_of_power
 
    !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
    pure real(wp) function error_of_energy(scale) result(e)
       type(scale_type), intent(in) :: scale
-      real(wp) :: parts(2), floor(2), layer
+      real(wp) :: parts(2), floor(2), more
 
       parts = -[scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part_of(scale, scale%order)*scale%energy_change(2)]
       if (is_unseen(scale)) parts(2) = 0.0_wp
       floor = abs(scale%energy)*[scale%across**(-2), sqrt(scale%adhesion)*scale%across**(-scale%order)]
-      layer = 0.0_wp
+      more = 0.0_wp
       if (scale%order < normal_order .and. .not. (scale%clean .or. scale%steps)) &
-         & layer = layer_power_floor*scale%adhesion*abs(scale%energy(2))/scale%across
+         & more = layer_power_floor*scale%adhesion*abs(scale%energy(2))/scale%across
+      if (scale%used > 0.0_wp) more = more + energy_of_forces*traction_error(scale)/scale%used*abs(scale%energy(2))
       if (scale%has_normal_energy .and. scale%across >= resolved) then
-         e = hypot(scale%normal_energy + parts(2), dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)) + layer)
+         ! the error changes its sign with the offset of the grid: not less than half of its root of the mean square
+         e = max(usual_energy*floor(1), hypot(scale%normal_energy + parts(2), &
+            & dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)) + more))
          return
       end if
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
-      e = max(e, dot_product(energy_floor, floor) + layer)
+      e = max(e, dot_product(energy_floor, floor) + more)
    end function error_of_energy
 
    !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak
@@ -431,7 +469,7 @@ contains
       peak = peak_of(result%pn)
       floor = peak_floor/scale%across**2
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
-      e = trusted(e, floor, peak_trust)
+      e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp))
       floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
       e = max(e, floor, unresolved*(largest_bend(result%pn)/result%pmax - smooth_bend/scale%across**2))

@@ -64,6 +64,8 @@ module contact_patch_result
       character(len=reason_length) :: reason = ""
       !> Parts of the estimate, relative: of the solvers (normal, tangential problem) and of contact that the window cuts off [-]
       real(wp) :: stopping(2) = 0.0_wp, window = 0.0_wp
+      !> Relative error of tangential tractions, where levels tell little of it at a point, see contact_patch_level_errors [-]
+      real(wp) :: traction = 0.0_wp
       !> Elements in contact of the coarse level
       integer :: ncon = 0
    end type error_estimate

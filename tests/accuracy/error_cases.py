@@ -117,8 +117,14 @@ def _heat(random, c, b1, b3, full):
 
 
 def _transient(random, c, b1, b3, full):
-    # a step is an element of the coarsest grid and stays that on finer ones
-    c.update(motion="transient_rolling", steps=4, dq=0.15 * c["a"], order=2)
+    # a step is about an element of the coarsest grid and stays that on finer ones
+    c.update(motion="transient_rolling", steps=4, dq=0.15 * c["a"])
+
+
+def _steps(random, c, b1, b3, full):
+    """The same in steps from less than an element to many, up to the eighth."""
+    c.update(motion="transient_rolling", steps=random.choice([1, 2, 3, 5, 8]),
+             dq=c["a"] * math.exp(random.uniform(math.log(0.06), math.log(0.5))))
 
 
 def _reverse(random, c, b1, b3, full):
@@ -176,7 +182,9 @@ CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _for
            "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
            "transient": _transient, "reverse": _reverse}
 #: Kinds that are further out, not part of the tables
-FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts}
+FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps}
+#: Kinds that the second order is not made for: a layer, and steps that stay what they are on finer grids
+FIRST_ORDER = ("layer", "transient", "steps")
 
 
 def stress_points(c):
