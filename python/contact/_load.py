@@ -179,7 +179,7 @@ class Experiment(Sequence[Case]):
         counts = [f"{ended.count(word)} {word}" for word in ("solved", "not converged", "refused") if word in ended]
         state = "" if self.complete is not False else ", not complete"
         told = "".join(f", {count}" for count in counts)
-        return f"<Experiment {os.path.basename(self.path)}: {len(self)} cases{told}{state}>"
+        return f"<Experiment {os.path.basename(self.path)}: {len(self)} case{'s' if len(self) != 1 else ''}{told}{state}>"
 
     def table(self) -> dict[str, Any]:
         """Totals of all patches in columns, one row per patch: for curves, and for ``pandas.DataFrame(...)``.

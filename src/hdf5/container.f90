@@ -11,7 +11,7 @@ module contact_hdf5_container
    use hdf5, only : h5acreate_f, h5adelete_f, h5aexists_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5eset_auto_f, &
       & h5f_acc_rdwr_f, h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, h5f_libver_v18_f, h5f_scope_local_f, &
       & h5fclose_f, h5fcreate_f, h5fflush_f, h5fopen_f, h5gcreate_f, h5idec_ref_f, h5ldelete_f, h5lexists_f, h5open_f, &
-      & h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, h5pcopy_f, h5pcreate_f, &
+      & h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, h5pcreate_f, &
       & h5pset_chunk_f, h5pset_deflate_f, h5pset_fclose_degree_f, h5pset_fill_time_f, h5pset_fill_value_f, &
       & h5pset_fletcher32_f, h5pset_istore_k_f, h5pset_layout_f, h5pset_libver_bounds_f, h5pset_link_phase_change_f, &
       & h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, h5screate_f, h5t_fortran_s1, h5t_native_double, &
@@ -51,8 +51,8 @@ module contact_hdf5_container
       character(len=:), allocatable :: lacking
       !> Identifier of the file
       integer(hid_t) :: file = -1
-      !> Creation properties of datasets in the header of their object, with room for attributes or without
-      integer(hid_t) :: compact = -1, bare = -1
+      !> Creation properties of datasets in the header of their object
+      integer(hid_t) :: compact = -1
       !> Dataspace of a single value
       integer(hid_t) :: scalar = -1
       !> Creation properties of groups
@@ -187,8 +187,6 @@ contains
       call h5pset_obj_track_times_f(self%compact, .false., status)
       call h5pset_layout_f(self%compact, h5d_compact_f, status)
       call h5pset_fill_time_f(self%compact, h5d_fill_time_never_f, status)
-      call h5pcopy_f(self%compact, self%bare, status)
-      call set_no_attributes(self%bare)
    end subroutine make_properties
 
    !> Keep the library from ending itself when the process exits: after a write that failed it would write again, and crash the host
@@ -221,22 +219,6 @@ contains
       status = set_bounds(int(file, c_int64_t), int(h5f_libver_v18_f, c_int), int(h5f_libver_v18_f, c_int))
    end subroutine use_small_headers
 
-   !> Reserve no room for attributes in the header of small datasets without any
-   subroutine set_no_attributes(properties)
-      integer(hid_t), intent(in) :: properties
-      interface
-         function set_hint(list, minimise) result(status) bind(c, name="H5Pset_dset_no_attrs_hint")
-            import :: c_int, c_int64_t
-            integer(c_int64_t), value :: list
-            integer(c_int), value :: minimise
-            integer(c_int) :: status
-         end function set_hint
-      end interface
-      integer(c_int) :: ignored
-
-      ignored = set_hint(int(properties, c_int64_t), 1_c_int)
-   end subroutine set_no_attributes
-
    !> Close the file and give it its name
    subroutine close_file(self, error)
       class(hdf5_container), intent(inout) :: self
@@ -250,7 +232,6 @@ contains
       call self%release(self%scalar)
       call self%release(self%groups)
       call self%release(self%compact)
-      call self%release(self%bare)
       call h5fclose_f(self%file, status)
       call self%check(status)
       self%is_open = .false.

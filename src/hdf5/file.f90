@@ -383,9 +383,9 @@ contains
                   end if
                end if
                if (self%is_table) then
-                  call this%write(self%container, group, .true., along)
+                  call this%write(self%container, group, along)
                else
-                  call this%write(self%container, group, described=.not. self%only_texts)
+                  call this%write(self%container, group)
                end if
             end associate
          end do

@@ -104,7 +104,7 @@ contains
       call container%new_group(group, "created", inner)
       call values%add("seconds", "seconds since 1970-01-01T00:00:00Z", "when the file was begun", item_kind%real_number, &
          & real(seconds_now(c_null_ptr), wp))
-      if (.not. container%failed) call values%items(1)%write(container, inner, .true.)
+      if (.not. container%failed) call values%items(1)%write(container, inner)
       call container%release(inner)
    end subroutine write_time
 
@@ -233,7 +233,7 @@ contains
       call values%add(prefix // "file", "", "name of the file", item_kind%text, 0.0_wp, text=name)
       call values%add(prefix // "sha256", "", "hash SHA-256 of its bytes", item_kind%text, 0.0_wp, text=sha256(text))
       do k = 1, values%count
-         if (.not. container%failed) call values%items(k)%write(container, group, .true.)
+         if (.not. container%failed) call values%items(k)%write(container, group)
       end do
    end subroutine describe
 

@@ -167,23 +167,20 @@ contains
       same = transfer(a, 0_long) == transfer(b, 0_long)
    end function same_number
 
-   !> Write the value as a dataset of its group
-   subroutine write(self, container, group, described, along)
+   !> Write the value as a dataset of its group, with its unit and what it is
+   subroutine write(self, container, group, along)
       class(named_value), intent(in), target :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> With its unit and description as attributes?
-      logical, intent(in) :: described
       !> Scale of several numbers: -1 for one of their own; where it is none yet, they become it
       integer(hid_t), intent(inout), optional :: along
       integer(hid_t) :: data, kind, properties, space
       integer(hsize_t) :: dims(1)
       integer :: status
 
-      properties = container%bare
-      if (described .or. self%kind == item_kind%real_numbers) properties = container%compact
+      properties = container%compact
       dims = 1
       space = container%scalar
       select case (self%kind)
@@ -205,7 +202,7 @@ contains
       end select
       call h5dcreate_f(group, trim(self%name), kind, space, data, status, dcpl_id=properties)
       call container%check(status)
-      if (all(properties /= [container%bare, container%compact])) call container%release(properties)
+      if (properties /= container%compact) call container%release(properties)
       select case (self%kind)
       case (item_kind%real_number)
          call h5dwrite_f(data, h5t_native_double, self%value, dims, status)
@@ -218,7 +215,7 @@ contains
          call h5dwrite_f(data, kind, self%text, dims, status)
       end select
       call container%check(status)
-      if (described) call container%describe(data, trim(self%unit), trim(self%title))
+      call container%describe(data, trim(self%unit), trim(self%title))
       if (self%kind == item_kind%real_numbers) then
          if (.not. present(along)) then
             call make_scale(container, data)

@@ -171,6 +171,7 @@ def loaded(program):
         shutil.copytree(os.path.join(SOURCE, "examples/profiles"), "profiles", dirs_exist_ok=True)
         subprocess.run([program, "--hdf5", "2", name], check=True, stdout=subprocess.DEVNULL)
         table, matrix = contact.load(name + ".out"), contact.load(name + ".mat")
+        check(f"{len(table)} case{'s' if len(table) > 1 else ''}, " in repr(table), f"how many cases: {table!r}")
         for other in (matrix, table):
             check("solved" in repr(other), f"the status of {other!r}")
         same((len(table), table.complete), (2, True), "cases of the .out file")

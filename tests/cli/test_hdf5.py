@@ -126,7 +126,7 @@ class Hdf5(unittest.TestCase):
                 for axis, dimension in enumerate(item.dims if not item.is_scale else ()):
                     if len(dimension) and dimension[0].shape != (item.shape[axis],):
                         missing.append(path + ": length of a scale")  # noqa: B023
-                if "/solver/" not in path and "/effects/" not in path and "long_name" not in item.attrs:
+                if "long_name" not in item.attrs:
                     missing.append(path + ": long_name")  # noqa: B023
                 if item.dtype.kind == "f" and "units" not in item.attrs and not path.startswith(("cases", "patches")):
                     missing.append(path + ": units")  # noqa: B023

@@ -45,7 +45,8 @@ def main():
     bad += complaints(options)
     source = (TOP / "src/cli/versions.f90").read_text()
     pattern = re.search(r"^regex = '(.*)'$", (FOLDER / "pyproject.toml").read_text(), re.MULTILINE)[1]
-    numbers = {re.search(pattern, source)["value"], version.split()[1]}
+    recipe = re.search(r"^  version: ([\d.]+)$", (FOLDER / "recipe.yaml").read_text(), re.MULTILINE)[1]
+    numbers = {re.search(pattern, source)["value"], version.split()[1], recipe}
     if len(numbers) > 1:
         bad.append(f"versions differ: {sorted(numbers)}")
     bad += different_extras()
