@@ -72,7 +72,7 @@ contains
             end if
             normal%force_prescribed = problem%force_prescribed
             normal%fn = problem%fn
-            normal%eps = problem%settings%eps*problem%pressure_eps
+            normal%eps = problem%settings%eps*problem%pressure_eps*workspace%sharper
             normal%maxgs = problem%settings%maxgs
             normal%follows = problem%follows_approach
             normal%deadline = problem%deadline

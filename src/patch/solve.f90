@@ -33,6 +33,9 @@ module contact_patch_solve
 
    !> Passes that the extrapolation remembers
    integer, parameter :: outer_depth = 10
+   !> What passes leave of their problems is noise of the outer iteration, which strong coupling amplifies: from a change of so many
+   !> times EPS on, they solve to this part of EPS, but not below what rounding leaves
+   real(wp), parameter :: near_the_end = 10.0_wp, sharp = 0.1_wp, least_eps = 1.0e-12_wp
 
    !> Steps that differ from the length of an element by less than this part are one element
    real(wp), parameter :: step_slack = 0.01_wp
@@ -70,6 +73,7 @@ contains
          call previous_displacement(problem, state, workspace)
       end if
 
+      workspace%sharper = 1.0_wp
       do outer = 1, max(1, problem%settings%maxout)
          result%outer_iterations = outer
          call normal_step(problem, state, workspace, log, result)
@@ -150,6 +154,8 @@ contains
          turns%ended = ending%converged
          return
       end if
+      if (change <= near_the_end*problem%settings%eps*scale) &
+         & workspace%sharper = max(sharp, min(1.0_wp, least_eps/problem%settings%eps))
       if (result%outer_iterations == 1) call workspace%outer%start(size(workspace%un), outer_depth)
       call workspace%outer%advance(workspace%un, workspace%lift)
    end subroutine next_pass

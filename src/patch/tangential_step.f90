@@ -190,7 +190,7 @@ contains
          t%n_forces = problem%n_forces
          t%target = problem%force*result%mu_scal*result%fn/(problem%grid%dx*problem%grid%dy)
          t%settings = problem%settings
-         t%settings%eps = problem%settings%eps*problem%traction_eps
+         t%settings%eps = problem%settings%eps*problem%traction_eps*workspace%sharper
          t%deadline = problem%deadline
          call set_relaxation(problem, result%ncon, t)
          if (allocated(t%yield)) deallocate(t%yield)
@@ -354,7 +354,7 @@ contains
          ! what is asked for is EPS, also where tractions are made sharper
          report%tolerance = problem%settings%eps*max(1.0_wp, problem%traction_eps)
          if (report%ended == ending%out_of_time) return
-         if ((is_classical(problem%solver) .or. problem%traction_eps < 1.0_wp) .and. (report%ended == ending%stagnated &
+         if ((is_classical(problem%solver) .or. eps < report%tolerance) .and. (report%ended == ending%stagnated &
             & .or. report%ended == ending%iteration_limit) .and. report%residual >= 0.0_wp &
             & .and. report%residual <= report%tolerance) report%ended = ending%converged
          ! without success the order is lowered first

@@ -45,8 +45,9 @@ module contact_patch_workspace
       type(tangential_solution) :: solution
       type(nested_workspace) :: tangential_work
       type(friction_iteration) :: friction
-      !> Acceleration of the outer iteration
+      !> Acceleration of the outer iteration, and the part of EPS that its passes solve pressures and tractions to
       type(anderson_iteration) :: outer
+      real(wp) :: sharper = 1.0_wp
       !> The tangential problem and its solution where simplified theory is asked for
       type(simplified_problem) :: simplified
       type(simplified_solution) :: simplified_solution

@@ -75,7 +75,7 @@ module contact_tables_creep_table
 
    interface
       !> Nodes along z summed over all other axes, in sums.c
-      pure subroutine contact_table_sums(coefficients, blocks, start, weight, row, plane, x, y, sums, slope_x, slope_y) bind(c)
+      pure subroutine contact_sums_of_nodes(coefficients, blocks, start, weight, row, plane, x, y, sums, slope_x, slope_y) bind(c)
          import :: c_double, c_float, c_int, order, stretch
          !> Of the table
          real(c_float), intent(in) :: coefficients(*)
@@ -91,7 +91,7 @@ module contact_tables_creep_table
          real(c_double), intent(inout) :: sums(stretch, 3)
          !> Slopes of the basis functions; absent: no derivatives
          real(c_double), intent(in), optional :: slope_x(order), slope_y(order)
-      end subroutine contact_table_sums
+      end subroutine contact_sums_of_nodes
    end interface
 
 contains
@@ -277,13 +277,13 @@ contains
       row = values_per_node*table%z%count
       plane = row*table%y%count
       if (present(by_x)) then
-         call contact_table_sums(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums, &
+         call contact_sums_of_nodes(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums, &
             & slope(:, 3), slope(:, 4))
          by_x = along_z(sums(:, 2), basis(:, 5))
          by_y = along_z(sums(:, 3), basis(:, 5))
          by_z = along_z(sums(:, 1), slope(:, 5))
       else
-         call contact_table_sums(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums)
+         call contact_sums_of_nodes(table%coefficients, blocks, start, weight, row, plane, basis(:, 3), basis(:, 4), sums)
       end if
       value = along_z(sums(:, 1), basis(:, 5))
    end subroutine sum_nodes

@@ -19,7 +19,7 @@ typedef struct {
   const double *x, *y, *slope_x, *slope_y;
 } stretches;
 
-void contact_table_sums(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
+void contact_sums_of_nodes(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
                         const double *x, const double *y, double *sums, const double *slope_x, const double *slope_y);
 
 #define SUM sum_by_twos
@@ -39,7 +39,7 @@ static int has_fours(void) { return 0; }
 #define sum_by_fours sum_by_twos
 #endif
 
-void contact_table_sums(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
+void contact_sums_of_nodes(const float *coefficients, int blocks, const int *start, const double *weight, int row, int plane,
                         const double *x, const double *y, double *sums, const double *slope_x, const double *slope_y) {
   const stretches all = {coefficients, blocks, start, weight, row, plane, x, y, slope_x, slope_y};
   if (has_fours())

@@ -20,8 +20,8 @@ module contact_tangential_slip_turns
       integer, allocatable :: at(:, :)
       !> Weight times cosine and sine of the turn [-]; what the acting slip changes by per angle [mm]; shape (2, window)
       real(wp), allocatable :: row(:, :), across(:, :)
-      !> What the slip changes by per angle, turned back, shape (2, window)
-      real(wp), allocatable :: bare(:, :)
+      !> The same for the way back: the row over its square, and what the slip changes by per angle, without weight and turn
+      real(wp), allocatable :: back(:, :), bare(:, :)
       !> The angle per slip behind, here and ahead [1/mm], shape (2, 3, window)
       real(wp), allocatable :: by(:, :, :)
       !> Elimination of the angles, a tridiagonal system for each row: factors of the former one and of the next, and of the
@@ -36,7 +36,7 @@ module contact_tangential_slip_turns
       procedure :: linearise => linearise_turns
       !> Slip into acting slip, at that of the derivative
       procedure :: act
-      !> Change of slip into change of acting slip, and about the way back
+      !> Change of slip into change of acting slip, and back
       procedure :: apply, invert
       !> The transposed of both
       procedure :: apply_transposed, invert_transposed
@@ -196,12 +196,16 @@ contains
                & + (p(ix, iy, 2) - factor*slip(ix, iy, 2))**2 > bound(ix, iy)**2
             if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
             k = k + 1
+            self%at(:, k) = ix + mx*(iy - 1)
             self%row(:, k) = [weight(ix, iy), 0.0_wp]
-            call leave_element(ix + mx*(iy - 1), self%at(:, k), self%across(:, k), self%by(:, :, k))
+            self%across(:, k) = 0.0_wp
+            self%by(:, :, k) = 0.0_wp
             if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
                & self%across(:, k), self%by(:, :, k))
-            self%bare(1, k) = self%row(1, k)*self%across(1, k) + self%row(2, k)*self%across(2, k)
-            self%bare(2, k) = self%row(1, k)*self%across(2, k) - self%row(2, k)*self%across(1, k)
+            factor = 1.0_wp/weight(ix, iy)**2
+            self%back(:, k) = factor*self%row(:, k)
+            self%bare(1, k) = self%back(1, k)*self%across(1, k) + self%back(2, k)*self%across(2, k)
+            self%bare(2, k) = self%back(1, k)*self%across(2, k) - self%back(2, k)*self%across(1, k)
          end do
       end do
       self%n = k
@@ -215,10 +219,10 @@ contains
 
       self%is_transposed = .false.
       if (self%window == window) return
-      if (allocated(self%at)) deallocate(self%at, self%row, self%across, self%bare, self%by, self%former, self%next, &
-         & self%pivot, self%angle)
+      if (allocated(self%at)) deallocate(self%at, self%row, self%across, self%back, self%bare, self%by, self%former, &
+         & self%next, self%pivot, self%angle)
       allocate(self%at(3, window), self%by(2, 3, window))
-      allocate(self%row(2, window), self%across(2, window), self%bare(2, window))
+      allocate(self%row(2, window), self%across(2, window), self%back(2, window), self%bare(2, window))
       allocate(self%former(window), self%next(window), self%pivot(window), self%angle(window))
       self%window = window
    end subroutine fit_turns
@@ -238,19 +242,6 @@ contains
          end associate
       end do
    end subroutine act
-
-   !> An element without a turn; arrays of known size need no calls
-   pure subroutine leave_element(number, at, across, by)
-      !> In the window
-      integer, intent(in) :: number
-      !> Of the element, see slip_turns
-      integer, intent(out) :: at(3)
-      real(wp), intent(out) :: across(2), by(2, 3)
-
-      at = number
-      across = 0.0_wp
-      by = 0.0_wp
-   end subroutine leave_element
 
    !> Turn of an element in slip, and what it changes by
    pure subroutine linearise_element(mx, my, contact, direction, slip, ix, iy, at, row, across, by)
@@ -385,7 +376,6 @@ contains
       call add_by_angles(self, slip)
    end subroutine apply_transposed
 
-   !> Turns are taken off; weights count once more, which suits the inverse of an operator without edge terms (measured)
    pure subroutine invert(self, slip)
       class(slip_turns), intent(inout) :: self
       !> [mm]
@@ -394,10 +384,10 @@ contains
       integer :: k
 
       do k = 1, self%n
-         associate (i => self%at(2, k), row => self%row(:, k))
+         associate (i => self%at(2, k), back => self%back(:, k))
             x = slip(i, 1)
-            slip(i, 1) = row(1)*x + row(2)*slip(i, 2)
-            slip(i, 2) = row(1)*slip(i, 2) - row(2)*x
+            slip(i, 1) = back(1)*x + back(2)*slip(i, 2)
+            slip(i, 2) = back(1)*slip(i, 2) - back(2)*x
          end associate
       end do
       call find_angles(self, slip)
@@ -440,10 +430,10 @@ contains
       self%angle(:self%n) = -self%angle(:self%n)
       call add_by_angles(self, slip)
       do k = 1, self%n
-         associate (i => self%at(2, k), row => self%row(:, k))
+         associate (i => self%at(2, k), back => self%back(:, k))
             x = slip(i, 1)
-            slip(i, 1) = row(1)*x - row(2)*slip(i, 2)
-            slip(i, 2) = row(1)*slip(i, 2) + row(2)*x
+            slip(i, 1) = back(1)*x - back(2)*slip(i, 2)
+            slip(i, 2) = back(1)*slip(i, 2) + back(2)*x
          end associate
       end do
    end subroutine invert_transposed

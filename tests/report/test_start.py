@@ -64,7 +64,7 @@ class Start(Page):
         self.assertEqual(page.inner_text("#what"), "Run of long")
         self.assertIn("Case     1", page.inner_text("#messages"))
         # the first case may not have ended yet
-        page.wait_for_function("document.getElementById('progress').value >= 1")
+        page.wait_for_function("() => document.getElementById('progress').value >= 1")
         page.wait_for_selector("tr[data-name=cattaneo] button:has-text('run')[aria-disabled=true]")
         page.click("tr[data-name=cattaneo] button:has-text('run')", force=True)
         self.assertEqual(page.inner_text("#what"), "Run of long", "one experiment runs at a time")
