@@ -140,7 +140,7 @@ contains
       !> Slip per step [mm], and its scale [(N/mm2)/mm]
       real(wp), intent(in) :: slip(mx, my, 2), r
       type(local_mean) :: mean
-      real(wp) :: w(2), z(2), turn(2), square
+      real(wp) :: w(2), z(2), turn(2)
       integer :: ix, iy
 
       total = 0.0_wp
@@ -149,8 +149,7 @@ contains
             if (.not. contact(ix, iy)) cycle
             w = r*weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
             z = [p(ix, iy, 1) - w(1), p(ix, iy, 2) - w(2)]
-            square = z(1)**2 + z(2)**2
-            if (square <= bound(ix, iy)**2) then
+            if (.not. leaves_disc(z, bound(ix, iy))) then
                total = total + (w(1)**2 + w(2)**2)
                cycle
             end if
@@ -158,13 +157,20 @@ contains
                mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
                turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
                z = [p(ix, iy, 1) - (turn(1)*w(1) - turn(2)*w(2)), p(ix, iy, 2) - (turn(2)*w(1) + turn(1)*w(2))]
-               square = z(1)**2 + z(2)**2
             end if
-            if (square > bound(ix, iy)**2) z = z*(bound(ix, iy)/sqrt(square))
+            if (leaves_disc(z, bound(ix, iy))) z = z*(bound(ix, iy)/sqrt(z(1)**2 + z(2)**2))
             total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
          end do
       end do
    end function turned_residual
+
+   !> Does an element slip? Its traction less its slip lies outside of the disc of its bound
+   pure logical function leaves_disc(z, bound) result(leaves)
+      !> Traction less scaled slip, and the bound [N/mm2]
+      real(wp), intent(in) :: z(2), bound
+
+      leaves = z(1)**2 + z(2)**2 > bound**2
+   end function leaves_disc
 
    subroutine linearise_turns(self, mx, my, weight, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
@@ -192,8 +198,9 @@ contains
          do ix = 1, mx
             if (.not. contact(ix, iy)) cycle
             factor = r*weight(ix, iy)
-            slips = is_turned .and. (p(ix, iy, 1) - factor*slip(ix, iy, 1))**2 &
-               & + (p(ix, iy, 2) - factor*slip(ix, iy, 2))**2 > bound(ix, iy)**2
+            slips = is_turned
+            if (slips) slips = leaves_disc([p(ix, iy, 1) - factor*slip(ix, iy, 1), p(ix, iy, 2) - factor*slip(ix, iy, 2)], &
+               & bound(ix, iy))
             if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
             k = k + 1
             self%at(:, k) = ix + mx*(iy - 1)

@@ -113,7 +113,7 @@ contains
       !> First and last loaded column and row of each case
       integer, parameter :: loaded(4, 9) = reshape([9, 9, 6, 6,  8, 10, 5, 7,  1, 18, 1, 13,  2, 4, 11, 13,  2, 4, 11, 13, &
          & 5, 12, 3, 9,  5, 12, 3, 9,  1, 18, 1, 13,  7, 7, 2, 12], [4, 9])
-      !> Cases: the third to the fifth have spectra, the sixth and seventh no tractions, the eighth another depth
+      !> The sixth to the eighth case have pressures only, the eighth has another depth; what was asked for twice keeps spectra
       logical, parameter :: with_tractions(9) = [.true., .true., .true., .true., .true., .false., .false., .false., .true.], &
          & keeps(9) = [.false., .true., .true., .true., .true., .false., .true., .false., .false.]
       integer, parameter :: ix(4) = [1, 7, 15, 18], iy(3) = [1, 2, 13]

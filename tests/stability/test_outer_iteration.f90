@@ -27,9 +27,39 @@ program test_outer_iteration
          end do
       end do
    end do
+   call strong_coupling(suite)
    call suite%finish()
 
 contains
+
+   !> mu K = 1.5 on many grids, of which some once needed three times as many passes as the others, or did not end
+   subroutine strong_coupling(suite)
+      type(test_suite), intent(inout) :: suite
+      type(test_case) :: case
+      type(error_type), allocatable :: error
+      real(wp), parameter :: scales(*) = [1.0_wp, 1.02_wp, 1.05_wp, 1.1_wp, 1.2_wp, 1.3_wp], shifts(*) = [0.9_wp, 1.0_wp, 1.1_wp]
+      integer, parameter :: most = 40
+      integer :: i, j, passes(size(shifts), size(scales))
+      logical :: solved
+
+      solved = .true.
+      do i = 1, size(scales)
+         do j = 1, size(shifts)
+            case%spec = ellipse_case(2.0_wp, 2.0_wp, 83.7758_wp, 15, 15, scale=scales(i), eps=eps)
+            case%spec%material%gg = [1000.0_wp, 1.0e12_wp]
+            case%spec%material%poiss = [0.0_wp, 0.28_wp]
+            case%spec%iteration%maxout = 100
+            call creep(case%spec, motion%shift, 0.06_wp*shifts(j), 0.018_wp*shifts(j), mu=3.0_wp)
+            call case%try(error)
+            passes(j, i) = case%result%outer_iterations
+            solved = solved .and. .not. allocated(error)
+            if (solved) solved = case%result%status%is_solved()
+         end do
+      end do
+      write(output_unit, "(a, t30, a, 18i4)") "mu K = 1.5 on many grids", "passes", passes
+      call suite%check(solved .and. all(passes <= most), "mu K = 1.5 on many grids: few passes on all of them")
+      call case%release()
+   end subroutine strong_coupling
 
    subroutine creepages(t, k, j)
       integer, intent(in) :: t, j

@@ -220,8 +220,31 @@ contains
          call profile%surface%cut(u, section)
          call suite%close_to(section%curve%height(y + dy), crown(y) + dz, 1.0e-7_wp, "cubic along the rail")
          call suite%close_to(section%slope_along(y + dy), dz_u - 0.01_wp*y*dy_u, 1.0e-6_wp, "its slope at fixed y")
+         call check_changes(suite, section, y + dy)
       end do
    end subroutine along
+
+   !> How slopes change across a section: by differences of these
+   subroutine check_changes(suite, section, y)
+      type(test_suite), intent(inout) :: suite
+      type(surface_cut), intent(in) :: section
+      !> Places within one piece [mm]
+      real(wp), intent(in) :: y(:)
+      real(wp), parameter :: h = 1.0e-4_wp
+      real(wp) :: z, z_y(-1:1), z_u(-1:1), z_yy, z_uy
+      logical :: found
+      integer :: i, k, piece
+
+      piece = 0
+      do i = 1, size(y)
+         do k = -1, 1
+            call section%at(y(i) + k*h, z, z_y(k), z_u(k), found, piece)
+         end do
+         call section%at(y(i), z, z_y(0), z_u(0), found, piece, z_yy, z_uy)
+         call suite%close_to(z_yy, (z_y(1) - z_y(-1))/(2.0_wp*h), 1.0e-6_wp, "how the slope across changes across")
+         call suite%close_to(z_uy, (z_u(1) - z_u(-1))/(2.0_wp*h), 1.0e-6_wp, "how the slope along changes across")
+      end do
+   end subroutine check_changes
 
    !> Order 4 along the rail for a wave
    subroutine order(suite)
