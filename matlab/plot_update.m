@@ -1,15 +1,18 @@
-function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, add_plot )
+function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, varargin )
 % PLOT_UPDATE  Two profiles and their difference, magnified: wear, or what smoothing has changed.
 %
 %   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, add_plot )
+%   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, show_angl, add_plot, force_spline )
 %
 %   prf1, prf2   structs of READ_PROFILE. With the same number of points they are compared point by point, otherwise each point of
 %                prf2 with the nearest of the curve through prf1
-%   fac          magnification (default 1000)
+%   fac          magnification; negative (default): 1, 2 or 5 times a power of ten, with which the largest difference
+%                takes at most a tenth of the width
 %   plot_n       a line at every plot_n-th point; 0 (default): none
 %   use_angl2    1: normals of prf2; 0 (default): of prf1
 %   norm_dist    1 (default): difference along the normal; 0: both parts; -1: along the tangent, drawn along the normal
 %   add_plot     1: draw into the figure as it is; 0 (default): clear it
+%   force_spline 1: the nearest of the curve also with the same number of points; show_angl is for scripts that give it
 %
 %   dst_max      largest difference of this kind [mm]
 %   l            lines: first profile, second profile, magnified difference
@@ -17,14 +20,17 @@ function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, no
 %
 % See also: read_profile, smooth_profile.
 
-   if (nargin<3 || isempty(fac)), fac = 1000; end
+   if (nargin<3 || isempty(fac)), fac = -1; end
    if (nargin<4 || isempty(plot_n)), plot_n = 0; end
    if (nargin<5 || isempty(use_angl2)), use_angl2 = 0; end
    if (nargin<6 || isempty(norm_dist)), norm_dist = 1; end
-   if (nargin<7 || isempty(add_plot)), add_plot = 0; end
+   last = {[], [], []};
+   last((nargin==7)+(1:numel(varargin))) = varargin;
+   add_plot     = isequal(logical(last{2}), true);
+   force_spline = isequal(logical(last{3}), true);
    y2 = prf2.ProfileY(:);
    z2 = prf2.ProfileZ(:);
-   [y1, z1] = opposite(prf1.ProfileY(:), prf1.ProfileZ(:), y2, z2);
+   [y1, z1] = opposite(prf1.ProfileY(:), prf1.ProfileZ(:), y2, z2, force_spline);
 
    [ty, tz] = tangents(y1, z1);
    if (use_angl2)
@@ -42,6 +48,9 @@ function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, no
       parts = [along, along.*ny, along.*nz];
    end
    [dst_max, k] = max(abs(parts(:,1)));
+   if (fac<0)
+      fac = round_down(0.1*(max(y2)-min(y2)) / max(dst_max, eps));
+   end
 
    if (~add_plot)
       clf
@@ -70,12 +79,23 @@ end % function plot_update
 
 %------------------------------------------------------------------------------------------------------
 
-function [ y, z ] = opposite( y1, z1, y2, z2 )
+function [ fac ] = round_down( fac )
+% 1, 2 or 5 times a power of ten
+
+   unit = 10^floor(log10(fac));
+   step = [1 2 5];
+   fac  = unit * max(step(step<=fac/unit*(1+eps(8))));
+
+end % function round_down
+
+%------------------------------------------------------------------------------------------------------
+
+function [ y, z ] = opposite( y1, z1, y2, z2, force_spline )
 % Points of the first profile that belong to those of the second
 
    y = y1;
    z = z1;
-   if (numel(y1)==numel(y2))
+   if (numel(y1)==numel(y2) && ~force_spline)
       return
    end
    y = zeros(size(y2));

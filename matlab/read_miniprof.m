@@ -1,10 +1,11 @@
-function [ p ] = read_miniprof( fname )
+function [ p ] = read_miniprof( fname, idebug, make_plot )
 % READ_MINIPROF  Read a profile from a Miniprof file (.ban, .whl) or from a table of two columns.
 %
 %   p = read_miniprof( fname )
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] after the offsets of the header, Fname, ColumnDef, and
 %       ProfileData with all columns. Mirroring and order are left to READ_PROFILE.
+%   idebug, make_plot  for scripts that give them; nothing is printed, and READ_PROFILE draws
 %
 % See also: read_profile, write_miniprof.
 

@@ -1,4 +1,4 @@
-function [ p ] = read_simpack( fname )
+function [ p ] = read_simpack( fname, idebug, make_plot )
 % READ_SIMPACK  Read a profile from a Simpack file (.prr for rails, .prw for wheels).
 %
 %   p = read_simpack( fname )
@@ -6,6 +6,7 @@ function [ p ] = read_simpack( fname )
 %   p   struct with columns ProfileY, ProfileZ [mm], Fname, and from the file: type (0 rail, 1 wheel), mirror_y,
 %       mirror_z (0, 1), inversion (0, 1, or [] where it is not given), comment. Points that are too
 %       close are dropped, shifts and bounds are applied; mirroring and order are left to READ_PROFILE.
+%   idebug, make_plot  for scripts that give them; nothing is printed, and READ_PROFILE draws
 %
 % See also: read_profile, write_simpack.
 

@@ -14,6 +14,7 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 %          slc_ib     numbers of the first and the last feature that each slice has; slc_file, and s or th, are Fname and u
 %                     as other scripts call them
 %          kink, accel   numbers of parts with kinks and accelerations to the next part
+%          xsurf, ysurf, zsurf   points of the surface, one row for each slice, see RESAMPLE_SLICES
 %
 % Names inside the file are relative to its own folder.
 %
@@ -110,6 +111,7 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
    if (any(diff(slcs.u)<=1e-3))
       error('read_slices: positions of slices in "%s" must increase by more than 0.001 mm or rad.', fname);
    end
+   slcs = resample_slices(slcs);
 
 end % function read_slices
 

@@ -1,14 +1,16 @@
-function [ slcs ] = resample_slices( slcs, ds )
+function [ slcs, ierror ] = resample_slices( slcs, ds, varargin )
 % RESAMPLE_SLICES  Give all slices of a varying profile points that correspond to each other.
 %
 %   slcs = resample_slices( slcs, ds )
 %
 %   slcs   struct of READ_SLICES
-%   ds     largest distance of points across the profile [mm] (default 0.5)
+%   ds     largest distance of points across the profile [mm] (default 0.5); what follows is for scripts that give it
+%   ierror 0: what is wrong ends in an error
 %
 % The parts between features are divided into the same number of equal steps in all slices. Added fields:
 %
 %   vy, vz   nslc x npnt arrays of coordinates [mm]; NaN where a slice does not have a part
+%   xsurf, ysurf, zsurf   positions u of the slices in an array of the same size, and vy, vz as other scripts call them
 %
 % Lines through points with the same number run along the surface. At a position u between slices,
 % interp1(slcs.u, slcs.vy, u) and interp1(slcs.u, slcs.vz, u) are the points of a section.
@@ -18,6 +20,7 @@ function [ slcs ] = resample_slices( slcs, ds )
    if (nargin<2 || isempty(ds))
       ds = 0.5;
    end
+   ierror = 0;
    nfeat = size(slcs.s_feat, 2);
    s     = slcs.s_feat;
    for i = 1 : slcs.nslc
@@ -55,5 +58,9 @@ function [ slcs ] = resample_slices( slcs, ds )
       slcs.vy = [slcs.vy, vy];
       slcs.vz = [slcs.vz, vz];
    end
+   % names of other scripts
+   slcs.xsurf = repmat(slcs.u(:), 1, size(slcs.vy,2));
+   slcs.ysurf = slcs.vy;
+   slcs.zsurf = slcs.vz;
 
 end % function resample_slices

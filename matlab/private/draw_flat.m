@@ -1,6 +1,10 @@
 function draw_flat( sol, opt )
 % DRAW_FLAT  The plots of PLOT3D in the plane of the contact.
 
+   before = [];
+   if (~isempty(get(gca, 'children')))
+      before = axis;
+   end
    f = field_values(sol, opt.field);
    [ix, iy] = select_elements(sol, opt);
    [xc, yc] = corners(sol, ix, iy);
@@ -47,12 +51,20 @@ function draw_flat( sol, opt )
    if (y_reversed)
       set(gca, 'ydir','reverse');
    end
+   range = [xc(1) xc(end) yc(1) yc(end)];
+   if (~isempty(before))
+      % beside what is there already: other patches, other cases
+      range([1 3]) = min(range([1 3]), before([1 3]));
+      range([2 4]) = max(range([2 4]), before([2 4]));
+   end
+   if (above || any(strcmp(f.name, {'eldiv_spy','eldiv_contour'})))
+      axis(range);
+   end
    if (above)
-      axis([xc(1) xc(end) yc(1) yc(end)]);
       box on
    end
    if (opt.xstretch~=1 || (numel(xm)>1 && numel(ym)>1))
-      lengths = [xc(end)-xc(1), yc(end)-yc(1)] .* [1 1/opt.xstretch];
+      lengths = diff(range([1 2; 3 4]), 1, 2)' .* [1 1/opt.xstretch];
       heights = get(gca, 'zlim');
       % heights take half of what the longer side takes
       set(gca, 'dataaspectratio',[1 opt.xstretch 2*diff(heights)/max(lengths)]);
@@ -201,7 +213,6 @@ function draw_outlines( sol, opt, ix, iy, xc, yc )
          end
       end
    end
-   axis([xc(1) xc(end) yc(1) yc(end)]);
 
 end % function draw_outlines
 
@@ -240,6 +251,5 @@ function draw_symbols( sol, ix, iy, xm, ym )
    if (~isempty(shown))
       legend(shown);
    end
-   axis([xm(1)-sol.dx, xm(end)+sol.dx, ym(1)-sol.dy, ym(end)+sol.dy]);
 
 end % function draw_symbols

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The Python package: objects, errors, wrong use, threads."""
 import gc
+import inspect
 import os
 import re
 import shutil
@@ -236,6 +237,17 @@ def older_scripts():
     import python_intfc
     same(python_intfc.getmagicnumbers()["if_units"], 1933, "named numbers")
     check(cntc.cntc_setflags is cntc.setflags is python_intfc.setflags, "names with and without cntc_")
+    with open(os.path.join(SOURCE, "tests/octave/published_names.txt")) as table:
+        words = [line.split() for line in table if line.strip() and not line.startswith("#")]
+    calls = [call.split("/") for line in words if line[0] == "call" for call in line[1:] if call.startswith(("cntc_", "subs_"))]
+    check(len(calls) > 60, "calls of the table")
+    for name, arguments, _ in calls:
+        # licences are asked for in Matlab alone
+        if name != "cntc_managelicense":
+            takes = inspect.signature(getattr(python_intfc, name)).parameters
+            check(len(takes) >= int(arguments), f"{name} takes {arguments} arguments")
+    constants = {name for line in words if line[0] == "constant" for name in line[1:]}
+    check(constants <= set(python_intfc.getmagicnumbers()), f"constants {constants - set(python_intfc.getmagicnumbers())}")
     raises(AttributeError, lambda: cntc.cntc_nothing, "cntc_nothing", "a name that is none")
     with contact.WheelRail() as pair:
         cntc.setwheelsetdimensions(pair.number, 2, [1360.0, -70.0, 460.0])

@@ -118,6 +118,9 @@ s = read_slices('habit.slcs', 0, -1, 2, 0);
 check_near(s.prof{2}.ProfileY, 2*y, 1e-9, 'read_slices(fname, mirror_y, mirror_z, scale_yz, idebug)');
 check(s.u_method==1 && s.nfeat==0 && isequal(s.s, s.u) && strcmp(s.slc_file, 'habit.slcs'), 'its names');
 check(isequal(s.slc_ib, [1 2; 1 2; 1 2]), 'the whole of each slice');
+check(isequal(size(s.xsurf), size(s.zsurf)) && isequal(s.xsurf(:,[1 end]), s.u*[1 1]), 'xsurf: one row for each slice');
+check_near(interp1(s.ysurf(2,:), s.zsurf(2,:), 2*[-7 0 10]), interp1(s.prof{2}.ProfileY, s.prof{2}.ProfileZ, 2*[-7 0 10]), ...
+           0.05, 'ysurf, zsurf: its points');
 s = read_slices('habit.slcs', 0, 0, -1, 2);
 check_near(s.prof{3}.ProfileY, 2*y, 1e-9, 'and with is_wheel in front');
 f = fopen('habit.rai', 'w');

@@ -196,12 +196,19 @@ every = worn;
 every.ProfileY = worn.ProfileY(1:2:end);
 every.ProfileZ = worn.ProfileZ(1:2:end);
 check_near(plot_update(prr, every, 500), most, 1e-5, 'profiles with other points');
+before = numel(get(gca, 'children'));
+[least, l] = plot_update(prr, worn, [], 0, 0, 1, 0, 1, 1);
+check(numel(get(gca, 'children'))>before && least<=most+1e-12, 'show_angl, add_plot, force_spline');
+z = get(l(3), 'ydata');
+width = max(worn.ProfileY) - min(worn.ProfileY);
+check(max(abs(z(:)-prr.ProfileZ))<=0.1*width && max(abs(z(:)-prr.ProfileZ))>0.03*width, 'a magnification that fits');
 
 % a flat: pressures in rail coordinates and the outline of another case over them, from which scripts delete the lines of slip
 run_example('cattaneo');
 slips = loadcase('cattaneo', 2);
 slips.x_offset = 1;   slips.y_offset = -1;
 opt = plot3d;   opt.field = 'pn';   opt.view = 'rail';   opt.addeldiv = 0;   opt.addplot = 1;   opt.zrange = [0 2500];
+opt.ixrange = 'all';   opt.iyrange = 'all';
 figure(10);   clf;
 plot3d(slips, opt);
 opt.field = 'eldiv_contour';
@@ -211,6 +218,16 @@ check(numel(c)==5 && isequal(get(c(1),'color'), opt.eldivcol(1,:)) && isequal(ge
       'two lines each around contact and slip, the last ones around contact');
 delete(c(3:4));
 check(numel(get(gca, 'children'))==3 && ~isempty(findobj(gca, 'type','surface')), 'lines of slip deleted');
+% what was drawn before stays in sight: another case, all patches of one
+half = slips.dx/2;
+ends = [slips.x(1)-half slips.x(end)+half slips.y(1)-half slips.y(end)+half];   % without offsets
+other = slips;   other.x_offset = 6;
+plot3d(other, opt);
+check_near(axis(), ends + [1 6 -1 -1], 1e-9, 'addplot widens the axes');
+figure(10);   clf;
+opt = plot3d;   opt.field = 'eldiv_contour';   opt.ixrange = 'all';   opt.iyrange = 'all';
+plot3d([slips other], opt);
+check_near(axis(), ends + [1 6 -1 -1], 1e-9, 'all patches are in sight');
 bbox = cntc_boundbox(slips);
 check_near(bbox, [min(slips.x(any(slips.eldiv>0,1)))-slips.dx/2, max(slips.x(any(slips.eldiv>0,1)))+slips.dx/2, ...
                   min(slips.y(any(slips.eldiv>0,2)))-slips.dy/2, max(slips.y(any(slips.eldiv>0,2)))+slips.dy/2], 1e-12, 'rectangle');
