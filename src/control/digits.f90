@@ -12,21 +12,24 @@ module contact_control_digits
    private
 
    public :: case_digits, digit_row, digit_table, digit_names
-   public :: is_known, is_built, choice_of, digit_of, digit_text, allowed_text, digit_value, put_digit
-   public :: decode_words, encode_words, word_text
+   public :: row_of, belongs, is_known, is_built, choice_of, digit_of, digit_text, allowed_text, digit_value, put_digit
+   public :: decode_words, word_text
 
    !> Length of the words for a value, and of the list of all values of a digit
    integer, parameter, public :: text_length = 80, list_length = 28
    !> Length of the word for a value in the readable format
    integer, parameter, public :: word_length = 18
 
-   !> The digits of a case
+   !> The digits of a case: integers only, in the order of digit_names, so that they are a list, too
    type :: case_digits
+      sequence
       !> Configuration, module 1 only
       integer :: c1 = 0
       integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
-      integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1, gapwgt = 0
+      integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1
       integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
+      !> Weighting of gaps, in front of M2; it has no letter
+      integer :: gapwgt = 0
    end type case_digits
 
    !> One value of one control digit
@@ -52,6 +55,8 @@ module contact_control_digits
    !> All digits in the order of the control words; C1 has module 1 only
    character(len=2), parameter :: digit_names(*) = [character(len=2) :: &
       & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
+   !> Where the words 1, 2 and 3 begin and end among them, C1 apart; the digits of a case have one number more
+   integer, parameter :: first_of_word(3) = [2, 8, 16], last_of_word(3) = [7, 14, 23], number_of_digits = size(digit_names) + 1
 
    type(digit_row), parameter :: word1_rows(*) = [ &
       & digit_row("C1", 0, 0, module_1, .true., "left wheel on the track", "left_on_track"), &
@@ -232,7 +237,9 @@ contains
 
    !> Row of the table, 0 when there is none
    pure integer function row_of(name, digit, module_number) result(row)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -250,6 +257,7 @@ contains
 
    !> Does a module know this row?
    elemental logical function belongs(row, module_number)
+      !> Of the table
       type(digit_row), intent(in) :: row
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -354,38 +362,18 @@ contains
       text = text(3:)
    end function allowed_text
 
-   !> Value of the digit with the given name
+   !> Value of the digit with the given name, -1 when there is none
    pure integer function digit_value(digits, name) result(digit)
       type(case_digits), intent(in) :: digits
       !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      integer :: list(number_of_digits), k
 
-      select case (name)
-      case ("C1"); digit = digits%c1
-      case ("P"); digit = digits%p
-      case ("B"); digit = digits%b
-      case ("T"); digit = digits%t
-      case ("N"); digit = digits%n
-      case ("F"); digit = digits%f
-      case ("S"); digit = digits%s
-      case ("V"); digit = digits%v
-      case ("L"); digit = digits%l
-      case ("D"); digit = digits%d
-      case ("C"); digit = digits%c
-      case ("M"); digit = digits%m
-      case ("Z"); digit = digits%z
-      case ("E"); digit = digits%e
-      case ("M2"); digit = digits%m2
-      case ("X"); digit = digits%x
-      case ("H"); digit = digits%h
-      case ("G"); digit = digits%g
-      case ("I"); digit = digits%i
-      case ("A"); digit = digits%a
-      case ("O"); digit = digits%o
-      case ("W"); digit = digits%w
-      case ("R"); digit = digits%r
-      case default; digit = -1
-      end select
+      digit = -1
+      k = findloc(digit_names, name, dim=1)
+      if (k == 0) return
+      list = transfer(digits, list)
+      digit = list(k)
    end function digit_value
 
    !> Give a control digit a value
@@ -395,32 +383,13 @@ contains
       character(len=*), intent(in) :: name
       !> As the input has it
       integer, intent(in) :: value
+      integer :: list(number_of_digits), k
 
-      select case (name)
-      case ("C1"); digits%c1 = value
-      case ("P"); digits%p = value
-      case ("B"); digits%b = value
-      case ("T"); digits%t = value
-      case ("N"); digits%n = value
-      case ("F"); digits%f = value
-      case ("S"); digits%s = value
-      case ("V"); digits%v = value
-      case ("L"); digits%l = value
-      case ("D"); digits%d = value
-      case ("C"); digits%c = value
-      case ("M"); digits%m = value
-      case ("Z"); digits%z = value
-      case ("E"); digits%e = value
-      case ("M2"); digits%m2 = value
-      case ("X"); digits%x = value
-      case ("H"); digits%h = value
-      case ("G"); digits%g = value
-      case ("I"); digits%i = value
-      case ("A"); digits%a = value
-      case ("O"); digits%o = value
-      case ("W"); digits%w = value
-      case ("R"); digits%r = value
-      end select
+      k = findloc(digit_names, name, dim=1)
+      if (k == 0) return
+      list = transfer(digits, list)
+      list(k) = value
+      digits = transfer(list, digits)
    end subroutine put_digit
 
    !> Take the control words apart, from the right
@@ -437,92 +406,46 @@ contains
       type(case_digits), intent(inout) :: digits
       !> Second number of word 2, 10 GAPWGT + M2; absent means that the damping is kept
       integer, intent(in), optional :: second
-      integer :: rest
+      integer :: list(number_of_digits), c1
 
-      rest = abs(word1)
-      call take(rest, digits%s)
-      call take(rest, digits%f)
-      call take(rest, digits%n)
-      call take(rest, digits%t)
-      call take(rest, digits%b)
-      call take(rest, digits%p)
-      if (module_number == module_1) digits%c1 = rest
-
-      rest = abs(word2)
-      call take(rest, digits%e)
-      call take(rest, digits%z)
-      call take(rest, digits%m)
-      call take(rest, digits%c)
-      call take(rest, digits%d)
-      call take(rest, digits%l)
-      digits%v = rest
-
-      rest = abs(word3)
-      call take(rest, digits%r)
-      call take(rest, digits%w)
-      call take(rest, digits%o)
-      call take(rest, digits%a)
-      call take(rest, digits%i)
-      call take(rest, digits%g)
-      call take(rest, digits%h)
-      digits%x = rest
-
+      c1 = digits%c1
+      list = transfer(digits, list)
+      call take_apart(word1, list(first_of_word(1) - 1:last_of_word(1)))
+      call take_apart(word2, list(first_of_word(2):last_of_word(2)))
+      call take_apart(word3, list(first_of_word(3):last_of_word(3)))
+      digits = transfer(list, digits)
+      if (module_number /= module_1) digits%c1 = c1
       digits%m2 = 1
-      if (present(second)) then
-         rest = max(0, second)
-         call take(rest, digits%m2)
-         digits%m2 = min(2, digits%m2)
-         digits%gapwgt = rest
-      end if
+      if (.not. present(second)) return
+      digits%m2 = min(2, mod(max(0, second), 10))
+      digits%gapwgt = max(0, second)/10
    end subroutine decode_words
 
-   !> Cut the last digit off a number
-   pure subroutine take(number, digit)
-      integer, intent(inout) :: number
-      integer, intent(out) :: digit
-
-      digit = mod(number, 10)
-      number = number/10
-   end subroutine take
-
-   !> Put the control words together, without C1
-   pure subroutine encode_words(digits, word1, word2, word3, second)
-      type(case_digits), intent(in) :: digits
-      !> P B T N F S; V L D C M Z E; X H G I A O W R
-      integer, intent(out) :: word1, word2, word3
-      !> 10 GAPWGT + M2
-      integer, intent(out) :: second
-
-      word1 = joined([digits%p, digits%b, digits%t, digits%n, digits%f, digits%s])
-      word2 = joined([digits%v, digits%l, digits%d, digits%c, digits%m, digits%z, digits%e])
-      word3 = joined([digits%x, digits%h, digits%g, digits%i, digits%a, digits%o, digits%w, digits%r])
-      second = 10*digits%gapwgt + digits%m2
-   end subroutine encode_words
-
-   !> The number with these decimal digits
-   pure integer function joined(list) result(number)
-      integer, intent(in) :: list(:)
-      integer :: k
-
-      number = 0
-      do k = 1, size(list)
-         number = 10*number + list(k)
-      end do
-   end function joined
-
-   !> A control word as it is written in files, with its leading zeros
-   pure function word_text(word, width) result(text)
-      !> All digits as one integer
+   !> The decimal digits of a word; the first one gets all that is left of the others
+   pure subroutine take_apart(word, list)
       integer, intent(in) :: word
-      !> Number of digits: 6, 7 and 7 or 8 for the words 1, 2 and 3
-      integer, intent(in) :: width
-      character(len=width) :: text
-      integer :: rest, digit, k
+      integer, intent(out) :: list(:)
+      integer :: k, rest
 
-      rest = word
-      do k = width, 1, -1
-         call take(rest, digit)
-         text(k:k) = achar(iachar("0") + digit)
+      rest = abs(word)
+      do k = size(list), 2, -1
+         list(k) = mod(rest, 10)
+         rest = rest/10
+      end do
+      list(1) = rest
+   end subroutine take_apart
+
+   !> A control word as it is written in files, without C1 and X
+   pure function word_text(digits, word) result(text)
+      type(case_digits), intent(in) :: digits
+      !> 1, 2 or 3
+      integer, intent(in) :: word
+      character(len=last_of_word(word) - first_of_word(word) + merge(0, 1, word == 3)) :: text
+      integer :: list(number_of_digits), k
+
+      list = transfer(digits, list)
+      do k = 1, len(text)
+         text(k:k) = achar(iachar("0") + list(last_of_word(word) - len(text) + k))
       end do
    end function word_text
 end module contact_control_digits

@@ -3,7 +3,7 @@ module contact_control_words
    use contact_base_choices, only : grid_form, planform_choice
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item
-   use contact_control_digits, only : digit_names, digit_table, digit_text, is_known, word_length
+   use contact_control_digits, only : belongs, digit_names, digit_table, digit_text, is_known, row_of, word_length
    use contact_text_bounds, only : bounds_of
    use contact_text_words, only : small
    use contact_cases_distance, only : distance_form
@@ -19,6 +19,7 @@ module contact_control_words
    !> Order of the discretisation of rolling where no case of the readable format has said anything
    integer, parameter, public :: usual_order = 2
    integer, parameter :: module_1 = 1, module_3 = 3, both = 0
+   character(len=word_length), parameter :: no_word = ""
 
    !> Where a choice stands in a case
    type :: key_row
@@ -127,12 +128,9 @@ contains
       integer :: row
 
       digit = -1
-      if (len(word) == 0) return
-      do row = 1, size(digit_table)
-         if (digit_table(row)%name /= name .or. digit_table(row)%word /= word) cycle
-         if (all(digit_table(row)%module_number /= [both, module_number])) cycle
-         digit = digit_table(row)%digit
-      end do
+      if (word == "") return
+      row = findloc(choice_words(name, module_number), word, dim=1)
+      if (row > 0) digit = digit_table(row)%digit
    end function digit_of_word
 
    !> The word for a digit, blank when there is none
@@ -144,13 +142,11 @@ contains
       !> 1 or 3
       integer, intent(in) :: module_number
       character(len=word_length) :: word
-      integer :: row
 
       word = ""
-      do row = 1, size(digit_table)
-         if (digit_table(row)%name == name .and. digit_table(row)%digit == digit &
-            & .and. any(digit_table(row)%module_number == [both, module_number])) word = digit_table(row)%word
-      end do
+      associate (row => row_of(name, digit, module_number))
+         if (row > 0) word = digit_table(row)%word
+      end associate
    end function word_of_digit
 
    !> The words of a digit, blank where a row of the table is another one's
@@ -160,13 +156,8 @@ contains
       !> 1 or 3
       integer, intent(in) :: module_number
       character(len=word_length) :: words(size(digit_table))
-      integer :: row
 
-      words = ""
-      do row = 1, size(digit_table)
-         if (digit_table(row)%name == name .and. any(digit_table(row)%module_number == [both, module_number])) &
-            & words(row) = digit_table(row)%word
-      end do
+      words = merge(digit_table%word, no_word, digit_table%name == name .and. belongs(digit_table, module_number))
    end function choice_words
 
    !> Words as they are told: "a", "b" and "c"

@@ -3,7 +3,7 @@ module contact_output_file_writer
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file
    use contact_cases_archive, only : case_archive, item_kind
-   use contact_control_digits, only : case_digits, encode_words, word_text
+   use contact_control_digits, only : case_digits, word_text
    use contact_text_words, only : integer_text, to_real
    implicit none (type, external)
    private
@@ -135,16 +135,14 @@ contains
       type(case_digits), intent(in) :: digits
       !> 1 or 3
       integer, intent(in) :: module_number
-      integer :: word1, word2, word3, second
 
-      call encode_words(digits, word1, word2, word3, second)
       if (module_number == 1) then
-         call put_line(self, achar(iachar("0") + digits%c1) // word_text(word1, 6), "CPBTNFS")
+         call put_line(self, achar(iachar("0") + digits%c1) // word_text(digits, 1), "CPBTNFS")
       else
-         call put_line(self, word_text(word1, 6), "PBTNFS")
+         call put_line(self, word_text(digits, 1), "PBTNFS")
       end if
-      call put_line(self, word_text(word2, 7) // " " // integer_text(second), "VLDCMZE, GAPWGT M2")
+      call put_line(self, word_text(digits, 2) // " " // integer_text(10*digits%gapwgt + digits%m2), "VLDCMZE, GAPWGT M2")
       ! without the digit X: there is no fourth word
-      call put_line(self, word_text(word3, 7), "HGIAOWR")
+      call put_line(self, word_text(digits, 3), "HGIAOWR")
    end subroutine put_words
 end module contact_output_file_writer

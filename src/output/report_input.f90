@@ -13,7 +13,7 @@ module contact_output_report_input
    implicit none (type, external)
    private
 
-   public :: digit_titles, digit_words, write_input, write_last_digits, write_outer_iteration
+   public :: digit_words, write_input, write_last_digits, write_outer_iteration
 
    !> What the established program calls the digits, in the order of digit_names
    character(len=6), parameter :: digit_titles(*) = [character(len=6) :: "CONFIG", "PVTIME", "BOUND", "TANG", "NORM", &
