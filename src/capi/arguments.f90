@@ -10,8 +10,7 @@ module contact_capi_arguments
    implicit none (type, external)
    private
 
-   public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of, raised
-   public :: give, give_list, give_message, give_zeros, take_text
+   public :: no_number, integer_of, real_of, path_of, integers_of, raised, give, give_message, take_text
 
    !> Stands for an integer that was not given; no code, index or count is that large
    integer, parameter :: no_number = -huge(1)
@@ -19,16 +18,6 @@ module contact_capi_arguments
    integer(c_int), parameter, public :: wrong_call = 1, first_failure = 10
    !> Longest name of a file that is copied
    integer, parameter :: longest_path = 256
-
-   interface give
-      module procedure give_integer
-      module procedure give_real
-   end interface give
-
-   interface give_list
-      module procedure give_integers
-      module procedure give_reals
-   end interface give_list
 
    interface
       !> Length of a null-terminated text
@@ -99,18 +88,6 @@ contains
       if (size(list) > 0) list = array(:size(list))
    end function integers_of
 
-   !> The elements of an array of numbers
-   pure function reals_of(length, array) result(list)
-      !> Elements that the caller says there are
-      integer(c_int), intent(in), optional :: length
-      !> None where the caller gave a null pointer
-      real(c_double), intent(in), optional :: array(*)
-      real(wp), allocatable :: list(:)
-
-      allocate(list(count_of(length, present(array))))
-      if (size(list) > 0) list = array(:size(list))
-   end function reals_of
-
    !> What is too small for the models becomes the smallest value; what is negative or not a number stays for the check of bounds
    elemental real(wp) function raised(value, least)
       !> What a caller gave, and the smallest number that the models take; the same unit
@@ -121,66 +98,14 @@ contains
    end function raised
 
    !> Hand over one integer
-   pure subroutine give_integer(value, argument)
+   pure subroutine give(value, argument)
       !> What is handed over
       integer, intent(in) :: value
       !> Where it goes, if anywhere
       integer(c_int), intent(inout), optional :: argument
 
       if (present(argument)) argument = int(value, c_int)
-   end subroutine give_integer
-
-   !> Hand over one number
-   pure subroutine give_real(value, argument)
-      !> What is handed over, in the units of the caller
-      real(wp), intent(in) :: value
-      !> Where it goes, if anywhere
-      real(c_double), intent(inout), optional :: argument
-
-      if (present(argument)) argument = real(value, c_double)
-   end subroutine give_real
-
-   !> Hand over as many integers as there is room for
-   pure subroutine give_integers(list, length, array)
-      !> What is handed over
-      integer, intent(in) :: list(:)
-      !> Elements for which the caller has room
-      integer(c_int), intent(in), optional :: length
-      !> Where they go; behind them nothing is changed
-      integer(c_int), intent(inout), optional :: array(*)
-      integer :: n
-
-      n = min(size(list), count_of(length, present(array)))
-      if (n > 0) array(:n) = int(list(:n), c_int)
-   end subroutine give_integers
-
-   !> Hand over as many numbers as there is room for
-   pure subroutine give_reals(list, length, array)
-      !> What is handed over, in the units of the caller
-      real(wp), intent(in) :: list(:)
-      !> Elements for which the caller has room
-      integer(c_int), intent(in), optional :: length
-      !> Where they go; behind them nothing is changed
-      real(c_double), intent(inout), optional :: array(*)
-      integer :: n
-
-      n = min(size(list), count_of(length, present(array)))
-      if (n > 0) array(:n) = real(list(:n), c_double)
-   end subroutine give_reals
-
-   !> Fill the room behind the first elements with zeros
-   pure subroutine give_zeros(first, length, array)
-      !> First element to be filled
-      integer, intent(in) :: first
-      !> Elements for which the caller has room
-      integer(c_int), intent(in), optional :: length
-      !> Room of the caller
-      real(c_double), intent(inout), optional :: array(*)
-      integer :: n
-
-      n = count_of(length, present(array))
-      if (n >= first) array(first:n) = 0.0_c_double
-   end subroutine give_zeros
+   end subroutine give
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
    subroutine take_text(pointer, text)

@@ -5,7 +5,7 @@ module contact_capi_contact
    use contact_capi_arguments, only : raised
    use contact_capi_messages, only : fits, is_heard, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_setter, only : setter
+   use contact_capi_caller, only : caller
    use contact_cases_grid_inputs, only : largest_grid, visit_grid
    use contact_cases_rail_inputs, only : visit_search
    use contact_cases_spec, only : geometry_spec, grid_spec
@@ -26,7 +26,7 @@ contains
 
    !> Potential contact area; in module 1 the contact search and discretisation
    subroutine set_grid(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
 
       if (problem%module_number == 1) then
@@ -38,7 +38,7 @@ contains
 
    !> Contact search of wheel and rail
    subroutine set_search(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(search_spec), target :: search
 
@@ -68,7 +68,7 @@ contains
 
    !> A grid of a contact problem
    subroutine set_window(a, unknown, lowest, highest, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       !> What there is not, and what there is instead
       character(len=*), intent(in) :: unknown
       !> IPOTCN
@@ -90,7 +90,7 @@ contains
 
    !> Hertzian geometry
    subroutine set_hertz(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
 
       a%single(1) = max(-99, a%single(1))
@@ -99,7 +99,7 @@ contains
 
    !> Undeformed distance
    subroutine set_undeformed_distance(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(geometry_spec) :: geometry
       character(len=:), allocatable :: forms
@@ -119,7 +119,7 @@ contains
 
    !> Number of heights of a profile, the first value of the caller; 2 when it cannot be meant
    pure integer function number_of_heights(a) result(n)
-      type(setter), intent(in) :: a
+      type(caller), intent(in) :: a
 
       n = 2
       associate (values => a%numbers(1)%v)
@@ -130,7 +130,7 @@ contains
 
    !> Prescribed approach (N = 0)
    subroutine set_penetration(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
       call a%real("PEN", problem%stored%kinematics%pen)
@@ -140,7 +140,7 @@ contains
 
    !> Prescribed normal force (N = 1)
    subroutine set_normal_force(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
       call a%real("FN", problem%stored%kinematics%fn)
@@ -150,7 +150,7 @@ contains
 
    !> Creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
    subroutine set_creepages(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       real(wp) :: creep, spin
 
@@ -171,7 +171,7 @@ contains
 
    !> Extra term of the rigid slip, one value per element; what is missing is zero
    subroutine set_extra_slip(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       real(wp), allocatable :: slip(:, :)
       integer :: n, k, given
@@ -191,7 +191,7 @@ contains
 
    !> Rolling velocity
    subroutine set_velocity(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
 
       ! as the published interface has it, a velocity without sign

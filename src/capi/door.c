@@ -5,7 +5,7 @@
 #include "../../include/contact.h"
 
 int contact_guard(void (*work)(void *), void *data, int owner);
-void contact_make_setting(const char *name, const char *kinds, void **arguments);
+void contact_run_routine(const char *name, const char *kinds, void **arguments);
 void contact_call_failed(int cause, const char *name, const int *ire, const int *icp, int *ierror);
 
 /* Of any error, as CNTC_err_other; for callers who could not be told more */
@@ -23,7 +23,7 @@ static void go(void *data) {
   const contact_routine f = call->door->routine;
   void **a = call->a;
   if (f == NULL) {
-    contact_make_setting(call->door->setting, call->door->kinds, a);
+    contact_run_routine(call->door->shown, call->door->kinds, a);
     return;
   }
   switch (call->door->count) {

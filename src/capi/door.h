@@ -1,7 +1,7 @@
 /* The doors of the library: each routine that it exports, from the table interface.txt, once under its name and once with
  * an underscore behind it, the name that Fortran callers get who declare no interface. All arguments are addresses; more
  * of them, such as the hidden lengths of texts, do no harm. Behind a door stands a Fortran routine, under a guard: for
- * settings contact_make_setting, for the others the one named inside_... */
+ * settings and results contact_run_routine, for the others the one named inside_... */
 #ifndef CONTACT_CAPI_DOOR_H
 #define CONTACT_CAPI_DOOR_H
 
@@ -9,12 +9,12 @@
 
 typedef void (*contact_routine)(void);
 
-/* A routine: its name, the Fortran routine behind it or the name and the kinds of arguments of a setting, the number of
+/* A routine: its name, the Fortran routine behind it or its name in messages and the kinds of its arguments, the number of
  * arguments, and which of them are result element, patch and error code (-1: none) */
 struct door {
   const char *name;
   contact_routine routine;
-  const char *setting, *kinds;
+  const char *shown, *kinds;
   int count, ire, icp, ierror;
 };
 void contact_call(const struct door *door, void **arguments);
@@ -55,6 +55,6 @@ void contact_call(const struct door *door, void **arguments);
 #define DOOR(name, count, ire, icp, ierror) \
   void inside_##name PARAMETERS##count; \
   BOTH(name, count, (contact_routine)inside_##name, NULL, NULL, count, ire, icp, ierror)
-#define SETTING(name, count, ire, icp, ierror, shown, kinds) BOTH(name, count, NULL, shown, kinds, count, ire, icp, ierror)
+#define ROUTINE(name, count, ire, icp, ierror, shown, kinds) BOTH(name, count, NULL, shown, kinds, count, ire, icp, ierror)
 
 #endif

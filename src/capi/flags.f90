@@ -3,13 +3,11 @@ module contact_capi_flags
    use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_in_parallel
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give_list, integer_of, integers_of
+   use contact_capi_caller, only : caller
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
    use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say, warn
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_setter, only : setter
    use contact_capi_timers, only : set_timer_level
    use contact_cases_accuracy_plan, only : largest_accuracy
    use contact_control_digits, only : choice_of, digit_value, put_digit
@@ -22,7 +20,7 @@ module contact_capi_flags
    implicit none (type, external)
    private
 
-   public :: cntc_getflags, set_flags, set_metadata
+   public :: get_flags, set_flags, set_metadata
 
    type :: metadata_code_list
       integer :: time = 2011, x_rail = 2012, y_rail = 2013, x_wheel = 2014, y_wheel = 2015, s_wheel = 2016
@@ -35,7 +33,7 @@ contains
 
    !> Control digits, units and settings of one problem, in the order of the list
    subroutine set_flags(a, problem)
-      type(setter), intent(in) :: a
+      type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
       integer :: k
 
@@ -221,33 +219,27 @@ contains
    end function place_of
 
    !> Control digits as they were given; other entries keep their content
-   subroutine cntc_getflags(ire, icp, lenflg, params, values) bind(c, name="inside_cntc_getflags")
-      integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*)
-      integer(c_int), intent(inout), optional :: values(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      integer, allocatable :: codes(:), numbers(:)
+   subroutine get_flags(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
+      integer(c_int), pointer :: numbers(:)
       integer :: k, row
 
-      this = entry_type("cntc_getFlags", integer_of(ire), integer_of(icp))
-      call enter(this, scope%any, problem)
-      if (.not. associated(problem)) return
-      codes = integers_of(lenflg, params)
-      numbers = integers_of(lenflg, values)
-      do k = 1, min(size(codes), size(numbers))
-         if (codes(k) == 0) cycle
-         row = row_of_flag(codes(k))
-         if (row > 0) then
-            if (flag_table(row)%can_get) then
-               numbers(k) = flag_value(problem, this%icp, codes(k))
-               cycle
+      numbers => a%integers_at(1)
+      associate (codes => a%integers(1)%v)
+         do k = 1, min(size(codes), size(numbers))
+            if (codes(k) == 0) cycle
+            row = row_of_flag(codes(k))
+            if (row > 0) then
+               if (flag_table(row)%can_get) then
+                  numbers(k) = flag_value(problem, a%call_of%icp, codes(k))
+                  cycle
+               end if
             end if
-         end if
-         call complain(this, "the flag " // integer_text(codes(k)) // " cannot be asked for")
-      end do
-      call give_list(numbers, lenflg, values)
-      call leave(problem)
-   end subroutine cntc_getflags
+            call complain(a%call_of, "the flag " // integer_text(codes(k)) // " cannot be asked for")
+         end do
+      end associate
+   end subroutine get_flags
 
    !> The value of a flag; a patch of module 1 has some of its own
    integer function flag_value(problem, icp, code) result(number)
@@ -355,7 +347,7 @@ contains
 
    !> Where a case comes from, for printing and .mat files
    subroutine set_metadata(a, problem)
-      type(setter), intent(in) :: a
+      type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
       integer :: k
 

@@ -16,6 +16,9 @@ import make_matlab
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 WIDTH = 100
+#: Which problems a routine is for; the first two are ends of titles of sections, too
+SCOPES = {"basic contact": "c", "wheel and rail": "w", "any": "a", "patch of wheel and rail": "l",
+          "patch or whole of wheel and rail": "g", "one patch": "p", "solved": "v"}
 ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change those."
 
 
@@ -23,7 +26,7 @@ class Argument:
     """One argument: direction in, out or inout, kind int, real or text, and whether it is an array
 
     lengths has the arguments that tell its length; size the value of the length where that is fixed, "grid" for one value per
-    element, else None.
+    element, else None; is_table says that it is a result with two lengths, of which the routine makes its own use.
     """
 
     def __init__(self, text):
@@ -34,6 +37,7 @@ class Argument:
         self.is_array = length is not None
         name, _, size = (length or "").partition("=")
         self.lengths, self.size = name.split(), size or None
+        self.is_table = self.direction != "in" and len(self.lengths) == 2
 
 
 class Routine:
@@ -48,21 +52,24 @@ class Routine:
         self.text, self.about, self.words = [], [], []
 
     @property
-    def setting(self):
-        """The name of a setting as messages have it, "" for other routines"""
+    def shown(self):
+        """The name of a setting or result as messages have it, "" for routines with a Fortran interface of their own"""
         return next((word for word in self.words if word.lower() == self.name), "")
 
     def kinds(self, title):
-        """What a setting in a section is for, c basic contact, w wheel and rail, s both, a also patches of wheel and rail, then a
-        letter for each argument: e, p result element and patch, i, r integer and number, n length of an array;
-        I, R, P, T and the place of their length: arrays of integers, numbers and pairs, a text"""
+        """A letter for what a routine in a section is for, see SCOPES, then one for each argument: e, p result element and patch,
+        i, r integer and number, n length of an array; I, R, P, T and the place of their length: arrays of integers, numbers and
+        pairs, a text; x a result, X with the place of its length: an array with one length"""
         names = [item.name for item in self.arguments]
-        lengths = {name for item in self.arguments for name in item.lengths}
-        kinds = "a" if "any" in self.words else {"basic contact": "c", "wheel and rail": "w"}.get(title.split(" of ")[-1], "s")
+        lengths = {item.lengths[-1] for item in self.arguments if item.lengths and not item.is_table}
+        kinds = next((SCOPES[word] for word in (*self.words, title.split(" of ")[-1]) if word in SCOPES), "s")
         for item in self.arguments:
-            if item.is_array:
-                letter = "P" if len(item.lengths) == 2 else {"int": "I", "real": "R", "text": "T"}[item.kind]
+            is_result = item.direction != "in"
+            if item.lengths and not item.is_table:
+                letter = "X" if is_result else "P" if len(item.lengths) == 2 else {"int": "I", "real": "R", "text": "T"}[item.kind]
                 kinds += letter + str(names.index(item.lengths[-1]))
+            elif is_result:
+                kinds += "x"
             else:
                 kinds += {"ire": "e", "icp": "p"}.get(item.name) or ("n" if item.name in lengths else item.kind[0])
         return kinds
@@ -287,8 +294,8 @@ def c_doors(routines, undocumented):
     for title, routine in [(title, item) for title, items in routines + [("", undocumented)] for item in items]:
         names = [argument.name for argument in routine.arguments]
         places = ", ".join(str(names.index(name) if name in names else -1) for name in ("ire", "icp", "ierror"))
-        if routine.setting:
-            lines.append(f'SETTING({routine.name}, {len(names)}, {places}, "{routine.setting}", "{routine.kinds(title)}")')
+        if routine.shown:
+            lines.append(f'ROUTINE({routine.name}, {len(names)}, {places}, "{routine.shown}", "{routine.kinds(title)}")')
         else:
             lines.append(f"DOOR({routine.name}, {len(names)}, {places})")
     return lines

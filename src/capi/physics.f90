@@ -4,7 +4,7 @@ module contact_capi_physics
    use contact_base_kinds, only : wp
    use contact_capi_messages, only : fits, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_setter, only : min_value, setter
+   use contact_capi_caller, only : caller, min_value
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet, visit_wear
    use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, wear_spec
@@ -28,7 +28,7 @@ contains
 
    !> Iteration limits and solver (G)
    subroutine set_solver(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(iteration_spec), target :: iteration
 
@@ -56,7 +56,7 @@ contains
 
    !> Materials (M), or damping forces (M2, 10 higher)
    subroutine set_materials(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(damping_spec) :: damping
       type(material_spec) :: material
@@ -113,7 +113,7 @@ contains
 
    !> Surface temperatures (H)
    subroutine set_heat(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(heat_spec) :: heat
 
@@ -136,7 +136,7 @@ contains
 
    !> Numbers of wear and fatigue, which are asked for by them
    subroutine set_wear(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wear_spec), target :: wear
 
@@ -150,7 +150,7 @@ contains
 
    !> Time step; every solution derives its own from step and velocity
    subroutine set_time_step(a)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
 
       if (fits(a%call_of, "TC", a%numbers(1)%v, "dt")) call say(2, a%call_of, &
          & "the time step follows from rolling step and velocity")
@@ -158,7 +158,7 @@ contains
 
    !> Rolling direction and step; for wheel and rail the step in elements
    subroutine set_rolling_step(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
       if (problem%module_number == 1) then
@@ -177,7 +177,7 @@ contains
 
    !> Friction law (L) and its variation (V, 10 each)
    subroutine set_friction(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(friction_spec) :: friction
       integer :: method, digit, law, varies, n, k
@@ -232,7 +232,7 @@ contains
 
    !> Number of points of friction that varies, the first value of the caller
    pure integer function number_of_points(a) result(n)
-      type(setter), intent(in) :: a
+      type(caller), intent(in) :: a
 
       n = 0
       associate (values => a%numbers(1)%v)
@@ -243,7 +243,7 @@ contains
 
    !> Polach's law: exponential decay from fstat to A fstat, halved at ln 2/B
    subroutine visit_polach(a, varies, friction, k)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       !> Member of variation
       integer, intent(in) :: varies
       type(friction_spec), intent(inout), target :: friction
@@ -269,7 +269,7 @@ contains
 
    !> Prescribed tangential forces: relative ones (module 3), or the longitudinal force on the rail (module 1)
    subroutine set_tangential_forces(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
       associate (force => a%numbers(1)%v, kinematics => problem%stored%kinematics)

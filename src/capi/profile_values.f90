@@ -1,15 +1,13 @@
-!> Entries that hand out points of profiles (module 1)
+!> Points of profiles for callers (module 1)
 module contact_capi_profile_values
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : count_of, give_list, integer_of, integers_of, reals_of
+   use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, say
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : outward, quantity
@@ -24,7 +22,7 @@ module contact_capi_profile_values
    implicit none (type, external)
    private
 
-   public :: cntc_getprofilevalues, cntc_getprofilevalues_new
+   public :: get_profile_values
 
    !> What is asked for
    type :: task_list
@@ -53,43 +51,24 @@ module contact_capi_profile_values
 
 contains
 
-   !> The same under the name of an earlier release
-   subroutine cntc_getprofilevalues_new(ire, itask, nints, iparam, nreals, rparam, lenarr, val) &
-      & bind(c, name="inside_cntc_getprofilevalues_new")
-      integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
-      real(c_double), intent(in), optional :: rparam(*)
-      real(c_double), intent(inout), optional :: val(*)
-
-      call cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val)
-      call say(0, entry_type("cntc_getProfileValues_new", integer_of(ire)), "the same as cntc_getProfileValues")
-   end subroutine cntc_getprofilevalues_new
-
    !> Points, arc lengths, inclinations of a profile, and whether there is one
-   subroutine cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val) &
-      & bind(c, name="inside_cntc_getprofilevalues")
-      integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
-      real(c_double), intent(in), optional :: rparam(*)
-      real(c_double), intent(inout), optional :: val(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_profile_values(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
       type(sampling) :: sample
-      integer, allocatable :: ints(:)
       logical :: is_wheel
 
-      this = entry_type("cntc_getProfileValues", integer_of(ire))
-      call enter(this, scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
-      ints = integers_of(nints, iparam)
-      is_wheel = .false.
-      if (size(ints) >= 1) is_wheel = ints(1) == 1
-      call set_sampling(this, integer_of(itask), ints, reals_of(nreals, rparam), sample)
+      associate (ints => a%integers(1)%v)
+         is_wheel = .false.
+         if (size(ints) >= 1) is_wheel = ints(1) == 1
+         call set_sampling(a%call_of, a%single(1), ints, a%numbers(1)%v, sample)
+      end associate
       if (is_wheel) then
-         call answer(this, integer_of(itask), problem, problem%wheel, is_wheel, sample, lenarr, val)
+         call answer(a, a%single(1), problem, problem%wheel, is_wheel, sample)
       else
-         call answer(this, integer_of(itask), problem, problem%rail, is_wheel, sample, lenarr, val)
+         call answer(a, a%single(1), problem, problem%rail, is_wheel, sample)
       end if
-      call leave(problem)
-   end subroutine cntc_getprofilevalues
+   end subroutine get_profile_values
 
    !> Sampling from the arguments
    subroutine set_sampling(this, wanted, ints, reals, sample)
@@ -114,59 +93,56 @@ contains
    end subroutine set_sampling
 
    !> Hand over what is asked for
-   subroutine answer(this, wanted, problem, given, is_wheel, sample, length, values)
-      type(entry_type), intent(in) :: this
+   subroutine answer(a, wanted, problem, given, is_wheel, sample)
+      type(caller), intent(in) :: a
       !> Member of task
       integer, intent(in) :: wanted
       type(library_problem), intent(inout) :: problem
       type(given_profile), intent(in) :: given
       logical, intent(in) :: is_wheel
       type(sampling), intent(in) :: sample
-      integer(c_int), intent(in), optional :: length
-      real(c_double), intent(inout), optional :: values(*)
       type(profile_curve) :: curve
       real(wp), allocatable :: s(:)
 
       if (wanted == task%status) then
-         call give_list([real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail], &
-            & length, values)
+         call a%give(1, [real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail])
          return
       else if (wanted < task%status .or. wanted > task%dump) then
-         call complain(this, "there is no task " // integer_text(wanted) // "; -1 to 9 are")
+         call complain(a%call_of, "there is no task " // integer_text(wanted) // "; -1 to 9 are")
          return
       else if (given%detail /= 0) then
-         call complain(this, "the profile is missing or cannot be used", library_code%profile)
+         call complain(a%call_of, "the profile is missing or cannot be used", library_code%profile)
          return
       else if (wanted >= task%along_u) then
-         call answer_along(this, wanted, given, sample, length, values)
+         call answer_along(a, wanted, given, sample)
          return
       end if
-      call section_of(this, problem, given, is_wheel, sample, curve)
+      call section_of(a%call_of, problem, given, is_wheel, sample, curve)
       if (.not. allocated(curve%y%s)) then
-         call give_list([real(library_code%profile, wp)], length, values)
+         call a%give(1, [real(library_code%profile, wp)])
          return
       end if
       call curve_positions(curve, sample%method, sample%step, s)
       select case (wanted)
       case (task%count)
-         call give_list([real(size(s), wp)], length, values)
+         call a%give(1, [real(size(s), wp)])
       case (task%points)
-         call give_list([curve%y%value(s), curve%z%value(s)], length, values)
+         call a%give(1, [curve%y%value(s), curve%z%value(s)])
       case (task%in_track)
-         call give_list(places_in_track(problem%spec%wheel_rail, problem%wheel_rail_result, is_wheel, curve%y%value(s), &
-            & curve%z%value(s)), length, values)
+         call a%give(1, places_in_track(problem%spec%wheel_rail, problem%wheel_rail_result, is_wheel, curve%y%value(s), &
+            & curve%z%value(s)))
       case (task%gauge)
          if (is_wheel) then
-            call complain(this, "a wheel has no gauge point")
-            call give_list([real(library_code%profile, wp)], length, values)
+            call complain(a%call_of, "a wheel has no gauge point")
+            call a%give(1, [real(library_code%profile, wp)])
          else
-            call give_list(gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
-               & outward(problem%units, quantity%length), length, values)
+            call a%give(1, gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
+               & outward(problem%units, quantity%length))
          end if
       case (task%arc_length)
-         call give_list(s, length, values)
+         call a%give(1, s)
       case (task%slope)
-         call give_list(atan2(curve%z%slope(s), curve%y%slope(s))*outward(problem%units, quantity%angle), length, values)
+         call a%give(1, atan2(curve%z%slope(s), curve%y%slope(s))*outward(problem%units, quantity%angle))
       end select
    end subroutine answer
 
@@ -210,34 +186,32 @@ contains
    end subroutine section_of
 
    !> Lines on a variable profile: along one of its coordinates u and v, or along the track; or the surface itself
-   subroutine answer_along(this, wanted, given, sample, length, values)
-      type(entry_type), intent(in) :: this
+   subroutine answer_along(a, wanted, given, sample)
+      type(caller), intent(in) :: a
       integer, intent(in) :: wanted
       type(given_profile), intent(in) :: given
       type(sampling), intent(in) :: sample
-      integer(c_int), intent(in), optional :: length
-      real(c_double), intent(inout), optional :: values(*)
       real(wp), allocatable :: list(:)
       real(wp) :: range(2), y, z
       integer :: i, n
 
       if (.not. allocated(given%surface)) then
-         call complain(this, "the profile does not vary, task " // integer_text(wanted) // " is for variable profiles")
+         call complain(a%call_of, "the profile does not vary, task " // integer_text(wanted) // " is for variable profiles")
          return
       else if (wanted == task%dump) then
-         call write_surface(this, given%surface)
+         call write_surface(a%call_of, given%surface)
          return
       end if
       range = given%surface%u_range
       if (wanted == task%along_u) range = [0.0_wp, real(given%surface%lines - 1, wp)]
       if (sample%has_range) range = [sample%first, sample%last]
       n = int(max(0.0_wp, min(1.0e7_wp, (range(2) - range(1))/sample%step))) + 1
-      if (integer_of(length) == 1) then
-         call give_list([real(n, wp)], length, values)
+      if (a%answers(1)%room == 1) then
+         call a%give(1, [real(n, wp)])
          return
       end if
       ! no more points than the caller has room for
-      allocate(list(min(3*n, count_of(length, present(values)))))
+      allocate(list(min(3*n, a%answers(1)%room)))
       do i = 1, min(n, size(list))
          list(i) = range(1) + (i - 1)*sample%step
          if (wanted == task%along_u) list(i) = sample%place
@@ -246,7 +220,7 @@ contains
          list(n + i) = y
          if (2*n + i <= size(list)) list(2*n + i) = z
       end do
-      call give_list(list, length, values)
+      call a%give(1, list)
    end subroutine answer_along
 
    !> The surface as a script of Matlab or Octave, a struct with its knots and coefficients

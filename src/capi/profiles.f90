@@ -11,7 +11,7 @@ module contact_capi_profiles
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
-   use contact_capi_setter, only : setter
+   use contact_capi_caller, only : caller
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
@@ -36,7 +36,7 @@ contains
 
    !> A profile in a file, or as a table y1, z1, y2, z2, ...
    subroutine set_profile(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(profile_spec) :: profile
       integer, allocatable :: options(:)

@@ -1,14 +1,12 @@
-!> Entries that hand out totals and settings of one patch
+!> What callers get of one patch: totals, and its settings as they act
 module contact_capi_results
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_c_binding, only : c_double
    use contact_base_choices, only : motion
-   use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
-   use contact_capi_library, only : entry_type
+   use contact_base_kinds, only : long, wp
+   use contact_capi_caller, only : caller
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_view, only : enter_result, look_at, result_view
+   use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_control_units, only : inward, orientation, outward, quantity, quantity_type
    use contact_elastic_material, only : combine, combined_material
@@ -17,31 +15,23 @@ module contact_capi_results
    implicit none (type, external)
    private
 
-   public :: cntc_getparameters, cntc_getreferencevelocity, cntc_gethertzcontact, cntc_getnumelements
-   public :: cntc_getgriddiscretization, cntc_getpotcontact, cntc_getpenetration, cntc_getcreepages
-   public :: cntc_getcontactforces, cntc_getcontactpatchareas, cntc_getsensitivities, cntc_getcalculationtime
-   public :: cntc_resetcalculationtime
+   public :: get_areas, get_approach, get_creepages, get_element_sides, get_grid, get_hertz, get_parameters, get_sensitivities
+   public :: get_time, get_velocity, reset_time
 
 contains
 
    !> Kinematic constants (1), material constants (2), friction law (3)
-   subroutine cntc_getparameters(ire, icp, itask, lenarr, values) bind(c, name="inside_cntc_getparameters")
-      integer(c_int), intent(in), optional :: ire, icp, itask, lenarr
-      real(c_double), intent(inout), optional :: values(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_parameters(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
 
-      this = entry_type("cntc_getParameters", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      select case (integer_of(itask))
-      case (1); call give_list(kinematic_constants(problem, this%icp), lenarr, values)
-      case (2); call give_list(material_constants(problem, this%icp), lenarr, values)
-      case (3); call give_list(friction_constants(problem%spec), lenarr, values)
-      case default; call complain(this, "there is no task " // integer_text(integer_of(itask)) // "; 1, 2 and 3 are")
+      select case (a%single(1))
+      case (1); call a%give(1, kinematic_constants(problem, a%call_of%icp))
+      case (2); call a%give(1, material_constants(problem, a%call_of%icp))
+      case (3); call a%give(1, friction_constants(problem%spec))
+      case default; call complain(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2 and 3 are")
       end select
-      call leave(problem)
-   end subroutine cntc_getparameters
+   end subroutine get_parameters
 
    !> V, chi, dq, spinxo, spinyo, tau_c0
    function kinematic_constants(problem, icp) result(list)
@@ -116,276 +106,170 @@ contains
    end function friction_constants
 
    !> Rolling velocity
-   subroutine cntc_getreferencevelocity(ire, icp, veloc) bind(c, name="inside_cntc_getreferencevelocity")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: veloc
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      real(wp) :: constants(6)
+   subroutine get_velocity(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
 
-      this = entry_type("cntc_getReferenceVelocity", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      constants = kinematic_constants(problem, this%icp)
-      call give(constants(1), veloc)
-      call leave(problem)
-   end subroutine cntc_getreferencevelocity
+      associate (constants => kinematic_constants(problem, a%call_of%icp))
+         call a%give_each(constants(:1))
+      end associate
+   end subroutine get_velocity
 
    !> The Hertz solution: a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob
-   subroutine cntc_gethertzcontact(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_gethertzcontact")
-      integer(c_int), intent(in), optional :: ire, icp, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_hertz(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
       real(wp) :: list(10)
 
-      this = entry_type("cntc_getHertzContact", integer_of(ire), integer_of(icp))
-      call enter(this, scope%contact, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         associate (grid => problem%spec%grid, length => outward(view%units, quantity%length), &
-            & curvature => outward(view%units, quantity%curvature))
-            list = [grid%a1*curvature, grid%b1*curvature, grid%aa*length, grid%bb*length, 0.0_wp, 0.0_wp, grid%scale, &
-               & grid%bneg*length, grid%bpos*length, grid%aob]
-            if (allocated(view%patch%hertz)) then
-               associate (hertz => view%patch%hertz)
-                  list(1:2) = [hertz%a1, hertz%b1]*curvature
-                  list(3:6) = [hertz%aa, hertz%bb, hertz%rho, hertz%cp]*length
-                  list(8:9) = hertz%bb*length
-                  list(10) = hertz%aob
-               end associate
-            else
-               if (grid%a1 + grid%b1 > 0.0_wp) list(5) = 2.0_wp/(grid%a1 + grid%b1)*length
-               list(6) = sqrt(max(0.0_wp, grid%aa*grid%bb))*length
-            end if
-         end associate
-         call give_list(list, lenarr, rvalues)
-      end if
-      call leave(problem)
-   end subroutine cntc_gethertzcontact
-
-   !> Numbers of elements of the current grid
-   subroutine cntc_getnumelements(ire, icp, mx, my) bind(c, name="inside_cntc_getnumelements")
-      integer(c_int), intent(in), optional :: ire, icp
-      integer(c_int), intent(inout), optional :: mx, my
-      type(library_problem), pointer :: problem
-      type(result_view) :: view
-
-      call enter_result(entry_type("cntc_getNumElements", integer_of(ire), integer_of(icp)), problem, view)
-      if (.not. associated(problem)) return
-      call give(view%patch%grid%mx, mx)
-      call give(view%patch%grid%my, my)
-      call leave(problem)
-   end subroutine cntc_getnumelements
+      view = look_at(a%call_of, problem)
+      if (.not. associated(view%patch)) return
+      associate (grid => problem%spec%grid, length => outward(view%units, quantity%length), &
+         & curvature => outward(view%units, quantity%curvature))
+         list = [grid%a1*curvature, grid%b1*curvature, grid%aa*length, grid%bb*length, 0.0_wp, 0.0_wp, grid%scale, &
+            & grid%bneg*length, grid%bpos*length, grid%aob]
+         if (allocated(view%patch%hertz)) then
+            associate (hertz => view%patch%hertz)
+               list(1:2) = [hertz%a1, hertz%b1]*curvature
+               list(3:6) = [hertz%aa, hertz%bb, hertz%rho, hertz%cp]*length
+               list(8:9) = hertz%bb*length
+               list(10) = hertz%aob
+            end associate
+         else
+            if (grid%a1 + grid%b1 > 0.0_wp) list(5) = 2.0_wp/(grid%a1 + grid%b1)*length
+            list(6) = sqrt(max(0.0_wp, grid%aa*grid%bb))*length
+         end if
+      end associate
+      call a%give(1, list)
+   end subroutine get_hertz
 
    !> Sides of the elements: of the current grid, or as set for wheel and rail
-   subroutine cntc_getgriddiscretization(ire, icp, dx, dy) bind(c, name="inside_cntc_getgriddiscretization")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: dx, dy
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_element_sides(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
-      real(wp) :: length
 
-      this = entry_type("cntc_getGridDiscretization", integer_of(ire), integer_of(icp))
-      call enter(this, scope%any, problem)
-      if (.not. associated(problem)) return
-      length = outward(problem%units, quantity%length)
-      if (this%icp < 0) then
-         call give(problem%spec%wheel_rail%search%dx*length, dx)
-         call give(problem%spec%wheel_rail%search%ds*length, dy)
-      else
-         view = look_at(this, problem)
-         if (associated(view%patch)) then
-            call give(view%patch%grid%dx*length, dx)
-            call give(view%patch%grid%dy*length, dy)
+      associate (length => outward(problem%units, quantity%length))
+         if (a%call_of%icp < 0) then
+            call a%give_each([problem%spec%wheel_rail%search%dx, problem%spec%wheel_rail%search%ds]*length)
+         else
+            view = look_at(a%call_of, problem)
+            if (associated(view%patch)) call a%give_each([view%patch%grid%dx, view%patch%grid%dy]*length)
          end if
-      end if
-      call leave(problem)
-   end subroutine cntc_getgriddiscretization
+      end associate
+   end subroutine get_element_sides
 
    !> The current grid: mx, my, centre of the first element, sides of the elements
-   subroutine cntc_getpotcontact(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getpotcontact")
-      integer(c_int), intent(in), optional :: ire, icp, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      type(result_view) :: view
+   subroutine get_grid(a, problem, view)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
+      type(result_view), intent(in) :: view
       real(wp) :: first_x, first_y, origin(2)
 
-      this = entry_type("cntc_getPotContact", integer_of(ire), integer_of(icp))
-      call enter_result(this, problem, view)
-      if (.not. associated(problem)) return
       associate (grid => view%patch%grid, length => outward(view%units, quantity%length))
          origin = 0.0_wp
-         if (problem%module_number == 1) origin = problem%wheel_rail_result%patches(this%icp)%grid_reference
+         if (problem%module_number == 1) origin = problem%wheel_rail_result%patches(a%call_of%icp)%grid_reference
          first_x = grid%x(1) + origin(1)
          first_y = grid%y(1) + origin(2)
          if (view%left) first_y = -(grid%y(grid%my) + origin(2))
-         call give_list([real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, &
-            & grid%dy*length], lenarr, rvalues)
-         call give_zeros(7, lenarr, rvalues)
+         call a%give(1, [real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, grid%dy*length], &
+            & fills=.true.)
       end associate
-      call leave(problem)
-   end subroutine cntc_getpotcontact
+   end subroutine get_grid
 
    !> Approach, prescribed or found
-   subroutine cntc_getpenetration(ire, icp, pen) bind(c, name="inside_cntc_getpenetration")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: pen
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      real(wp) :: length
+   subroutine get_approach(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
+      real(wp) :: approach
 
-      this = entry_type("cntc_getPenetration", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      length = outward(problem%units, quantity%length)
-      if (problem%module_number == 1) then
-         call give(problem%wheel_rail_result%patches(this%icp)%contact%pen*length, pen)
-      else
-         call give(problem%stored%kinematics%pen*length, pen)
-      end if
-      call leave(problem)
-   end subroutine cntc_getpenetration
+      approach = problem%stored%kinematics%pen
+      if (problem%module_number == 1) approach = problem%wheel_rail_result%patches(a%call_of%icp)%contact%pen
+      call a%give_each([approach*outward(problem%units, quantity%length)])
+   end subroutine get_approach
 
    !> Creepages or shifts, prescribed or found
-   subroutine cntc_getcreepages(ire, icp, vx, vy, phi) bind(c, name="inside_cntc_getcreepages")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: vx, vy, phi
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_creepages(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
+      integer, parameter :: signs(3) = [orientation%along, orientation%across, orientation%across]
+      type(quantity_type) :: units(3)
       real(wp) :: creep(3)
-      type(quantity_type) :: of_creep, of_spin
       logical :: left
 
-      this = entry_type("cntc_getCreepages", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
       creep = [problem%stored%kinematics%cksi, problem%stored%kinematics%ceta, problem%stored%kinematics%cphi]
       left = .false.
       if (problem%module_number == 1) then
          left = problem%spec%wheel_rail%left
-         associate (patch => problem%wheel_rail_result%patches(this%icp)%contact)
+         associate (patch => problem%wheel_rail_result%patches(a%call_of%icp)%contact)
             creep = [patch%cksi, patch%ceta, patch%cphi]
          end associate
       end if
-      of_creep = quantity%number
-      of_spin = quantity%spin
-      if (problem%motion() == motion%shift) then
-         of_creep = quantity%length
-         of_spin = quantity%angle
-      end if
-      call give(creep(1)*outward(problem%units, of_creep, orientation%along, left), vx)
-      call give(creep(2)*outward(problem%units, of_creep, orientation%across, left), vy)
-      call give(creep(3)*outward(problem%units, of_spin, orientation%across, left), phi)
-      call leave(problem)
-   end subroutine cntc_getcreepages
-
-   !> Normal force, tangential forces, moment about the normal, without damping
-   subroutine cntc_getcontactforces(ire, icp, fn, tx, ty, mz) bind(c, name="inside_cntc_getcontactforces")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: fn, tx, ty, mz
-      type(library_problem), pointer :: problem
-      type(result_view) :: view
-      real(wp) :: values(4)
-
-      call enter_result(entry_type("cntc_getContactForces", integer_of(ire), integer_of(icp)), problem, view)
-      if (.not. associated(problem)) return
-      values = view%totals(["fn", "fx", "fy", "mz"])
-      call give(values(1), fn)
-      call give(values(2), tx)
-      call give(values(3), ty)
-      call give(values(4), mz)
-      call leave(problem)
-   end subroutine cntc_getcontactforces
+      units = [quantity%number, quantity%number, quantity%spin]
+      if (problem%motion() == motion%shift) units = [quantity%length, quantity%length, quantity%angle]
+      call a%give_each(creep*outward(problem%units, units, signs, left))
+   end subroutine get_creepages
 
    !> Areas of contact, adhesion and slip
-   subroutine cntc_getcontactpatchareas(ire, icp, carea, harea, sarea) bind(c, name="inside_cntc_getcontactpatchareas")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: carea, harea, sarea
-      type(library_problem), pointer :: problem
-      type(result_view) :: view
-      real(wp) :: area
+   subroutine get_areas(a, view)
+      type(caller), intent(in) :: a
+      type(result_view), intent(in) :: view
 
-      call enter_result(entry_type("cntc_getContactPatchAreas", integer_of(ire), integer_of(icp)), problem, view)
-      if (.not. associated(problem)) return
       associate (patch => view%patch)
-         area = patch%grid%dx*patch%grid%dy*outward(view%units, quantity%area)
-         call give(patch%ncon*area, carea)
-         call give(patch%nadh*area, harea)
-         call give(patch%nslip*area, sarea)
+         call a%give_each([patch%ncon, patch%nadh, patch%nslip]*(patch%grid%dx*patch%grid%dy*outward(view%units, quantity%area)))
       end associate
-      call leave(problem)
-   end subroutine cntc_getcontactpatchareas
+   end subroutine get_areas
 
    !> Sensitivities: rows Fn, Fx, Fy, Mz, columns approach, creepages, spin; the first four by four entries
-   subroutine cntc_getsensitivities(ire, icp, lenout, lenin, sens) bind(c, name="inside_cntc_getsensitivities")
-      integer(c_int), intent(in), optional :: ire, icp, lenout, lenin
-      real(c_double), intent(inout), optional :: sens(*)
-      type(library_problem), pointer :: problem
-      type(result_view) :: view
+   subroutine get_sensitivities(a, problem, view)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
+      type(result_view), intent(in) :: view
       real(wp) :: per_input(4), per_output(4), side
-      integer :: i, j, rows
+      real(c_double), pointer :: sens(:)
+      integer :: columns, i, j, rows
 
-      call enter_result(entry_type("cntc_getSensitivities", integer_of(ire), integer_of(icp)), problem, view)
-      if (.not. associated(problem)) return
-      rows = max(0, integer_of(lenout))
-      if (present(sens)) then
-         associate (units => problem%units)
-            side = merge(-1.0_wp, 1.0_wp, view%left)
-            per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
-            if (problem%motion() == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
-               & + [0.0_wp, 0.0_wp, side*inward(units, quantity%angle)]
-            per_output = [inward(units, quantity%force), 1.0_wp, side, side*inward(units, quantity%moment)]
-         end associate
-         do j = 1, min(4, integer_of(lenin))
-            do i = 1, min(4, rows)
-               sens((j - 1)*rows + i) = view%patch%sensitivity(i, j)*per_input(j)/per_output(i)
-            end do
+      rows = max(0, a%single(1))
+      columns = max(0, min(4, a%single(2)))
+      sens => a%numbers_at(1, int(rows, long)*columns)
+      if (size(sens) == 0) return
+      associate (units => problem%units)
+         side = merge(-1.0_wp, 1.0_wp, view%left)
+         per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
+         if (problem%motion() == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
+            & + [0.0_wp, 0.0_wp, side*inward(units, quantity%angle)]
+         per_output = [inward(units, quantity%force), 1.0_wp, side, side*inward(units, quantity%moment)]
+      end associate
+      do j = 1, columns
+         do i = 1, min(4, rows)
+            sens((j - 1)*rows + i) = view%patch%sensitivity(i, j)*per_input(j)/per_output(i)
          end do
-      end if
-      call leave(problem)
-   end subroutine cntc_getsensitivities
+      end do
+   end subroutine get_sensitivities
 
    !> Processor and elapsed time of calculations since the last reset
-   subroutine cntc_getcalculationtime(ire, icp, tcpu, twall) bind(c, name="inside_cntc_getcalculationtime")
-      integer(c_int), intent(in), optional :: ire, icp
-      real(c_double), intent(inout), optional :: tcpu, twall
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_time(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
 
-      this = entry_type("cntc_getCalculationTime", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
       if (problem%module_number == 1) then
-         call give(problem%patch_cpu(this%icp), tcpu)
-         call give(problem%patch_wall(this%icp), twall)
+         call a%give_each([problem%patch_cpu(a%call_of%icp), problem%patch_wall(a%call_of%icp)])
       else
-         call give(problem%watch%cpu, tcpu)
-         call give(problem%watch%wall, twall)
+         call a%give_each([problem%watch%cpu, problem%watch%wall])
       end if
-      call leave(problem)
-   end subroutine cntc_getcalculationtime
+   end subroutine get_time
 
    !> Count the time of calculations from zero again
-   subroutine cntc_resetcalculationtime(ire, icp) bind(c, name="inside_cntc_resetcalculationtime")
-      integer(c_int), intent(in), optional :: ire, icp
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine reset_time(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
 
-      this = entry_type("cntc_resetCalculationTime", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
       if (problem%module_number == 1) then
-         problem%patch_cpu(this%icp) = 0.0_wp
-         problem%patch_wall(this%icp) = 0.0_wp
+         problem%patch_cpu(a%call_of%icp) = 0.0_wp
+         problem%patch_wall(a%call_of%icp) = 0.0_wp
       else
          problem%watch%cpu = 0.0_wp
          problem%watch%wall = 0.0_wp
       end if
-      call leave(problem)
-   end subroutine cntc_resetcalculationtime
+   end subroutine reset_time
 end module contact_capi_results

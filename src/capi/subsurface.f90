@@ -1,16 +1,16 @@
-!> Entries for stresses below the surface
+!> Stresses below the surface for callers
 module contact_capi_subsurface
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_error, only : add_context, error_type, full_text
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of, integers_of, raised
+   use contact_capi_arguments, only : give, integer_of, raised
+   use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, count_fits, first_refusal, fits, library_log
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope
-   use contact_capi_setter, only : setter
+   use contact_capi_registry, only : enter_calculation, leave_calculation, scope
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -24,7 +24,7 @@ module contact_capi_subsurface
    implicit none (type, external)
    private
 
-   public :: add_block, subs_calculate, subs_getblocksize, subs_getresults
+   public :: add_block, get_block, get_block_size, subs_calculate
 
    !> Blocks of a problem, points of a block in one direction
    integer, parameter :: max_blocks = 10, longest_list = 9999
@@ -42,7 +42,7 @@ contains
    !>
    !> Points may be private to a patch of wheel and rail.
    subroutine add_block(a, problem)
-      type(setter), intent(in) :: a
+      type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
       type(point_block) :: block
       logical :: accepted
@@ -261,26 +261,22 @@ contains
    end subroutine find_file
 
    !> Numbers of points of a block, -1 when there is none
-   subroutine subs_getblocksize(ire, icp, iblk, nx, ny, nz) bind(c, name="inside_subs_getblocksize")
-      integer(c_int), intent(in), optional :: ire, icp, iblk
-      integer(c_int), intent(inout), optional :: nx, ny, nz
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_block_size(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
-      integer :: size_of(3), k
+      integer :: k
 
-      this = entry_type("subs_getBlocksize", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      size_of = -1
-      k = integer_of(iblk)
-      if (has_block(view, k)) size_of = [view%patch%subsurface(k)%nx, view%patch%subsurface(k)%ny, view%patch%subsurface(k)%nz]
-      call give(size_of(1), nx)
-      call give(size_of(2), ny)
-      call give(size_of(3), nz)
-      call leave(problem)
-   end subroutine subs_getblocksize
+      view = look_at(a%call_of, problem)
+      k = a%single(1)
+      if (has_block(view, k)) then
+         associate (block => view%patch%subsurface(k))
+            call a%give_each([block%nx, block%ny, block%nz])
+         end associate
+      else
+         call a%give_each([-1, -1, -1])
+      end if
+   end subroutine get_block_size
 
    !> Are there results in a block?
    pure logical function has_block(view, number)
@@ -294,35 +290,30 @@ contains
    end function has_block
 
    !> Columns of the results of a block
-   subroutine subs_getresults(ire, icp, iblk, lenarr, ncol, icol, values) bind(c, name="inside_subs_getresults")
-      integer(c_int), intent(in), optional :: ire, icp, iblk, lenarr, ncol, icol(*)
-      real(c_double), intent(inout), optional :: values(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_block(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
-      integer, allocatable :: columns(:)
       real(wp), allocatable :: column(:)
-      integer :: k, n, rows, number, first
+      real(c_double), pointer :: values(:)
+      integer :: k, n, rows
 
-      this = entry_type("subs_getResults", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      number = integer_of(iblk)
-      rows = max(0, integer_of(lenarr))
-      columns = integers_of(ncol, icol)
-      if (.not. has_block(view, number)) then
-         call complain(this, "there are no results in block " // integer_text(number))
-      else if (present(values)) then
+      view = look_at(a%call_of, problem)
+      rows = max(0, a%single(2))
+      associate (number => a%single(1), columns => a%integers(1)%v)
+         if (.not. has_block(view, number)) then
+            call complain(a%call_of, "there are no results in block " // integer_text(number))
+            return
+         end if
+         values => a%numbers_at(1, int(rows, long)*size(columns))
+         if (size(values) == 0) return
          do k = 1, size(columns)
             call take_column(view, view%patch%subsurface(number), columns(k), column)
             n = min(rows, size(column))
-            first = (k - 1)*rows
-            values(first + 1:first + n) = column(:n)
+            values((k - 1)*rows + 1:(k - 1)*rows + n) = column(:n)
          end do
-      end if
-      call leave(problem)
-   end subroutine subs_getresults
+      end associate
+   end subroutine get_block
 
    !> One column in the units of the caller
    pure subroutine take_column(view, block, number, column)

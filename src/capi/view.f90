@@ -5,14 +5,13 @@ module contact_capi_view
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : outward, quantity_of, unit_convention
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: result_view, enter_result, look_at
+   public :: result_view, look_at
 
    !> One patch with the factors for the caller
    type :: result_view
@@ -37,7 +36,7 @@ contains
    !> The results of a patch; complains when nothing has been calculated yet
    function look_at(this, problem) result(view)
       type(entry_type), intent(in) :: this
-      !> A problem that was entered
+      !> That was entered
       type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
 
@@ -53,19 +52,6 @@ contains
          view%patch => problem%result
       end if
    end function look_at
-
-   !> Enter a problem that has results of a patch; null when there are none, which is complained about
-   subroutine enter_result(this, problem, view)
-      type(entry_type), intent(in) :: this
-      type(library_problem), pointer, intent(out) :: problem
-      !> The patch with its units, and the side of the track that it is on
-      type(result_view), intent(out) :: view
-
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (.not. associated(view%patch)) call leave(problem)
-   end subroutine enter_result
 
    !> Totals by their names, in the units and with the signs of the caller; 0 for those that the case does not have
    pure function totals(self, names) result(values)

@@ -1,94 +1,63 @@
-!> Entries that hand out results of wheel on rail (module 1)
+!> What callers get of wheel on rail (module 1)
 !>
 !> Inside, everything is that of a right-hand pair; for a wheel on the left side of the track lateral
 !> components are mirrored on the way out.
 module contact_capi_wheel_rail_results
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_c_binding, only : c_double
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
-   use contact_capi_library, only : entry_type
+   use contact_capi_caller, only : caller
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : orientation, outward, quantity, quantity_type
    use contact_wheelrail_body_frames, only : body_frames, forces_in_bodies, frames_of, pressure_centre
    implicit none (type, external)
    private
 
-   public :: cntc_getwheelsetposition, cntc_getwheelsetvelocity, cntc_getnumcontactpatches, cntc_getcontactlocation
-   public :: cntc_getglobalforces
+   public :: get_forces, get_location, get_wheelset_position, get_wheelset_velocity
 
 contains
 
    !> Position of the wheelset, with the height that was found
-   subroutine cntc_getwheelsetposition(ire, lenarr, rvalues) bind(c, name="inside_cntc_getwheelsetposition")
-      integer(c_int), intent(in), optional :: ire, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
+   subroutine get_wheelset_position(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
 
-      call enter(entry_type("cntc_getWheelsetPosition", integer_of(ire)), scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
       associate (w => problem%stored%wheelset, length => outward(problem%units, quantity%length), &
          & angle => outward(problem%units, quantity%angle))
-         call give_list([(w%s + w%x)*length, w%y*length, w%z*length, w%roll*angle, w%yaw*angle, w%pitch*angle], lenarr, rvalues)
+         call a%give(1, [(w%s + w%x)*length, w%y*length, w%z*length, w%roll*angle, w%yaw*angle, w%pitch*angle])
       end associate
-      call leave(problem)
-   end subroutine cntc_getwheelsetposition
+   end subroutine get_wheelset_position
 
    !> Velocity of the wheelset, with the pitch rate that was found
-   subroutine cntc_getwheelsetvelocity(ire, lenarr, rvalues) bind(c, name="inside_cntc_getwheelsetvelocity")
-      integer(c_int), intent(in), optional :: ire, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
+   subroutine get_wheelset_velocity(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
 
-      call enter(entry_type("cntc_getWheelsetVelocity", integer_of(ire)), scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
       associate (w => problem%stored%wheelset, velocity => outward(problem%units, quantity%velocity), &
          & angle => outward(problem%units, quantity%angle))
-         call give_list([w%vs*velocity, w%vy*velocity, w%vz*velocity, w%vroll*angle, w%vyaw*angle, w%vpitch*angle], lenarr, &
-            & rvalues)
+         call a%give(1, [w%vs*velocity, w%vy*velocity, w%vz*velocity, w%vroll*angle, w%vyaw*angle, w%vpitch*angle])
       end associate
-      call leave(problem)
-   end subroutine cntc_getwheelsetvelocity
-
-   !> Number of contact patches
-   subroutine cntc_getnumcontactpatches(ire, npatch) bind(c, name="inside_cntc_getnumcontactpatches")
-      integer(c_int), intent(in), optional :: ire
-      integer(c_int), intent(inout), optional :: npatch
-      type(library_problem), pointer :: problem
-
-      call enter(entry_type("cntc_getNumContactPatches", integer_of(ire)), scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
-      call give(size(problem%wheel_rail_result%patches), npatch)
-      call leave(problem)
-   end subroutine cntc_getnumcontactpatches
+   end subroutine get_wheelset_velocity
 
    !> Where a patch is, in track, rail, wheel and wheelset, and where these are
-   subroutine cntc_getcontactlocation(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getcontactlocation")
-      integer(c_int), intent(in), optional :: ire, icp, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      real(wp) :: list(38), kept(29)
+   subroutine get_location(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
+      real(wp) :: list(38)
       type(quantity_type) :: unit(38)
       integer :: sign(38)
+      real(c_double), pointer :: room(:)
 
-      this = entry_type("cntc_getContactLocation", integer_of(ire), integer_of(icp))
-      call enter(this, scope%wheel_rail_patch, problem)
-      if (.not. associated(problem)) return
-      call locate(problem, this%icp, list)
+      call locate(problem, a%call_of%icp, list)
       unit = quantity%length
       unit([4, 9, 14, 24, 25, 28, 33, 37, 38]) = quantity%angle
       sign = orientation%none
       sign([2, 4, 6, 9, 11, 14, 16, 22, 24, 25, 26, 28, 31, 33, 35, 37, 38]) = orientation%side
       list = list*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
       ! the 29th value has no meaning and is left alone
-      if (min(38, integer_of(lenarr)) >= 29 .and. present(rvalues)) then
-         kept = real(rvalues(:29), wp)
-         list(29) = kept(29)
-      end if
-      call give_list(list, lenarr, rvalues)
-      call leave(problem)
-   end subroutine cntc_getcontactlocation
+      room => a%numbers_at(1)
+      if (size(room) >= 29) list(29) = room(29)
+      call a%give(1, list)
+   end subroutine get_location
 
    !> The values in internal units, for a right-hand pair
    subroutine locate(problem, number, list)
@@ -120,11 +89,9 @@ contains
    end subroutine locate
 
    !> Forces and moments of one patch, or of all of them with -1, in four systems of axes
-   subroutine cntc_getglobalforces(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getglobalforces")
-      integer(c_int), intent(in), optional :: ire, icp, lenarr
-      real(c_double), intent(inout), optional :: rvalues(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine get_forces(a, problem)
+      type(caller), intent(in) :: a
+      type(library_problem), intent(in) :: problem
       type(body_frames) :: frames
       real(wp) :: list(24)
       type(quantity_type) :: unit(6)
@@ -132,14 +99,11 @@ contains
          & orientation%along, orientation%across]
       integer :: k, first, last
 
-      this = entry_type("cntc_getGlobalForces", integer_of(ire), integer_of(icp))
-      call enter(this, scope%wheel_rail_any, problem)
-      if (.not. associated(problem)) return
       first = 1
       last = size(problem%wheel_rail_result%patches)
-      if (this%icp > 0) then
-         first = this%icp
-         last = this%icp
+      if (a%call_of%icp > 0) then
+         first = a%call_of%icp
+         last = a%call_of%icp
       end if
       list = 0.0_wp
       if (problem%has_result) frames = frames_of(problem%wheel_rail%problem%spec, problem%wheel_rail_result)
@@ -150,8 +114,6 @@ contains
       do k = 0, 18, 6
          list(k + 1:k + 6) = list(k + 1:k + 6)*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
       end do
-      call give_list(list, lenarr, rvalues)
-      call give_zeros(25, lenarr, rvalues)
-      call leave(problem)
-   end subroutine cntc_getglobalforces
+      call a%give(1, list, fills=.true.)
+   end subroutine get_forces
 end module contact_capi_wheel_rail_results

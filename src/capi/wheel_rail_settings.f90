@@ -3,7 +3,7 @@ module contact_capi_wheel_rail_settings
    use contact_base_kinds, only : wp
    use contact_capi_messages, only : say
    use contact_capi_problem, only : library_problem
-   use contact_capi_setter, only : setter
+   use contact_capi_caller, only : caller
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_springs, &
       & visit_velocity
    use contact_text_words, only : integer_text
@@ -17,7 +17,7 @@ contains
 
    !> Prescribed vertical force on the rail (N = 1)
    subroutine set_vertical_force(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
       call a%real("FZ", problem%stored%wheelset%fz)
@@ -27,7 +27,7 @@ contains
 
    !> Place of the rail in the track, deviations of the rail, springs of a massless rail (Z)
    subroutine set_track(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(track_spec) :: track
       type(rail_spec) :: rail
@@ -58,7 +58,7 @@ contains
 
    !> Gauge or absolute placement, cant, radius of a roller, curvature
    subroutine visit_place(a, track)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(track_spec), intent(inout), target :: track
       real(wp), target :: square
 
@@ -82,7 +82,7 @@ contains
 
    !> Dimensions of the wheelset
    subroutine set_dimensions(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wheelset_spec) :: wheelset
 
@@ -105,7 +105,7 @@ contains
 
    !> Is there such a wheelset method (E)?
    subroutine check_method(a, lowest)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       integer, intent(in) :: lowest
 
       if (a%single(1) < lowest .or. a%single(1) > 5) call a%refuse_call("there is no wheelset method " // &
@@ -114,7 +114,7 @@ contains
 
    !> Position of the wheelset; its height counts when no vertical force is prescribed
    subroutine set_position(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wheelset_spec) :: wheelset
 
@@ -132,7 +132,7 @@ contains
 
    !> Velocity of the wheelset; on rollers the first value is the pitch rate of the roller
    subroutine set_wheelset_velocity(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wheelset_spec) :: wheelset
       logical :: is_roller
@@ -153,7 +153,7 @@ contains
 
    !> Flexible deviations of the wheel and their rates
    subroutine set_flexibility(a, problem)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wheelset_spec) :: wheelset
 

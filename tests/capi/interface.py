@@ -120,12 +120,12 @@ def main():
         check(not expected - shown, f"{library} does not export {sorted(expected - shown)}")
         check(not shown - expected, f"{library} exports what no header has: {sorted(shown - expected)}")
     sources = implemented()
-    with open(os.path.join(SOURCE, "src/capi/settings.f90"), encoding="utf-8") as file:
-        made = re.findall(r'^ *case \("(\w+)"\); call', file.read(), re.MULTILINE)
-    check(sorted(made) == sorted(item.setting for item in table.values() if item.setting), "settings.f90 makes those of the table")
+    with open(os.path.join(SOURCE, "src/capi/routines.f90"), encoding="utf-8") as file:
+        made = re.findall(r'^ *case \("(\w{2,})"\)', file.read(), re.MULTILINE)
+    check(sorted(made) == sorted(item.shown for item in table.values() if item.shown), "routines.f90 does those of the table")
     for name, routine in table.items():
-        if routine.setting:
-            check(name not in sources, f"{name} is a setting and has a Fortran routine of its own")
+        if routine.shown:
+            check(name not in sources, f"{name} is in routines.f90 and has a Fortran routine of its own")
             continue
         if name not in sources:
             check(False, f"{name} is nowhere in src/capi")

@@ -1,6 +1,7 @@
-!> The archive that gives values to a case from the arrays of a caller
-module contact_capi_setter
-   use contact_base_kinds, only : wp
+!> A caller of the library: the archive that gives values to a case from his arrays, and the places for results
+module contact_capi_caller
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
+   use contact_base_kinds, only : long, wp
    use contact_capi_arguments, only : no_number, raised
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, count_fits, warn
@@ -11,7 +12,7 @@ module contact_capi_setter
    implicit none (type, external)
    private
 
-   public :: integer_list, min_value, real_list, setter
+   public :: answer_place, caller, integer_list, min_value, real_list
 
    !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
    type :: raised_number
@@ -32,6 +33,13 @@ module contact_capi_setter
       real(wp), allocatable :: v(:)
    end type real_list
 
+   !> Where a result goes
+   type :: answer_place
+      type(c_ptr) :: address = c_null_ptr
+      !> Numbers for which there is room; none where the caller gave a null pointer
+      integer :: room = 0
+   end type answer_place
+
    !> How many numbers a setting takes, and has taken
    type :: tally
       !> Those that must be there, and those that may be left out; what is left of the latter
@@ -41,11 +49,12 @@ module contact_capi_setter
       procedure :: go_on
    end type tally
 
-   !> A call of a setting: takes its numbers one after the other; the first that is wrong is complained about
+   !> The call of a routine
    !>
-   !> A setting is described between `do while (a%next_pass())` and `end do`, and stored when `is_good` after that: the first pass
-   !> counts what it needs, and when the caller gave as many, the second takes them.
-   type, extends(case_archive) :: setter
+   !> A setting takes its numbers one after the other; the first that is wrong is complained about. It is described between
+   !> `do while (a%next_pass())` and `end do`, and stored when `is_good` after that: the first pass counts what it needs, and when
+   !> the caller gave as many, the second takes them. Other routines take what stands here, and `give` results.
+   type, extends(case_archive) :: caller
       type(entry_type) :: call_of
       !> Of the caller
       type(unit_convention) :: units
@@ -58,6 +67,8 @@ module contact_capi_setter
       logical :: has_integers = .false.
       !> Name of a file
       character(len=:), allocatable :: path
+      !> Places of the results of the routine, in their order
+      type(answer_place) :: answers(4)
       !> May what comes next be missing? It keeps its value then
       logical :: may_miss = .false.
       integer, private :: pass = 0
@@ -71,13 +82,20 @@ module contact_capi_setter
       procedure :: refuse => refuse_number
       procedure :: warn => warn_of_number
       procedure :: check => check_number
-   end type setter
+      !> Hand over a list, or one number as each result; of lists as much as there is room for
+      generic :: give => give_numbers, give_integers
+      generic :: give_each => give_each_number, give_each_integer
+      !> The room of a result
+      procedure :: numbers_at
+      procedure :: integers_at
+      procedure, private :: give_numbers, give_integers, give_each_number, give_each_integer
+   end type caller
 
 contains
 
    !> Is there something to do? First all numbers are counted, then they are taken
    logical function next_pass(self)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
 
       self%pass = self%pass + 1
       self%is_reading = self%pass > 1
@@ -101,7 +119,7 @@ contains
 
    !> Pass over a number without a meaning
    subroutine skip(self, optional)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       !> May it be missing?
       logical, intent(in) :: optional
       logical :: given
@@ -129,7 +147,7 @@ contains
 
    !> Nothing is stored, with the reason
    subroutine refuse_call(self, reason)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       !> One sentence without the name of the setting
       character(len=*), intent(in) :: reason
 
@@ -139,7 +157,7 @@ contains
 
    !> Give the items in hand their values, unless one of them is beyond its bounds
    subroutine set_line(self)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       real(wp) :: values(size(self%items))
       integer :: k
 
@@ -160,7 +178,7 @@ contains
 
    !> The value of an item in internal units
    subroutine take(self, place, value)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       !> In the line
       integer, intent(in) :: place
       real(wp), intent(out) :: value
@@ -202,7 +220,7 @@ contains
 
    !> Complain about a value beyond its bounds
    subroutine check_bounds(self, name, value, shown)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: value
       !> Name in the complaint, where that is another one
@@ -216,7 +234,7 @@ contains
 
    !> Give a list its values
    subroutine set_list(self, name, values, n, units, bounds)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: n
@@ -243,7 +261,7 @@ contains
 
    !> A number cannot be used
    subroutine refuse_number(self, name, text)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
       if (self%is_reading) call self%refuse_call(trim(self%shown(name)) // text // "; nothing is stored")
@@ -251,7 +269,7 @@ contains
 
    !> A number is doubtful or was replaced
    subroutine warn_of_number(self, name, text)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
       if (self%is_good .and. self%is_reading) call warn(self%call_of, trim(self%shown(name)) // text)
@@ -259,7 +277,7 @@ contains
 
    !> Check the bounds of a number that the caller of the archive has seen before
    subroutine check_number(self, name, bounds)
-      class(setter), intent(inout) :: self
+      class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
       character(len=*), intent(in), optional :: bounds
       integer :: k
@@ -272,4 +290,84 @@ contains
          call check_bounds(self, name, self%items(k)%r)
       end if
    end subroutine check_number
-end module contact_capi_setter
+
+   !> The room of a result, no elements where the caller gave none
+   function numbers_at(self, k, n) result(room)
+      class(caller), intent(in) :: self
+      !> Number of the result
+      integer, intent(in) :: k
+      !> Elements, where their number is no argument of its own
+      integer(long), intent(in), optional :: n
+      real(c_double), pointer :: room(:)
+      integer(long) :: length
+
+      length = self%answers(k)%room
+      if (present(n)) length = merge(n, 0_long, c_associated(self%answers(k)%address))
+      call c_f_pointer(self%answers(k)%address, room, [length])
+   end function numbers_at
+
+   !> The same of integers
+   function integers_at(self, k) result(room)
+      class(caller), intent(in) :: self
+      !> Number of the result
+      integer, intent(in) :: k
+      integer(c_int), pointer :: room(:)
+
+      call c_f_pointer(self%answers(k)%address, room, [self%answers(k)%room])
+   end function integers_at
+
+   !> Hand over as many numbers as there is room for
+   subroutine give_numbers(self, k, list, fills)
+      class(caller), intent(in) :: self
+      !> Number of the result
+      integer, intent(in) :: k
+      !> What is handed over, in the units of the caller
+      real(wp), intent(in) :: list(:)
+      !> Does the room behind it get zeros? Default no
+      logical, intent(in), optional :: fills
+      real(c_double), pointer :: room(:)
+      integer :: n
+
+      room => self%numbers_at(k)
+      n = min(size(list), size(room))
+      room(:n) = real(list(:n), c_double)
+      if (present(fills)) room(n + 1:) = 0.0_c_double
+   end subroutine give_numbers
+
+   !> Hand over as many integers as there is room for
+   subroutine give_integers(self, k, list)
+      class(caller), intent(in) :: self
+      !> Number of the result, and what is handed over
+      integer, intent(in) :: k, list(:)
+      integer(c_int), pointer :: room(:)
+      integer :: n
+
+      room => self%integers_at(k)
+      n = min(size(list), size(room))
+      room(:n) = int(list(:n), c_int)
+   end subroutine give_integers
+
+   !> Hand over results that are single numbers
+   subroutine give_each_number(self, values)
+      class(caller), intent(in) :: self
+      !> One for each result, in the units of the caller
+      real(wp), intent(in) :: values(:)
+      integer :: k
+
+      do k = 1, size(values)
+         call self%give(k, values(k:k))
+      end do
+   end subroutine give_each_number
+
+   !> Hand over results that are single integers
+   subroutine give_each_integer(self, values)
+      class(caller), intent(in) :: self
+      !> One for each result
+      integer, intent(in) :: values(:)
+      integer :: k
+
+      do k = 1, size(values)
+         call self%give(k, values(k:k))
+      end do
+   end subroutine give_each_integer
+end module contact_capi_caller

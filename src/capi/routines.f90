@@ -1,41 +1,51 @@
-!> What is behind all settings: their arguments are unpacked, their problem is found, they are made, and other threads are let in
+!> What is behind all settings and results: arguments are unpacked, the problem is found, and other threads are let in
 !>
-!> A setting gets its arguments as a `setter`. A null pointer of C is no value: no elements, `no_number`, or not a number.
-module contact_capi_settings
+!> A routine gets its arguments as a `caller`. A null pointer of C is no value: no elements, `no_number`, or not a number; and no
+!> room for a result.
+module contact_capi_routines
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, path_of, real_of
+   use contact_capi_caller, only : answer_place, caller
    use contact_capi_contact, only : set_creepages, set_extra_slip, set_grid, set_hertz, set_normal_force, set_penetration, &
       & set_undeformed_distance, set_velocity
-   use contact_capi_flags, only : set_flags, set_metadata
-   use contact_capi_wheel_rail_settings, only : set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, &
-      & set_wheelset_velocity
+   use contact_capi_fields, only : get_division, get_errors, get_field, get_fields, get_largest_temperatures, &
+      & get_largest_traction, get_wear
+   use contact_capi_flags, only : get_flags, set_flags, set_metadata
+   use contact_capi_messages, only : say
    use contact_capi_physics, only : set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, &
       & set_time_step, set_wear
    use contact_capi_problem, only : library_problem
+   use contact_capi_profile_values, only : get_profile_values
    use contact_capi_profiles, only : set_profile
    use contact_capi_registry, only : enter, leave, scope, scope_type
-   use contact_capi_setter, only : setter
-   use contact_capi_subsurface, only : add_block
+   use contact_capi_results, only : get_approach, get_areas, get_creepages, get_element_sides, get_grid, get_hertz, &
+      & get_parameters, get_sensitivities, get_time, get_velocity, reset_time
+   use contact_capi_subsurface, only : add_block, get_block, get_block_size
+   use contact_capi_view, only : look_at, result_view
+   use contact_capi_wheel_rail_results, only : get_forces, get_location, get_wheelset_position, get_wheelset_velocity
+   use contact_capi_wheel_rail_settings, only : set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, &
+      & set_wheelset_velocity
    implicit none (type, external)
    private
 
-   public :: make_setting
+   public :: run_routine
 
    !> Most points of a profile
    integer, parameter :: most_points = 1000000
 
 contains
 
-   !> Make a setting
-   subroutine make_setting(name, kinds, arguments) bind(c, name="contact_make_setting")
+   !> Run a routine
+   subroutine run_routine(name, kinds, arguments) bind(c, name="contact_run_routine")
       !> The routine as messages have it; letters for what it is for and for each of its arguments, see make_interface.py.
       !> Null-terminated
       character(kind=c_char), intent(in) :: name(*), kinds(*)
       !> Addresses of the arguments
       type(c_ptr), intent(in) :: arguments(*)
       type(library_problem), pointer :: problem
-      type(setter) :: a
+      type(result_view) :: view
+      type(caller) :: a
       integer :: k
 
       do k = 1, len(a%call_of%name)
@@ -48,6 +58,18 @@ contains
       call enter(a%call_of, scope_of(kinds(1)), problem)
       if (.not. associated(problem)) return
       a%units = problem%units
+      if (kinds(1) == "v") view = look_at(a%call_of, problem)
+      if (kinds(1) /= "v" .or. associated(view%patch)) call do_what_is_asked(a, problem, view)
+      call leave(problem)
+   end subroutine run_routine
+
+   !> Make a setting, or hand over results
+   subroutine do_what_is_asked(a, problem, view)
+      type(caller), intent(inout) :: a
+      type(library_problem), pointer, intent(inout) :: problem
+      !> For results that there are when a patch has been solved
+      type(result_view), intent(in) :: view
+
       select case (a%call_of%name)
       case ("cntc_setFlags"); call set_flags(a, problem)
       case ("cntc_setMetadata"); call set_metadata(a, problem)
@@ -76,11 +98,45 @@ contains
       case ("cntc_setProfileInputFname"); call set_profile(a, problem)
       case ("cntc_setProfileInputValues"); call set_profile(a, problem)
       case ("subs_addBlock"); call add_block(a, problem)
+      case ("cntc_resetCalculationTime"); call reset_time(a, problem)
+      case ("cntc_getFlags"); call get_flags(a, problem)
+      case ("cntc_getParameters"); call get_parameters(a, problem)
+      case ("cntc_getProfileValues"); call get_profile_values(a, problem)
+      case ("cntc_getProfileValues_new")
+         call get_profile_values(a, problem)
+         call say(0, a%call_of, "the same as cntc_getProfileValues")
+      case ("cntc_getWheelsetPosition"); call get_wheelset_position(a, problem)
+      case ("cntc_getWheelsetVelocity"); call get_wheelset_velocity(a, problem)
+      case ("cntc_getNumContactPatches"); call a%give_each([size(problem%wheel_rail_result%patches)])
+      case ("cntc_getContactLocation"); call get_location(a, problem)
+      case ("cntc_getReferenceVelocity"); call get_velocity(a, problem)
+      case ("cntc_getHertzContact"); call get_hertz(a, problem)
+      case ("cntc_getGridDiscretization"); call get_element_sides(a, problem)
+      case ("cntc_getPenetration"); call get_approach(a, problem)
+      case ("cntc_getCreepages"); call get_creepages(a, problem)
+      case ("cntc_getGlobalForces"); call get_forces(a, problem)
+      case ("cntc_getCalculationTime"); call get_time(a, problem)
+      case ("subs_getBlocksize"); call get_block_size(a, problem)
+      case ("subs_getResults"); call get_block(a, problem)
+      case ("cntc_getNumElements"); call a%give_each([view%patch%grid%mx, view%patch%grid%my])
+      case ("cntc_getPotContact"); call get_grid(a, problem, view)
+      case ("cntc_getContactForces"); call a%give_each(view%totals(["fn", "fx", "fy", "mz"]))
+      case ("cntc_getContactPatchAreas"); call get_areas(a, view)
+      case ("cntc_getElementDivision"); call get_division(a, view)
+      case ("cntc_getMaximumPressure"); call a%give_each(view%totals(["pmax"]))
+      case ("cntc_getMaximumTraction"); call get_largest_traction(a, view)
+      case ("cntc_getMaximumTemperature"); call get_largest_temperatures(a, view)
+      case ("cntc_getErrors"); call get_errors(a, view)
+      case ("cntc_getWear"); call get_wear(a, view)
+      case ("cntc_getFieldData"); call get_field(a, view)
+      case ("cntc_getTractions"); call get_fields(a, view, ["pn", "px", "py"])
+      case ("cntc_getMicroSlip"); call get_fields(a, view, ["sx", "sy"])
+      case ("cntc_getDisplacements"); call get_fields(a, view, ["un", "ux", "uy"])
+      case ("cntc_getSensitivities"); call get_sensitivities(a, problem, view)
       end select
-      call leave(problem)
-   end subroutine make_setting
+   end subroutine do_what_is_asked
 
-   !> Which problems a setting is for
+   !> Which problems a routine is for
    pure type(scope_type) function scope_of(letter) result(allowed)
       !> The first of its kinds
       character(kind=c_char), intent(in) :: letter
@@ -89,6 +145,9 @@ contains
       case ("a"); allowed = scope%any
       case ("c"); allowed = scope%contact
       case ("w"); allowed = scope%wheel_rail
+      case ("g"); allowed = scope%wheel_rail_any
+      case ("l"); allowed = scope%wheel_rail_patch
+      case ("p", "v"); allowed = scope%one_patch
       case default; allowed = scope%settings
       end select
    end function scope_of
@@ -97,12 +156,13 @@ contains
    subroutine unpack_arguments(kinds, arguments, a)
       character(kind=c_char), intent(in) :: kinds(*)
       type(c_ptr), intent(in) :: arguments(*)
-      type(setter), intent(inout) :: a
+      type(caller), intent(inout) :: a
       real(c_double), pointer :: list(:)
       integer(c_int), pointer :: integers(:)
       character(kind=c_char), pointer :: letters(:)
-      integer :: k, place, length, singles, integer_lists, real_lists
+      integer :: k, place, length, answers, singles, integer_lists, real_lists
 
+      answers = 0
       singles = 0
       integer_lists = 0
       real_lists = 0
@@ -135,6 +195,11 @@ contains
             call take_length()
             call c_f_pointer(arguments(place), letters, [length])
             a%path = trim(path_of(letters, int(length, c_int)))
+         case ("x", "X")
+            length = merge(1, 0, c_associated(arguments(place)))
+            if (kinds(k) == "X") call take_length()
+            answers = answers + 1
+            a%answers(answers) = answer_place(arguments(place), length)
          end select
          k = k + 1
          place = place + 1
@@ -170,4 +235,4 @@ contains
       if (c_associated(address)) call c_f_pointer(address, argument)
       value = real_of(argument)
    end function real_at
-end module contact_capi_settings
+end module contact_capi_routines
