@@ -16,8 +16,9 @@ module contact_capi_subsurface
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, outward, quantity
+   use contact_output_finished_file, only : case_file_name
    use contact_output_report, only : write_subsurface
-   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_output_subs_file, only : write_subs_file
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_subsurface_points, only : depth_range, point_block, point_selection
    use contact_text_words, only : integer_text
@@ -253,10 +254,10 @@ contains
       character(len=20) :: base
 
       if (number > 0) then
-         call find_result_file(subs_file_name("caddon", problem%cases, problem%ire, number), file)
+         call find_result_file(case_file_name("caddon", problem%cases, "subs", problem%ire, number), file)
       else
          write(base, '("caddon_re", I3.3, "_cp", I1)') problem%ire, problem%icp
-         call find_result_file(subs_file_name(trim(base), problem%cases, 0, 0), file)
+         call find_result_file(case_file_name(trim(base), problem%cases, "subs", 0, 0), file)
       end if
    end subroutine find_file
 

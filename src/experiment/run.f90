@@ -31,13 +31,13 @@ module contact_experiment_run
    use contact_input_experiment_file, only : experiment_reader, input_case, is_readable_format
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head, planned_text
-   use contact_output_finished_file, only : close_result, open_result, open_result_again
-   use contact_output_mat_file, only : mat_file_name, write_mat_file
+   use contact_output_finished_file, only : case_file_name, close_result, open_result, open_result_again
+   use contact_output_mat_file, only : write_mat_file
    use contact_output_wheel_rail_files, only : write_wheel_rail_files
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
    use contact_output_report_wheel_rail, only : write_wheel_rail
-   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_output_subs_file, only : write_subs_file
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -589,14 +589,14 @@ contains
 
       call write_case(state%log, this%spec, result)
       if (this%spec%mat_file >= 1) then
-         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, result%status, &
-            & error)
+         call write_mat_file(case_file_name(state%place%results, this%number, "mat", this%reid, 0), this%spec, result, &
+            & result%status, error)
          if (allocated(error)) call report_error(state, error)
       end if
       if (.not. this%spec%has_stress .or. .not. allocated(result%subsurface)) return
       call write_subsurface(state%log, this%spec, result)
       if (this%spec%subsurface%matfil >= 1) then
-         call write_subs_file(subs_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, error)
+         call write_subs_file(case_file_name(state%place%results, this%number, "subs", this%reid, 0), this%spec, result, error)
          if (allocated(error)) call report_error(state, error)
       end if
    end subroutine write_results

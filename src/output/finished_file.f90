@@ -32,33 +32,37 @@ module contact_output_finished_file
 contains
 
    !> What tells the files of cases apart: [_reNNN].<case>[<patch letter>], with blanks behind
-   pure function case_mark(case_text, result_element, patch) result(mark)
-      character(len=*), intent(in) :: case_text
+   !>
+   !> The number of the case has at least four digits; that of a .subs file six from 10000 on, and from a million on it is left out.
+   pure function case_mark(case_number, extension, result_element, patch) result(mark)
+      integer, intent(in) :: case_number
+      character(len=*), intent(in) :: extension
       integer, intent(in) :: result_element, patch
-      character(len=len(case_text) + 16) :: mark
+      character(len=32) :: mark
+      character(len=12) :: number
 
+      write(number, "(I0.4)") case_number
+      if (extension == "subs" .and. case_number > 9999) write(number, "(I6.6)") case_number
+      if (extension == "subs" .and. case_number > 999999) number = ""
       mark = ""
       if (result_element > 0) write(mark, "(A, I0.3)") "_re", result_element
-      if (patch > 0 .and. patch <= 26) then
-         mark = trim(mark) // "." // trim(case_text) // achar(iachar("a") + patch - 1)
-      else if (case_text /= "") then
-         mark = trim(mark) // "." // case_text
-      end if
+      if (patch > 0 .and. patch <= 26) number = trim(number) // achar(iachar("a") + patch - 1)
+      if (number /= "") mark = trim(mark) // "." // number
    end function case_mark
 
    !> Name of a file that belongs to one case: <base>[_reNNN].<case>[<patch letter>].<extension>
-   pure function case_file_name(base, case_text, extension, result_element, patch) result(name)
+   pure function case_file_name(base, case_number, extension, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
-      !> Number of the case as it shall appear; empty to leave it out
-      character(len=*), intent(in) :: case_text
+      !> From 1
+      integer, intent(in) :: case_number
       !> Extension without dot
       character(len=*), intent(in) :: extension
       !> Result element and contact patch (1 = a), 0 for none
       integer, intent(in) :: result_element, patch
-      character(len=len(base) + len_trim(case_mark(case_text, result_element, patch)) + 1 + len(extension)) :: name
+      character(len=len(base) + len_trim(case_mark(case_number, extension, result_element, patch)) + 1 + len(extension)) :: name
 
-      name = base // trim(case_mark(case_text, result_element, patch)) // "." // extension
+      name = base // trim(case_mark(case_number, extension, result_element, patch)) // "." // extension
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one

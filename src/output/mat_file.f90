@@ -12,7 +12,7 @@ module contact_output_mat_file
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
    use contact_grid_element_division, only : element
-   use contact_output_finished_file, only : case_file_name, finished_file
+   use contact_output_finished_file, only : finished_file
    use contact_output_formats, only : general, whole
    use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
@@ -20,7 +20,7 @@ module contact_output_mat_file
    implicit none (type, external)
    private
 
-   public :: mat_file_name, mat_place, write_mat_file
+   public :: mat_place, write_mat_file
 
    !> Number of the layout; readers refuse larger numbers
    integer, parameter :: layout = 2410
@@ -50,27 +50,6 @@ module contact_output_mat_file
    end type mat_place
 
 contains
-
-   !> The number of a case
-   pure function case_text(case_number) result(text)
-      integer, intent(in) :: case_number
-      character(len=12) :: text
-
-      write(text, "(I0.4)") case_number
-   end function case_text
-
-   !> Name of the file: <base>[_reNNN].<case, at least four digits>[<patch>].mat
-   pure function mat_file_name(base, case_number, result_element, patch) result(name)
-      !> Folder and name of the experiment
-      character(len=*), intent(in) :: base
-      !> From 1
-      integer, intent(in) :: case_number
-      !> Result element and contact patch (1 = a), 0 for none
-      integer, intent(in) :: result_element, patch
-      character(len=len(case_file_name(base, case_text(case_number), "mat", result_element, patch))) :: name
-
-      name = case_file_name(base, case_text(case_number), "mat", result_element, patch)
-   end function mat_file_name
 
    !> Write the file of a solved case; under its name it is complete or does not exist
    subroutine write_mat_file(file_name, spec, result, status, error, place)

@@ -3,44 +3,18 @@ module contact_output_subs_file
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_output_finished_file, only : case_file_name, finished_file
+   use contact_output_finished_file, only : finished_file
    use contact_output_formats, only : general, smart, whole
    use contact_patch_result, only : patch_result, subsurface_result
    implicit none (type, external)
    private
 
-   public :: subs_file_name, write_subs_file
+   public :: write_subs_file
 
    !> Value of A_s from which on the stress tensor is written
    integer, parameter :: with_tensor = 2
 
 contains
-
-   !> The number of a case with four digits, six from 10000 on; from a million on it is left out
-   pure function case_text(case_number) result(text)
-      integer, intent(in) :: case_number
-      character(len=6) :: text
-
-      text = ""
-      if (case_number <= 9999) then
-         write(text, "(I4.4)") case_number
-      else if (case_number <= 999999) then
-         write(text, "(I6.6)") case_number
-      end if
-   end function case_text
-
-   !> Name of the file: <base>[_reNNN].<case>[<patch>].subs
-   pure function subs_file_name(base, case_number, result_element, patch) result(name)
-      !> Folder and name of the experiment
-      character(len=*), intent(in) :: base
-      !> From 1
-      integer, intent(in) :: case_number
-      !> Result element and contact patch (1 = a), 0 for none
-      integer, intent(in) :: result_element, patch
-      character(len=len(case_file_name(base, case_text(case_number), "subs", result_element, patch))) :: name
-
-      name = case_file_name(base, case_text(case_number), "subs", result_element, patch)
-   end function subs_file_name
 
    !> Write all blocks; under its name the file is complete or does not exist
    subroutine write_subs_file(file_name, spec, result, error)

@@ -212,7 +212,6 @@ contains
       !> Profiles or surfaces of both bodies
       type(body_profile), intent(in) :: rail, wheel
       type(error_type), allocatable, intent(out) :: error
-      character(len=12) :: case_text
       integer :: k
 
       do k = 1, size(pair%patches)
@@ -221,14 +220,13 @@ contains
          call self%list_loss(head%number)
          return
       end do
-      write(case_text, "(I0.4)") head%number
-      call write_body(self, head, spec, pair, rail, "rail", case_text, error)
-      if (.not. allocated(error)) call write_body(self, head, spec, pair, wheel, "wheel", case_text, error)
+      call write_body(self, head, spec, pair, rail, "rail", error)
+      if (.not. allocated(error)) call write_body(self, head, spec, pair, wheel, "wheel", error)
       if (allocated(error)) call self%list_loss(head%number)
    end subroutine write_wheel_rail
 
    !> The surface of a body; nothing where there is none
-   subroutine write_body(self, head, spec, pair, profile, name, case_text, error)
+   subroutine write_body(self, head, spec, pair, profile, name, error)
       type(vtk_files), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
@@ -236,8 +234,6 @@ contains
       type(body_profile), intent(in) :: profile
       !> "rail" or "wheel"
       character(len=*), intent(in) :: name
-      !> Number of the case
-      character(len=*), intent(in) :: case_text
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: file
       real(wp), allocatable :: points(:, :, :)
@@ -247,7 +243,7 @@ contains
       if (size(points) == 0) return
       points(2, :, :) = side_sign(spec)*points(2, :, :)
       call start_grid(grid, [size(points, 2), size(points, 3), 1], .false., size(points))
-      file = case_file_name(self%base, trim(case_text), name // ".vts", head%result_element, 0)
+      file = case_file_name(self%base, head%number, name // ".vts", head%result_element, 0)
       call finish_grid(grid, file, reshape(points, [size(points)]), error, spec%limits)
       if (.not. allocated(error)) call self%list_file(file, head%number, merge(wheel_part, rail_part, name == "wheel"))
       call add_context(error, "writing VTK files")
@@ -265,19 +261,16 @@ contains
       !> Where the patch is, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
       character(len=:), allocatable :: name
-      character(len=12) :: case_text, block_text
       integer :: k, part
 
-      write(case_text, "(I0.4)") head%number
       part = max(0, number - 1)
-      name = case_file_name(self%base, case_text, "vts", head%result_element, number)
+      name = case_file_name(self%base, head%number, "vts", head%result_element, number)
       call write_surface(name, spec, contact, error, place)
       if (.not. allocated(error)) call self%list_file(name, head%number, part)
       if (allocated(contact%subsurface)) then
          do k = 1, size(contact%subsurface)
             if (allocated(error)) exit
-            write(block_text, "(A, I0)") "block", k
-            name = case_file_name(self%base, case_text, trim(block_text) // ".vts", head%result_element, number)
+            name = case_file_name(self%base, head%number, "block" // integer_text(k) // ".vts", head%result_element, number)
             call write_block(name, spec, contact%subsurface(k), error, place)
             if (.not. allocated(error)) call self%list_file(name, head%number, 100*k + part)
          end do

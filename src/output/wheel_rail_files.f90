@@ -5,8 +5,9 @@ module contact_output_wheel_rail_files
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
-   use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
-   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_output_finished_file, only : case_file_name
+   use contact_output_mat_file, only : mat_place, write_mat_file
+   use contact_output_subs_file, only : write_subs_file
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : mirrored, patch_result
    use contact_wheelrail_result, only : in_element_coordinates, wheel_rail_patch, wheel_rail_result
@@ -37,16 +38,16 @@ contains
             if (spec%mat_file >= 1) then
                if (spec%wheel_rail%left) then
                   mirror = mirrored(in_element_coordinates(patch))
-                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, &
+                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, k), spec, mirror, &
                      & result%status, error, place_of(spec, result, patch, k, time))
                else
-                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, &
+                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, k), spec, &
                      & in_element_coordinates(patch), result%status, error, place_of(spec, result, patch, k, time))
                end if
                if (allocated(error)) return
             end if
             if (spec%has_stress .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
-               call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, patch%contact, error)
+               call write_subs_file(case_file_name(base, case_number, "subs", result_element, k), spec, patch%contact, error)
                if (allocated(error)) return
             end if
          end associate

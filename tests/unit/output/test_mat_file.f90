@@ -4,7 +4,8 @@ program test_mat_file
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_output_mat_file, only : mat_file_name, write_mat_file
+   use contact_output_finished_file, only : case_file_name
+   use contact_output_mat_file, only : write_mat_file
    use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
    use output_sample, only : fill_sample, numbers_on, read_lines, text_line
@@ -12,12 +13,12 @@ program test_mat_file
    type(test_suite) :: suite
 
    call suite%start("output mat file")
-   call suite%equal(mat_file_name("dir/run", 1, 0, 0), "dir/run.0001.mat", "first case")
-   call suite%equal(mat_file_name("run", 9999, 0, 0), "run.9999.mat", "four digits")
-   call suite%equal(mat_file_name("run", 10000, 0, 0), "run.10000.mat", "five digits")
-   call suite%equal(mat_file_name("run", 1234567, 0, 0), "run.1234567.mat", "seven digits")
-   call suite%equal(mat_file_name("run", 1, 2, 0), "run_re002.0001.mat", "result element")
-   call suite%equal(mat_file_name("run", 1, 0, 2), "run.0001b.mat", "contact patch")
+   call suite%equal(case_file_name("dir/run", 1, "mat", 0, 0), "dir/run.0001.mat", "first case")
+   call suite%equal(case_file_name("run", 9999, "mat", 0, 0), "run.9999.mat", "four digits")
+   call suite%equal(case_file_name("run", 10000, "mat", 0, 0), "run.10000.mat", "five digits")
+   call suite%equal(case_file_name("run", 1234567, "mat", 0, 0), "run.1234567.mat", "seven digits")
+   call suite%equal(case_file_name("run", 1, "mat", 2, 0), "run_re002.0001.mat", "result element")
+   call suite%equal(case_file_name("run", 1, "mat", 0, 2), "run.0001b.mat", "contact patch")
    call check_contents()
    call check_failures()
    call check_plasticity()

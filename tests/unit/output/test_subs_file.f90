@@ -3,7 +3,8 @@ program test_subs_file
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_output_finished_file, only : case_file_name
+   use contact_output_subs_file, only : write_subs_file
    use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
    use output_sample, only : fill_sample, numbers_on, read_lines, text_line
@@ -11,11 +12,11 @@ program test_subs_file
    type(test_suite) :: suite
 
    call suite%start("output subs file")
-   call suite%equal(subs_file_name("dir/run", 1, 0, 0), "dir/run.0001.subs", "first case")
-   call suite%equal(subs_file_name("run", 9999, 0, 0), "run.9999.subs", "four digits")
-   call suite%equal(subs_file_name("run", 10000, 0, 0), "run.010000.subs", "six digits")
-   call suite%equal(subs_file_name("run", 1000000, 0, 0), "run.subs", "no number")
-   call suite%equal(subs_file_name("run", 12, 3, 0), "run_re003.0012.subs", "result element")
+   call suite%equal(case_file_name("dir/run", 1, "subs", 0, 0), "dir/run.0001.subs", "first case")
+   call suite%equal(case_file_name("run", 9999, "subs", 0, 0), "run.9999.subs", "four digits")
+   call suite%equal(case_file_name("run", 10000, "subs", 0, 0), "run.010000.subs", "six digits")
+   call suite%equal(case_file_name("run", 1000000, "subs", 0, 0), "run.subs", "no number")
+   call suite%equal(case_file_name("run", 12, "subs", 3, 0), "run_re003.0012.subs", "result element")
    call check_contents()
    call suite%finish()
 
