@@ -79,8 +79,7 @@ module contact_capi_caller
       procedure :: refuse_call
       procedure :: end_line => set_line
       procedure :: list => set_list
-      procedure :: refuse => refuse_number
-      procedure :: warn => warn_of_number
+      procedure :: tell => tell_of_number
       procedure :: check => check_number
       !> Hand over a list, or one number as each result; of lists as much as there is room for
       generic :: give => give_numbers, give_integers
@@ -259,21 +258,19 @@ contains
       end do
    end subroutine set_list
 
-   !> A number cannot be used
-   subroutine refuse_number(self, name, text)
+   !> A number cannot be used, is doubtful or was replaced
+   subroutine tell_of_number(self, is_error, name, text)
       class(caller), intent(inout) :: self
+      logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
 
-      if (self%is_reading) call self%refuse_call(trim(self%shown(name)) // text // "; nothing is stored")
-   end subroutine refuse_number
-
-   !> A number is doubtful or was replaced
-   subroutine warn_of_number(self, name, text)
-      class(caller), intent(inout) :: self
-      character(len=*), intent(in) :: name, text
-
-      if (self%is_good .and. self%is_reading) call warn(self%call_of, trim(self%shown(name)) // text)
-   end subroutine warn_of_number
+      if (.not. self%is_reading) return
+      if (is_error) then
+         call self%refuse_call(trim(self%shown(name)) // text // "; nothing is stored")
+      else if (self%is_good) then
+         call warn(self%call_of, trim(self%shown(name)) // text)
+      end if
+   end subroutine tell_of_number
 
    !> Check the bounds of a number that the caller of the archive has seen before
    subroutine check_number(self, name, bounds)

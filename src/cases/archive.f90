@@ -2,7 +2,7 @@
 !>
 !> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs name the numbers of each group of
 !> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files and
-!> the setter of the library give them values, the writer of input files looks at them.
+!> a caller of the library give them values, the writer of input files looks at them.
 !>
 !> The numbers of one line are noted first (`real`, `integer`, `text`) and handled together by `end_line`, so that a complaint
 !> can tell the whole line. Variables that are noted must therefore have the attribute `target`, and hold new values after
@@ -79,17 +79,19 @@ module contact_cases_archive
       procedure(end_line_interface), deferred :: end_line
       !> A list of numbers with lines of its own
       procedure(list_interface), deferred :: list
-      !> A number of the last line is wrong, doubtful or replaced; nothing where values do not come in
-      procedure :: refuse => say_nothing
-      procedure :: warn => say_nothing
+      !> A number of the last line is wrong, doubtful or replaced: `tell` says so, nothing where values do not come in
+      procedure :: refuse
+      procedure :: warn
+      procedure :: tell => tell_nothing
       !> Reading cannot go on, with the reason; the name is blank when no number of the last line is to blame
       procedure :: fail => say_nothing
       !> A group of numbers begins and ends; groups do not nest
       procedure :: open_group => ignore_name
       procedure :: close_group => ignore
-      !> The numbers of a group, as a whole, are wrong or doubtful; nothing where values do not come in
-      procedure :: refuse_group => ignore_name
-      procedure :: warn_of_group => ignore_name
+      !> The numbers of a group, as a whole, are wrong or doubtful: `tell_of_group` says so, nothing where values do not come in
+      procedure :: refuse_group
+      procedure :: warn_of_group
+      procedure :: tell_of_group => tell_nothing_of_group
       !> What readers of a file should know about the group in hand
       procedure :: comment => ignore_name
       !> Where reading stopped, if it did
@@ -284,6 +286,72 @@ contains
 
       self%has_ended = .true.
    end subroutine finish_line
+
+   !> A number of the last line cannot be used
+   subroutine refuse(self, name, text)
+      class(case_archive), intent(inout) :: self
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      !> What is said behind its name and its value
+      character(len=*), intent(in) :: text
+
+      call self%tell(.true., name, text)
+   end subroutine refuse
+
+   !> A number of the last line is doubtful or was replaced
+   subroutine warn(self, name, text)
+      class(case_archive), intent(inout) :: self
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      !> What is said behind its name and its value
+      character(len=*), intent(in) :: text
+
+      call self%tell(.false., name, text)
+   end subroutine warn
+
+   !> The numbers of the group in hand, or of those before it, do not go together
+   subroutine refuse_group(self, text)
+      class(case_archive), intent(inout) :: self
+      !> One sentence
+      character(len=*), intent(in) :: text
+
+      call self%tell_of_group(.true., text)
+   end subroutine refuse_group
+
+   !> The numbers of the group in hand are doubtful
+   subroutine warn_of_group(self, text)
+      class(case_archive), intent(inout) :: self
+      !> One sentence
+      character(len=*), intent(in) :: text
+
+      call self%tell_of_group(.false., text)
+   end subroutine warn_of_group
+
+   !> Values that do not come in are right
+   subroutine tell_nothing(self, is_error, name, text)
+      class(case_archive), intent(inout) :: self
+      !> Can the number not be used? Otherwise it is doubtful
+      logical, intent(in) :: is_error
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      !> What is said behind its name and its value
+      character(len=*), intent(in) :: text
+
+      associate (unused => self, no_error => is_error, no_name => name, no_text => text)
+      end associate
+   end subroutine tell_nothing
+
+   !> Values that do not come in are right
+   subroutine tell_nothing_of_group(self, is_error, text)
+      class(case_archive), intent(inout) :: self
+      !> Do its numbers not go together? Otherwise they are doubtful
+      logical, intent(in) :: is_error
+      !> One sentence
+      character(len=*), intent(in) :: text
+
+      associate (unused => self, no_error => is_error, no_text => text)
+      end associate
+   end subroutine tell_nothing_of_group
 
    !> Values that do not come in are right
    subroutine say_nothing(self, name, text)

@@ -35,16 +35,14 @@ module contact_input_file_reader
    contains
       procedure :: end_line => read_line
       procedure :: list => read_list
-      procedure :: refuse => refuse_value
-      procedure :: warn => warn_of_value
+      procedure :: tell => tell_of_value
       procedure :: fail => stop_reading
       procedure :: check => check_value
       procedure :: shown => show_value
       procedure :: place => place_value
       procedure :: open_group => open_group_of_file
       procedure :: close_group => close_group_of_file
-      procedure :: refuse_group => refuse_group_of_file
-      procedure :: warn_of_group => warn_of_group_of_file
+      procedure :: tell_of_group => tell_of_group_of_file
       procedure :: add_context => add_context_of_file
       procedure :: line_of
    end type file_reader
@@ -132,35 +130,20 @@ contains
       end do
    end function line_of
 
-   !> The numbers of the group in hand, or of those before it, do not go together
-   subroutine refuse_group_of_file(self, text)
-      class(file_reader), intent(inout) :: self
-      character(len=*), intent(in) :: text
-
-      call add_group_problem(self, severity%error, text)
-   end subroutine refuse_group_of_file
-
-   !> The numbers of the group in hand are doubtful
-   subroutine warn_of_group_of_file(self, text)
-      class(file_reader), intent(inout) :: self
-      character(len=*), intent(in) :: text
-
-      call add_group_problem(self, severity%warning, text)
-   end subroutine warn_of_group_of_file
-
    !> A problem at the beginning of the group in hand; outside of groups on the last line
-   subroutine add_group_problem(self, kind, text)
+   subroutine tell_of_group_of_file(self, is_error, text)
       class(file_reader), intent(inout) :: self
-      !> Member of severity
-      integer, intent(in) :: kind
+      logical, intent(in) :: is_error
       character(len=*), intent(in) :: text
 
-      if (self%group > 0) then
-         call self%problems%add(kind, text, self%groups(self%group)%line, self%groups(self%group)%column)
-      else
-         call self%problems%add(kind, text, self%lexer%line)
-      end if
-   end subroutine add_group_problem
+      associate (kind => merge(severity%error, severity%warning, is_error))
+         if (self%group > 0) then
+            call self%problems%add(kind, text, self%groups(self%group)%line, self%groups(self%group)%column)
+         else
+            call self%problems%add(kind, text, self%lexer%line)
+         end if
+      end associate
+   end subroutine tell_of_group_of_file
 
    !> Where reading stopped, if it did
    subroutine add_context_of_file(self, text)
@@ -232,27 +215,10 @@ contains
       if (self%is_good .and. outside%given) call self%problems%check_bounds(outside, trim(bounds_table(row)%name))
    end subroutine read_list
 
-   !> A value cannot be used: "name = word" and the reason
-   subroutine refuse_value(self, name, text)
+   !> A value cannot be used, is doubtful or was replaced: "name = word" and the reason, at its place
+   subroutine tell_of_value(self, is_error, name, text)
       class(file_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, text
-
-      call add_problem(self, severity%error, name, text)
-   end subroutine refuse_value
-
-   !> A value is doubtful or was replaced
-   subroutine warn_of_value(self, name, text)
-      class(file_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, text
-
-      call add_problem(self, severity%warning, name, text)
-   end subroutine warn_of_value
-
-   !> A problem at the place of a value
-   subroutine add_problem(self, kind, name, text)
-      class(file_reader), intent(inout) :: self
-      !> Member of severity
-      integer, intent(in) :: kind
+      logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
       integer :: line, column
 
@@ -260,8 +226,8 @@ contains
       line = self%lexer%line
       column = 0
       call self%place(name, line, column)
-      call self%problems%add(kind, trim(self%shown(name)) // text, line, column)
-   end subroutine add_problem
+      call self%problems%add(merge(severity%error, severity%warning, is_error), trim(self%shown(name)) // text, line, column)
+   end subroutine tell_of_value
 
    !> Reading cannot go on because of a value, or of what was read before when there is no name
    subroutine stop_reading(self, name, text)

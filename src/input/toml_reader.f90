@@ -31,16 +31,14 @@ module contact_input_toml_reader
    contains
       procedure :: end_line => read_line
       procedure :: list => read_list
-      procedure :: refuse => refuse_value
-      procedure :: warn => warn_of_value
+      procedure :: tell => tell_of_value
       procedure :: fail => stop_reading
       procedure :: check => check_value
       procedure :: shown => show_value
       procedure :: place => place_value
       procedure :: open_group => open_table
       procedure :: close_group => close_table
-      procedure :: refuse_group
-      procedure :: warn_of_group
+      procedure :: tell_of_group => tell_of_table
    end type toml_reader
 
 contains
@@ -285,11 +283,8 @@ contains
       if (.not. self%is_good) return
       if (allocated(values)) deallocate(values)
       allocate(values(max(0, n)), source=0.0_wp)
-      select case (name)
-      case ("Y,ALPHA"); key = "inclinations"
-      case ("XL,XH,YL,YH"); key = "rectangles"
-      case default; key = trim(small(name))
-      end select
+      key = trim(form_key(name))
+      if (key == "") key = trim(small(name))
       call find(self, key, array)
       if (array == 0) then
          if (n == 0) return
@@ -314,49 +309,33 @@ contains
       end if
    end subroutine read_list
 
-   !> A value cannot be used
-   subroutine refuse_value(self, name, text)
+   !> A value cannot be used, is doubtful or was replaced
+   subroutine tell_of_value(self, is_error, name, text)
       class(toml_reader), intent(inout) :: self
+      logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
 
-      if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(severity%error, node_of(self, name), &
-         & trim(self%shown(name)) // text)
-   end subroutine refuse_value
-
-   !> A value is doubtful or was replaced
-   subroutine warn_of_value(self, name, text)
-      class(toml_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, text
-
-      if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(severity%warning, node_of(self, name), &
-         & trim(self%shown(name)) // text)
-   end subroutine warn_of_value
+      if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(merge(severity%error, severity%warning, is_error), &
+         & node_of(self, name), trim(self%shown(name)) // text)
+   end subroutine tell_of_value
 
    !> The case cannot be read on
    subroutine stop_reading(self, name, text)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
-      if (.not. self%is_good) return
-      if (.not. self%line_is_bad) call self%add_problem(severity%error, node_of(self, name), trim(self%shown(name)) // text)
+      call self%refuse(name, text)
       self%is_good = .false.
    end subroutine stop_reading
 
-   !> The numbers of the group in hand do not go together
-   subroutine refuse_group(self, text)
+   !> The numbers of the group in hand do not go together or are doubtful
+   subroutine tell_of_table(self, is_error, text)
       class(toml_reader), intent(inout) :: self
+      logical, intent(in) :: is_error
       character(len=*), intent(in) :: text
 
-      call self%add_problem(severity%error, 0, text)
-   end subroutine refuse_group
-
-   !> The numbers of the group in hand are doubtful
-   subroutine warn_of_group(self, text)
-      class(toml_reader), intent(inout) :: self
-      character(len=*), intent(in) :: text
-
-      call self%add_problem(severity%warning, 0, text)
-   end subroutine warn_of_group
+      call self%add_problem(merge(severity%error, severity%warning, is_error), 0, text)
+   end subroutine tell_of_table
 
    !> Check the bounds of a value that was replaced, or that has one of two names
    subroutine check_value(self, name, bounds)
