@@ -167,10 +167,10 @@ void cntc_setreferencevelocity(const int *ire, const int *icp, const double *vel
 
 /* Set a Hertzian geometry and its grid (basic contact).
  *   ipotcn    params
- *   -1        mx, my, a1, b1 [1/L], scale [-]        curvatures
- *   -2        mx, my, a1 [1/L], aob [-], scale       curvature and ratio of the axes
+ *   -1        mx, my, a1, b1 [1/L], scale [-]        distance a1 x^2 + b1 y^2: half the sum of the bodies' curvatures
+ *   -2        mx, my, a1 [1/L], aob [-], scale       the same along x, and ratio of the axes
  *   -3        mx, my, aa, bb [L], scale              half-axes
- *   -4        mx, my, a1 [1/L], bb [L], scale        rectangle: curvature, half-width
+ *   -4        mx, my, a1 [1/L], bb [L], scale        rectangle: the same along x, half-width
  *   -5        mx, my, aa, bb [L], scale              rectangle: half-lengths
  *   -6        mx, my, aa, bneg, bpos [L], scale      two halves of ellipses (set B = 4 yourself) */
 void cntc_sethertzcontact(const int *ire, const int *icp, const int *ipotcn, const int *nparam,
@@ -338,8 +338,8 @@ void cntc_getcontactlocation(const int *ire, const int *icp, const int *lenarr, 
 void cntc_getreferencevelocity(const int *ire, const int *icp, double *veloc);
 
 /* Get the numbers of a Hertzian geometry (basic contact).
- *   rvalues: curvatures a1, b1 [1/L], semi-axes aa, bb, effective radius rho, cp [L], scale [-],
- *       sides of the axis bneg, bpos [L], ratio aob [-] */
+ *   rvalues: distance a1 x^2 + b1 y^2 [1/L], semi-axes aa, bb, effective radius rho, cp [L],
+ *       scale [-], sides of the axis bneg, bpos [L], ratio aob [-] */
 void cntc_gethertzcontact(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
 /* Get the size of the grid.

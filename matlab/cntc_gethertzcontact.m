@@ -4,8 +4,8 @@ function [ rvalues ] = cntc_gethertzcontact( ire, icp )
 %   rvalues = cntc_gethertzcontact( ire, icp )
 %
 %   ire, icp  result element and contact patch or problem (default 1, 1)
-%   rvalues   curvatures a1, b1 [1/L], semi-axes aa, bb, effective radius rho, cp [L], scale [-], sides of the axis
-%             bneg, bpos [L], ratio aob [-]
+%   rvalues   distance a1 x^2 + b1 y^2 [1/L], semi-axes aa, bb, effective radius rho, cp [L], scale [-], sides of the
+%             axis bneg, bpos [L], ratio aob [-]
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

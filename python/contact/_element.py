@@ -28,6 +28,8 @@ _SOURCES = {"established": 0, "moving": 1}
 _SIDES = ("x low", "x high", "y low", "y high", "inner end of the rail profile", "outer end of the rail profile",
           "inner end of the wheel profile", "outer end of the wheel profile",
           "a part of the profiles that cannot be seen from the plane of the contact")
+# Totals of wear that are 0 without their coefficients, or without points below the surface
+_CONDITIONAL = ("max_wear", "worn_section", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca")
 _MOTIONS = {"frictionless": 0, "shift": 1, "transient": 2, "steady": 3}
 
 _lock = threading.Lock()
@@ -200,7 +202,8 @@ class Patch(View):
         motion = {"shift": ("shift_x", "shift_y", "rotation"), "frictionless": ()}.get(self.motion, ("cksi", "ceta", "cphi"))
         found.update(zip(motion, (self.cksi, self.ceta, self.cphi)))
         found["contact_area"] = self.contact_area
-        found.update(self.wear or {})
+        # as in files, what the case has not is left out
+        found.update((name, value) for name, value in (self.wear or {}).items() if value != 0.0 or name not in _CONDITIONAL)
         counts = {"ncon": self.state > 0, "nadh": self.state == 1, "nslip": self.state == 2, "nplast": self.state == 3}
         found.update({name: int(np.count_nonzero(where)) for name, where in counts.items() if name != "nplast" or where.any()})
         return found

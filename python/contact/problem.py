@@ -79,7 +79,8 @@ class Problem(Element):
         aa, bb
             Semi-axes of the contact ellipse along x and y [L], or
         a1, b1
-            curvatures of the distance a1 x**2 + b1 y**2 [1/L].
+            coefficients of the distance a1 x**2 + b1 y**2 [1/L], half the sum of the curvatures of both bodies: a ball of
+            radius R on a plane has 1/(2 R), two equal discs have 1/R along x.
         scale
             Size of the grid relative to the ellipse.
         """

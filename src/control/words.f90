@@ -69,7 +69,8 @@ module contact_control_words
       & form_row("IPOTCN", grid_form%corners, "corners", "two corners"), &
       & form_row("IPOTCN", grid_form%centre_and_sides, "centre_and_sides", "centre of the first element, and its sides"), &
       & form_row("IPOTCN", grid_form%centres, "centres", "centres of the first and the last element"), &
-      & form_row("IPOTCN", grid_form%hertz_curvatures, "hertz_curvatures", "around the contact of bodies of these curvatures"), &
+      & form_row("IPOTCN", grid_form%hertz_curvatures, "hertz_curvatures", &
+      & "around the contact of bodies with the distance a1 x^2 + b1 y^2"), &
       & form_row("IPOTCN", grid_form%hertz_curvature_ratio, "hertz_curvature_ratio", &
       & "around the contact of a curvature and a ratio of semi-axes"), &
       & form_row("IPOTCN", grid_form%hertz_axes, "hertz_axes", "around an ellipse of these semi-axes"), &

@@ -223,9 +223,9 @@ module contact_text_bounds
       & 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
       & number_bounds("SCALE", "-", "size of the grid over that of the contact", &
       & 1.0e-6_wp, 1.0e6_wp, .false., "a window with the contact in it, or a part of it"), &
-      & number_bounds("A1", "1/mm", "curvature along x", &
+      & number_bounds("A1", "1/mm", "half the sum of the bodies' curvatures along x", &
       & 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
-      & number_bounds("B1", "1/mm", "curvature along y", &
+      & number_bounds("B1", "1/mm", "half the sum of the bodies' curvatures along y", &
       & 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
       & number_bounds("AOB", "-", "ratio of semi-axes", &
       & 1.0e-6_wp, 1.0e6_wp, .false., "longer contacts are lines: IPOTCN = -4"), &

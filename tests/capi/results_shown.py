@@ -52,6 +52,27 @@ def solved(units="mm", motion="steady"):
         return problem.solve(), problem.stresses()
 
 
+def wear_shown():
+    """Totals of wear that a case does not have are not printed as 0"""
+    with contact.Problem() as problem:
+        problem.set_hertz(15, 15, a1=1 / 80, b1=1 / 80)
+        problem.set_material(g=82000.0, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_normal_force(5e3)
+        problem.set_creepages(0.002)
+        problem.set_wear()
+        bare = problem.solve()
+        problem.set_wear(1e-4, 3000.0, 300.0)
+        problem.add_block([0.0], [0.0], [0.5, 1.0])
+        full = problem.solve()
+    asked = {"max_wear", "worn_section", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"}
+    same(asked & set(bare.totals()), set(), "without coefficients and points")
+    check({"t_gamma", "traction"} <= set(bare.totals()) and asked <= set(full.totals()), "with them")
+    check("max_mises" not in str(bare) and "max_mises" in str(full), "printed")
+    # a ball of radius 40 mm on a plane, by Hertz: a1 = 1/(2 R)
+    close(full.max_pressure, (6.0 * 5e3 * (82000.0 / 0.72)**2 / (np.pi**3 * 40.0**2))**(1 / 3), 15.0, "a1 of a ball")
+
+
 def wheel(track=None, force=None, pitch=-2000.0 / 460.0):
     """A wheel on a rail; track replaces how the track is given, a longitudinal force the rate of pitch"""
     with contact.WheelRail() as pair:
@@ -248,6 +269,7 @@ def rates_of_pitch():
 
 
 if __name__ == "__main__":
+    wear_shown()
     everything = (*solved(), wheel())
     printed(*everything)
     told()
