@@ -424,6 +424,8 @@ class Element:
         self._release = weakref.finalize(self, _give_back, self._number)
         self.units = units
         self.motion = motion
+        self._has_points = False
+        self._stresses_known = False
         self.set_flags(if_units=CNTC[_UNITS[units]], ic_tang=_MOTIONS[motion], ic_pvtime=2, ic_output=0, ic_flow=0,
                        own_heat=_SOURCES["moving"], own_order=2)
 
@@ -572,17 +574,24 @@ class Element:
         if (x is None) != (y is None):
             raise ValueError("x and y have to be given both, or be None both for the centres of all elements")
         self._do(cntc.subs_addblock, self.number, self._icp, block, 5 if x is None else 9, x, y, z)
+        self._has_points = True
+        self._stresses_known = False
 
-    def _calculate_stresses(self) -> None:
+    def _calculate_stresses(self, callers: int = 1) -> None:
+        """Stresses below the last solution, once; a warning names the line that called so many levels above"""
+        if self._stresses_known:
+            return
         code = cntc.subs_calculate(self.number, self._icp, idebug=0)
         fail_if(code != 0, code, "The stresses were not computed", self.number, self._icp)
         points = int(cntc.getflags(self.number, self._icp, [CNTC["own_stepped"]])[0])
         if points:
             warnings.warn(f"{points} points lie less than dx/4 below the surface and off the centres of elements; stresses "
-                          "there are those of tractions that are constant on elements", ContactWarning, stacklevel=3)
+                          "there are those of tractions that are constant on elements", ContactWarning, stacklevel=2 + callers)
+        self._stresses_known = True
 
     def _calculate(self, initiation: bool) -> int:
         """Solve; the number of elements at the border"""
+        self._stresses_known = False
         self.set_flags(ic_pvtime=2 if initiation else 0)
         code: Any = cntc.calculate(self.number, self._icp, idebug=0)
         self._status, self._reason = case_status(self.number, self._icp)
@@ -595,4 +604,7 @@ class Element:
         if asked and not reached:
             warnings.warn("The accuracy that was asked for was not reached; errors of the result tell what is left", ContactWarning,
                           stacklevel=3)
+        if self._has_points and cntc.getflags(self.number, self._icp, [CNTC["own_wear"]])[0]:
+            # totals of wear have the largest stresses
+            self._calculate_stresses(callers=2)
         return int(code)
