@@ -4,6 +4,7 @@
 !> that small windows use are told in contact_elastic_operator.
 module contact_elastic_spectra
    use contact_base_kinds, only : wp
+   use contact_fft_lines, only : multiply_opposites, turn_one
    use contact_fft_plan, only : kernel_spectrum
    implicit none (type, external)
    private
@@ -137,7 +138,7 @@ contains
       do l = 1, px
          turn = factor(min(l, opposite(l, px)))
          if (l > px/2 + 1) turn = conjg(turn)
-         call turn_column(py, turn, spectrum(:, l))
+         call turn_one(py, turn, spectrum(:, l))
       end do
    end subroutine multiply_paired
 
@@ -148,44 +149,4 @@ contains
 
       x = mean*x + cmplx(half, mixed, wp)*conjg(x)
    end subroutine multiply_own
-
-   !> Product for n frequencies and their opposites, these in reversed order
-   !>
-   !> Real and imaginary parts go through the same operations, so that the compiler takes both in one instruction.
-   pure subroutine multiply_opposites(n, mean, half, mixed, x, y)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: mean(n), half(n), mixed(n)
-      complex(wp), intent(inout) :: x(n), y(n)
-      real(wp) :: xr, xi, yr, yi, minus
-      integer :: k
-
-      do k = 1, n
-         xr = x(k)%re
-         xi = x(k)%im
-         yr = y(n + 1 - k)%re
-         yi = y(n + 1 - k)%im
-         minus = -half(k)
-         x(k)%re = mean(k)*xr + half(k)*yr + mixed(k)*yi
-         x(k)%im = mean(k)*xi + minus*yi + mixed(k)*yr
-         y(n + 1 - k)%re = mean(k)*yr + half(k)*xr + mixed(k)*xi
-         y(n + 1 - k)%im = mean(k)*yi + minus*xi + mixed(k)*xr
-      end do
-   end subroutine multiply_opposites
-
-   !> A column times one factor, written for the same reason as above
-   pure subroutine turn_column(n, turn, x)
-      integer, intent(in) :: n
-      complex(wp), intent(in) :: turn
-      complex(wp), intent(inout) :: x(n)
-      real(wp) :: xr, xi, minus
-      integer :: k
-
-      minus = -turn%im
-      do k = 1, n
-         xr = x(k)%re
-         xi = x(k)%im
-         x(k)%re = turn%re*xr + minus*xi
-         x(k)%im = turn%re*xi + turn%im*xr
-      end do
-   end subroutine turn_column
 end module contact_elastic_spectra

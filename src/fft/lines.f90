@@ -1,99 +1,111 @@
 !> What is done to rows and columns between their transforms
 !>
-!> Arguments have their shapes told, so that the compiler knows that lines are contiguous.
+!> Arguments have their shapes told, so that the compiler knows that lines are contiguous. What takes time is in lines.c.
 module contact_fft_lines
+   use, intrinsic :: iso_c_binding, only : c_double, c_double_complex, c_int
    use contact_base_kinds, only : wp
    implicit none (type, external)
    private
 
-   public :: copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_both, turn_two
+   public :: copy, multiply_block, multiply_one, multiply_opposites, multiply_two, put_together, take_apart, turn_one, turn_two
+
+   interface
+      !> Product of a spectrum with a real one
+      pure subroutine multiply_one(n, xx, a) bind(c, name="contact_lines_one")
+         import :: c_double, c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> The real one
+         real(c_double), intent(in) :: xx(n)
+         !> Becomes the product
+         complex(c_double_complex), intent(inout) :: a(n)
+      end subroutine multiply_one
+
+      !> Product of two spectra with a symmetric 2 by 2 block, then with one number
+      pure subroutine multiply_block(n, xx, yy, xy, turn, a, b) bind(c, name="contact_lines_block")
+         import :: c_double, c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> The block
+         real(c_double), intent(in) :: xx(n), yy(n), xy(n)
+         !> The number; absent: 1
+         complex(c_double_complex), intent(in), optional :: turn
+         !> Become the product
+         complex(c_double_complex), intent(inout) :: a(n), b(n)
+      end subroutine multiply_block
+
+      !> Product of a spectrum with one number
+      pure subroutine turn_one(n, turn, a) bind(c, name="contact_lines_turn")
+         import :: c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> The number
+         complex(c_double_complex), intent(in) :: turn
+         !> Becomes the product
+         complex(c_double_complex), intent(inout) :: a(n)
+      end subroutine turn_one
+
+      !> Product with a symmetric 2 by 2 block for frequencies of the transform of two real fields, the first + i times the second
+      !>
+      !> With s and d the half sum and the half difference of xx and yy it is s z(k) + (d + i xy) conj(z(-k)).
+      pure subroutine multiply_opposites(n, mean, half, mixed, x, y) bind(c, name="contact_lines_opposites")
+         import :: c_double, c_double_complex, c_int
+         !> Number of frequencies
+         integer(c_int), value :: n
+         !> s, d and xy
+         real(c_double), intent(in) :: mean(n), half(n), mixed(n)
+         !> Frequencies, and their opposites in reversed order: become the product
+         complex(c_double_complex), intent(inout) :: x(n), y(n)
+      end subroutine multiply_opposites
+
+      !> The same product for the transform of two real lines
+      pure subroutine multiply_two(px, xx, yy, xy, z) bind(c, name="contact_lines_pair")
+         import :: c_double, c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: px
+         !> The block
+         real(c_double), intent(in) :: xx(px/2 + 1), yy(px/2 + 1), xy(px/2 + 1)
+         !> Becomes the product
+         complex(c_double_complex), intent(inout) :: z(px)
+      end subroutine multiply_two
+
+      !> Such a transform times the spectrum of one more real line
+      pure subroutine turn_two(px, factor, z) bind(c, name="contact_lines_turn_pair")
+         import :: c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: px
+         !> The spectrum
+         complex(c_double_complex), intent(in) :: factor(px/2 + 1)
+         !> Becomes the product
+         complex(c_double_complex), intent(inout) :: z(px)
+      end subroutine turn_two
+
+      !> All but the first frequency of `take_apart`
+      pure subroutine take_both_apart(px, z, rows, both) bind(c, name="contact_lines_apart")
+         import :: c_double_complex, c_int
+         !> Length
+         integer(c_int), value :: px
+         !> Transform of the sum
+         complex(c_double_complex), intent(in) :: z(px)
+         !> Rows in all
+         integer(c_int), value :: rows
+         !> From the first one of the two on: gets those of both
+         complex(c_double_complex), intent(inout) :: both(*)
+      end subroutine take_both_apart
+
+      !> Frequencies of `put_together` that have an opposite
+      pure subroutine put_both_together(px, rows, both, z) bind(c, name="contact_lines_together")
+         import :: c_double_complex, c_int
+         !> Length, rows in all
+         integer(c_int), value :: px, rows
+         !> From the first one of the two on
+         complex(c_double_complex), intent(in) :: both(*)
+         !> Gets the transform of the sum
+         complex(c_double_complex), intent(inout) :: z(px)
+      end subroutine put_both_together
+   end interface
 
 contains
-
-   !> Product of a spectrum with a real one
-   pure subroutine multiply_one(n, xx, a)
-      !> Length
-      integer, intent(in) :: n
-      !> The real one
-      real(wp), intent(in) :: xx(n)
-      !> Becomes the product
-      complex(wp), intent(inout) :: a(n)
-
-      a%re = xx*a%re
-      a%im = xx*a%im
-   end subroutine multiply_one
-
-   !> Product of two spectra with a symmetric 2 by 2 block
-   pure subroutine multiply_block(n, xx, yy, xy, a, b)
-      !> Length
-      integer, intent(in) :: n
-      !> The block
-      real(wp), intent(in) :: xx(n), yy(n), xy(n)
-      !> Become the product
-      complex(wp), intent(inout) :: a(n), b(n)
-      complex(wp) :: keep
-      integer :: k
-
-      do k = 1, n
-         keep = a(k)
-         a(k) = xx(k)*keep + xy(k)*b(k)
-         b(k) = xy(k)*keep + yy(k)*b(k)
-      end do
-   end subroutine multiply_block
-
-   !> Product of two spectra with one number
-   pure subroutine turn_both(n, turn, a, b)
-      !> Length
-      integer, intent(in) :: n
-      !> The number
-      complex(wp), intent(in) :: turn
-      !> Become the products
-      complex(wp), intent(inout) :: a(n), b(n)
-
-      a = turn*a
-      b = turn*b
-   end subroutine turn_both
-
-   !> Product with a symmetric 2 by 2 block for the transform of two real lines, the first + i times the second
-   !>
-   !> With s and d the half sum and the half difference of xx and yy it is s z(k) + (d + i xy) conj(z(-k)).
-   pure subroutine multiply_two(px, xx, yy, xy, z)
-      !> Length
-      integer, intent(in) :: px
-      !> The block
-      real(wp), intent(in) :: xx(px/2 + 1), yy(px/2 + 1), xy(px/2 + 1)
-      !> Becomes the product
-      complex(wp), intent(inout) :: z(px)
-      complex(wp) :: here, there, mixed
-      real(wp) :: mean
-      integer :: k, j
-
-      do k = 1, px/2 + 1
-         j = merge(1, px + 2 - k, k == 1)
-         mean = 0.5_wp*(xx(k) + yy(k))
-         mixed = cmplx(0.5_wp*(xx(k) - yy(k)), xy(k), wp)
-         here = z(k)
-         there = z(j)
-         z(k) = mean*here + mixed*conjg(there)
-         z(j) = mean*there + mixed*conjg(here)
-      end do
-   end subroutine multiply_two
-
-   !> Such a transform times the spectrum of one more real line
-   pure subroutine turn_two(px, factor, z)
-      !> Length
-      integer, intent(in) :: px
-      !> The spectrum
-      complex(wp), intent(in) :: factor(px/2 + 1)
-      !> Becomes the product
-      complex(wp), intent(inout) :: z(px)
-      integer :: k
-
-      z(:px/2 + 1) = factor*z(:px/2 + 1)
-      do k = 2, (px + 1)/2
-         z(px + 2 - k) = conjg(factor(k))*z(px + 2 - k)
-      end do
-   end subroutine turn_two
 
    !> Transforms of two rows from half that of the first + i times half the second
    pure subroutine take_apart(px, z, rows, iy, half)
@@ -103,18 +115,18 @@ contains
       complex(wp), intent(in) :: z(px)
       !> Transforms of all rows: gets those of the two
       complex(wp), intent(inout) :: half(rows, px/2 + 1)
-      integer :: k, next
+      integer :: k
 
-      ! where there is no second one, the first is written twice, and right at last
-      next = min(iy + 1, rows)
-      half(next, 1) = 2.0_wp*z(1)%im
       half(iy, 1) = 2.0_wp*z(1)%re
-      do k = 2, px/2 + 1
-         half(next, k)%re = z(px + 2 - k)%im + z(k)%im
-         half(next, k)%im = z(px + 2 - k)%re - z(k)%re
-         half(iy, k)%re = z(k)%re + z(px + 2 - k)%re
-         half(iy, k)%im = z(k)%im - z(px + 2 - k)%im
-      end do
+      if (iy < rows) then
+         half(iy + 1, 1) = 2.0_wp*z(1)%im
+         call take_both_apart(px, z, rows, half(iy, 1))
+      else
+         ! a last row without a companion
+         do k = 2, px/2 + 1
+            half(iy, k) = z(k) + conjg(z(px + 2 - k))
+         end do
+      end if
    end subroutine take_apart
 
    !> Transform of the first row + i times the second one from theirs; they belong to real values
@@ -125,18 +137,21 @@ contains
       complex(wp), intent(in) :: half(rows, px/2 + 1)
       !> Gets that of the sum
       complex(wp), intent(inout) :: z(px)
-      integer :: k, next
+      integer :: k
 
-      ! a last row without a companion is its own one, and the imaginary part is left alone
-      next = min(iy + 1, rows)
-      z(1) = cmplx(half(iy, 1)%re, half(next, 1)%re, wp)
-      do k = 2, (px + 1)/2
-         z(k)%re = half(iy, k)%re - half(next, k)%im
-         z(k)%im = half(iy, k)%im + half(next, k)%re
-         z(px + 2 - k)%re = half(iy, k)%re + half(next, k)%im
-         z(px + 2 - k)%im = half(next, k)%re - half(iy, k)%im
-      end do
-      if (px > 1) z(px/2 + 1) = cmplx(half(iy, px/2 + 1)%re, half(next, px/2 + 1)%re, wp)
+      if (iy < rows) then
+         z(1) = cmplx(half(iy, 1)%re, half(iy + 1, 1)%re, wp)
+         call put_both_together(px, rows, half(iy, 1), z)
+         if (mod(px, 2) == 0) z(px/2 + 1) = cmplx(half(iy, px/2 + 1)%re, half(iy + 1, px/2 + 1)%re, wp)
+      else
+         ! a last row without a companion
+         z(1) = half(iy, 1)%re
+         do k = 2, (px + 1)/2
+            z(k) = half(iy, k)
+            z(px + 2 - k) = conjg(half(iy, k))
+         end do
+         if (mod(px, 2) == 0) z(px/2 + 1) = half(iy, px/2 + 1)%re
+      end if
    end subroutine put_together
 
    !> Copy a line

@@ -9,8 +9,7 @@ module contact_fft_plan
    use contact_base_kinds, only : wp
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
    use contact_fft_library, only : backwards, execute_complex, fast_lengths, forwards, lanes, plan_complex
-   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_both, &
-      & turn_two
+   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_two
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
@@ -299,9 +298,10 @@ contains
             associate (a => self%column(:, l - k + 1, 2, t), b => self%column(:, l - k + 1, 3, t))
                if (n == 1) then
                   call multiply_one(self%py, xx(:, l), a)
+               else if (present(factor)) then
+                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), factor(l), a, b)
                else
-                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), a, b)
-                  if (present(factor)) call turn_both(self%py, factor(l), a, b)
+                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), a=a, b=b)
                end if
             end associate
          end do

@@ -1,0 +1,79 @@
+/* What is done to rows and columns between their transforms, where it takes time; lines.f90 tells what.
+ *
+ * In C, as it is compiled twice: for all processors, and for those with AVX2, which are asked when it runs. Both have the same
+ * numbers to the last digit. Vectors are those of GCC and Clang; complex numbers are pairs of real ones. */
+#include <stddef.h>
+
+typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
+
+#define FOUR(at) (*(four *)(at))
+#define EACH_TWICE(at) __builtin_shufflevector(*(const two *)(at), *(const two *)(at), 0, 0, 1, 1)
+#define PARTS_SWAPPED(v) __builtin_shufflevector(v, v, 1, 0, 3, 2)
+#define NUMBERS_SWAPPED(v) __builtin_shufflevector(v, v, 2, 3, 0, 1)
+#define REAL_PARTS(v) __builtin_shufflevector(v, v, 0, 0, 2, 2)
+#define IMAGINARY_PARTS(v) __builtin_shufflevector(v, v, 1, 1, 3, 3)
+#define FIRST_OF_BOTH(v, w) __builtin_shufflevector(v, w, 0, 1, 4, 5)
+#define SECOND_OF_BOTH(v, w) __builtin_shufflevector(v, w, 2, 3, 6, 7)
+
+static const four conjugate = {1.0, -1.0, 1.0, -1.0};
+
+void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b);
+void contact_lines_one(int n, const double *xx, double *a);
+void contact_lines_turn(int n, const double *turn, double *a);
+void contact_lines_opposites(int n, const double *mean, const double *half, const double *mixed, double *x, double *y);
+void contact_lines_pair(int px, const double *xx, const double *yy, const double *xy, double *z);
+void contact_lines_turn_pair(int px, const double *factor, double *z);
+void contact_lines_apart(int px, const double *z, int rows, double *both);
+void contact_lines_together(int px, int rows, const double *both, double *z);
+
+static void turn_number(double re, double im, double *z) {
+  const double keep = z[0];
+  z[0] = re * keep - im * z[1];
+  z[1] = re * z[1] + im * keep;
+}
+
+/* One number of `pair` and its opposite, which may be the same */
+static void multiply_pair(double xx, double yy, double xy, double *here, double *there) {
+  const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
+  const double x[2] = {here[0], here[1]}, y[2] = {there[0], there[1]};
+  here[0] = mean * x[0] + (half * y[0] + xy * y[1]);
+  here[1] = mean * x[1] + (xy * y[0] - half * y[1]);
+  there[0] = mean * y[0] + (half * x[0] + xy * x[1]);
+  there[1] = mean * y[1] + (xy * x[0] - half * x[1]);
+}
+
+#define OF(name) name##_anywhere
+#define TARGET
+#include "line_loops.h"
+
+#ifdef __x86_64__
+#define OF(name) name##_avx2
+#define TARGET __attribute__((target("avx2")))
+#include "line_loops.h"
+#define CALL(name, ...) (__builtin_cpu_supports("avx2") ? name##_avx2(__VA_ARGS__) : name##_anywhere(__VA_ARGS__))
+#else
+#define CALL(name, ...) name##_anywhere(__VA_ARGS__)
+#endif
+
+void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
+  CALL(block, n, xx, yy, xy, turn, a, b);
+}
+
+void contact_lines_one(int n, const double *xx, double *a) { CALL(one, n, xx, a); }
+
+void contact_lines_turn(int n, const double *turn, double *a) { CALL(turn, n, turn, a); }
+
+void contact_lines_opposites(int n, const double *mean, const double *half, const double *mixed, double *x, double *y) {
+  CALL(opposites, n, mean, half, mixed, x, y);
+}
+
+void contact_lines_pair(int px, const double *xx, const double *yy, const double *xy, double *z) {
+  CALL(pair, px, xx, yy, xy, z);
+}
+
+void contact_lines_turn_pair(int px, const double *factor, double *z) { CALL(turn_pair, px, factor, z); }
+
+void contact_lines_apart(int px, const double *z, int rows, double *both) { CALL(apart, px, z, 2 * (size_t)rows, both); }
+
+void contact_lines_together(int px, int rows, const double *both, double *z) { CALL(together, px, 2 * (size_t)rows, both, z); }
