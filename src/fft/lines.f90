@@ -90,7 +90,7 @@ module contact_fft_lines
          !> Rows in all
          integer(c_int), value :: rows
          !> From the first one of the two on: gets those of both
-         complex(c_double_complex), intent(inout) :: both(*)
+         complex(c_double_complex), intent(inout) :: both(rows*(px/2) + 2)
       end subroutine take_both_apart
 
       !> Frequencies of `put_together` that have an opposite
@@ -99,7 +99,7 @@ module contact_fft_lines
          !> Length, rows in all
          integer(c_int), value :: px, rows
          !> From the first one of the two on
-         complex(c_double_complex), intent(in) :: both(*)
+         complex(c_double_complex), intent(in) :: both(rows*(px/2) + 2)
          !> Gets the transform of the sum
          complex(c_double_complex), intent(inout) :: z(px)
       end subroutine put_both_together

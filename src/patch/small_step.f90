@@ -1,14 +1,19 @@
 !> A solved patch at an approach that differs by next to nothing, to first order
 module contact_patch_small_step
+   use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_grid_element_division, only : element
+   use contact_patch_derived, only : derive
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
+   use contact_patch_tangential_step, only : tangential_step
+   use contact_patch_workspace, only : patch_workspace
    implicit none (type, external)
    private
 
-   public :: can_step, small_step
+   public :: can_step, small_step, step_with_tractions
 
 contains
 
@@ -70,4 +75,26 @@ contains
       state%now%pen = result%pen
       state%now%force = [result%fn, result%fx, result%fy]
    end subroutine small_step
+
+   !> The same for a change that is not within the tolerance: tractions and what follows from them are solved anew
+   subroutine step_with_tractions(problem, change, state, workspace, log, result)
+      !> What was solved
+      type(patch_problem), intent(in) :: problem
+      !> Of the approach [mm]
+      real(wp), intent(in) :: change
+      !> Solution; gets the new one
+      type(patch_state), intent(inout) :: state
+      !> That of the solution
+      type(patch_workspace), intent(inout) :: workspace
+      !> Takes the trace of the solvers, and warnings
+      type(log_type), intent(inout) :: log
+      !> The same solution, its totals and its reports
+      type(patch_result), intent(inout) :: result
+
+      call small_step(problem, change, state, result)
+      if (problem%motion == motion%none) return
+      call tangential_step(problem, state, workspace, log, result)
+      call derive(problem, state, workspace, result)
+      state%now%force = [result%fn, result%fx, result%fy]
+   end subroutine step_with_tractions
 end module contact_patch_small_step

@@ -7,7 +7,7 @@ module contact_wheelrail_height_search
    use contact_base_log, only : log_type
    use contact_wheelrail_course, only : power
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
-   use contact_patch_small_step, only : can_step, small_step
+   use contact_patch_small_step, only : can_step, small_step, step_with_tractions
    use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
    use contact_wheelrail_patch_solution, only : find_forces
    use contact_wheelrail_problem, only : wheel_rail_problem
@@ -51,10 +51,15 @@ module contact_wheelrail_height_search
    real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
    !> Least part of the normal forces that pressures are made sharper for
    real(wp), parameter :: smallest = 1.0e-4_wp
-   !> A search that follows the last case: trials at most, part of EPS that it goes on to, part of the missed force that a trial
-   !> leaves at most, and derivatives of the force that are believed, relative to those by the stiffness
+   !> A search that follows the last case: trials at most, part of EPS that it goes on to, parts of the missed force that a trial
+   !> leaves at most, within the tolerance and outside, and derivatives of the force that are believed, relative to those by the
+   !> stiffness
    integer, parameter :: max_followed = 7
-   real(wp), parameter :: smooth = 0.02_wp, quick_progress = 0.2_wp, least_stiff = 0.3_wp, most_stiff = 3.0_wp
+   real(wp), parameter :: smooth = 0.02_wp, quick_progress = 0.2_wp, some_progress = 0.6_wp, least_stiff = 0.3_wp, &
+      & most_stiff = 3.0_wp
+   !> A trial that misses the force by less than so many times EPS is the last one where a step to first order does the rest, which
+   !> leaves out how patches turn: that may make this part of EPS of the force
+   real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
    !> Tangential tractions are made sharp to so many times the part of EPS of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
    !> Parts of EPS that the first of these trials solves pressures and tractions to: it is not the last one
@@ -167,13 +172,14 @@ contains
             self%z = z
          end if
          is_settled = k > 1 .and. miss <= smooth_part(problem)*self%balance%tolerance
-         if (k > 1 .and. .not. is_settled .and. miss <= self%balance%tolerance) then
-            call finish(self, memory, stiffer, z, is_settled)
-            if (.not. is_settled) is_settled = k == max_followed .or. miss > quick_progress*last_miss
+         if (k > 1 .and. .not. is_settled .and. can_finish(self, miss, stiffer)) then
+            call finish(self, memory, stiffer, z, log, is_settled)
+            if (.not. is_settled .and. miss <= self%balance%tolerance) &
+               & is_settled = k == max_followed .or. miss > quick_progress*last_miss
          end if
          if (is_settled) self%z = z
          if (is_settled .or. .not. (self%slope > 0.0_wp .and. self%force > 0.0_wp)) exit
-         if (k > 1 .and. miss > max(quick_progress*last_miss, step_of_grids*self%target)) exit
+         if (k > 1 .and. miss > max(some_progress*last_miss, step_of_grids*self%target)) exit
          if (self%force < self%target) then
             low = [z, self%force]
          else
@@ -194,8 +200,21 @@ contains
       self%guess = self%z
    end subroutine follow
 
-   !> The last step of Newton's method to first order, where all patches can do it: from within EPS to the force itself
-   subroutine finish(self, memory, stiffer, z, is_done)
+   !> Is a trial so near that a step to first order is the rest?
+   pure logical function can_finish(self, miss, stiffer)
+      type(height_search), intent(in) :: self
+      !> What the trial misses the force by [N], and the derivative of the force, relative to that by the stiffness [-]
+      real(wp), intent(in) :: miss, stiffer
+
+      associate (tolerance => self%balance%tolerance)
+         can_finish = miss <= tolerance .or. (miss <= finished*tolerance .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
+      end associate
+   end function can_finish
+
+   !> The last step of Newton's method to first order, where all patches can do it: from near to the force itself
+   !>
+   !> From further away than EPS tractions are solved anew, and the force is met by a second step, which scales them.
+   subroutine finish(self, memory, stiffer, z, log, is_done)
       type(height_search), intent(inout) :: self
       !> Solved patches; get their forces at the new height
       type(wheel_rail_memory), intent(inout) :: memory
@@ -203,7 +222,11 @@ contains
       real(wp), intent(in) :: stiffer
       !> Height of the last trial [mm]; the new one
       real(wp), intent(inout) :: z
+      !> Takes the trace of the solvers
+      type(log_type), intent(inout) :: log
+      !> Is the force met? If not, the patches belong to z all the same
       logical, intent(out) :: is_done
+      logical :: is_far
       real(wp) :: step
       integer :: k
 
@@ -212,17 +235,27 @@ contains
       do k = 1, memory%used
          if (.not. can_step(memory%slot(k)%problem, memory%slot(k)%state)) return
       end do
-      step = (self%target - self%force)/(stiffer*self%slope)
-      do k = 1, memory%used
-         associate (slot => memory%slot(k))
-            ! what turns and moves with the height makes the force stiffer; the patch takes its part of it
-            call small_step(slot%problem, stiffer*slot%plane%axes(3, 3)*step, slot%state, slot%result)
-            call find_forces(slot)
-         end associate
+      is_far = abs(self%force - self%target) > self%balance%tolerance
+      do
+         step = (self%target - self%force)/(stiffer*self%slope)
+         do k = 1, memory%used
+            associate (slot => memory%slot(k), change => stiffer*memory%slot(k)%plane%axes(3, 3)*step)
+               ! what turns and moves with the height makes the force stiffer; the patch takes its part of it
+               if (is_far) then
+                  call step_with_tractions(slot%problem, change, slot%state, slot%workspace, log, slot%result)
+                  if (.not. slot%result%tangential%succeeded()) return
+               else
+                  call small_step(slot%problem, change, slot%state, slot%result)
+               end if
+               call find_forces(slot)
+            end associate
+         end do
+         z = z + step
+         self%force = vertical_force(memory) + self%spring*(z - self%touch)
+         is_done = .not. is_far
+         if (is_done .or. abs(self%force - self%target) > self%balance%tolerance) return
+         is_far = .false.
       end do
-      z = z + step
-      self%force = vertical_force(memory)
-      is_done = .true.
    end subroutine finish
 
    !> Part of EPS that noise between cases is kept below
