@@ -20,6 +20,12 @@ module contact_control_digits
    !> Length of the word for a value in the readable format
    integer, parameter, public :: word_length = 18
 
+   !> All digits in the order of the control words; C1 has module 1 only
+   character(len=2), parameter :: digit_names(*) = [character(len=2) :: &
+      & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
+   !> Where the words 1, 2 and 3 begin and end among them, C1 apart; the digits of a case have one number more
+   integer, parameter :: first_of_word(3) = [2, 8, 16], last_of_word(3) = [7, 14, 23], number_of_digits = size(digit_names) + 1
+
    !> The digits of a case: integers only, in the order of digit_names, so that they are a list, too
    type :: case_digits
       sequence
@@ -31,6 +37,11 @@ module contact_control_digits
       !> Weighting of gaps, in front of M2; it has no letter
       integer :: gapwgt = 0
    end type case_digits
+
+   !> The same as a list: of one type into the other by transfer, without memory from the heap
+   type :: digit_list
+      integer :: value(number_of_digits) = 0
+   end type digit_list
 
    !> One value of one control digit
    type :: digit_row
@@ -51,12 +62,6 @@ module contact_control_digits
    end type digit_row
 
    integer, parameter :: both = 0, module_1 = 1, module_3 = 3
-
-   !> All digits in the order of the control words; C1 has module 1 only
-   character(len=2), parameter :: digit_names(*) = [character(len=2) :: &
-      & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
-   !> Where the words 1, 2 and 3 begin and end among them, C1 apart; the digits of a case have one number more
-   integer, parameter :: first_of_word(3) = [2, 8, 16], last_of_word(3) = [7, 14, 23], number_of_digits = size(digit_names) + 1
 
    type(digit_row), parameter :: word1_rows(*) = [ &
       & digit_row("C1", 0, 0, module_1, .true., "left wheel on the track", "left_on_track"), &
@@ -367,13 +372,14 @@ contains
       type(case_digits), intent(in) :: digits
       !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
-      integer :: list(number_of_digits), k
+      type(digit_list) :: list
+      integer :: k
 
       digit = -1
       k = findloc(digit_names, name, dim=1)
       if (k == 0) return
       list = transfer(digits, list)
-      digit = list(k)
+      digit = list%value(k)
    end function digit_value
 
    !> Give a control digit a value
@@ -383,12 +389,13 @@ contains
       character(len=*), intent(in) :: name
       !> As the input has it
       integer, intent(in) :: value
-      integer :: list(number_of_digits), k
+      type(digit_list) :: list
+      integer :: k
 
       k = findloc(digit_names, name, dim=1)
       if (k == 0) return
       list = transfer(digits, list)
-      list(k) = value
+      list%value(k) = value
       digits = transfer(list, digits)
    end subroutine put_digit
 
@@ -406,13 +413,14 @@ contains
       type(case_digits), intent(inout) :: digits
       !> Second number of word 2, 10 GAPWGT + M2; absent means that the damping is kept
       integer, intent(in), optional :: second
-      integer :: list(number_of_digits), c1
+      type(digit_list) :: list
+      integer :: c1
 
       c1 = digits%c1
       list = transfer(digits, list)
-      call take_apart(word1, list(first_of_word(1) - 1:last_of_word(1)))
-      call take_apart(word2, list(first_of_word(2):last_of_word(2)))
-      call take_apart(word3, list(first_of_word(3):last_of_word(3)))
+      call take_apart(word1, list%value(first_of_word(1) - 1:last_of_word(1)))
+      call take_apart(word2, list%value(first_of_word(2):last_of_word(2)))
+      call take_apart(word3, list%value(first_of_word(3):last_of_word(3)))
       digits = transfer(list, digits)
       if (module_number /= module_1) digits%c1 = c1
       digits%m2 = 1
@@ -441,11 +449,12 @@ contains
       !> 1, 2 or 3
       integer, intent(in) :: word
       character(len=last_of_word(word) - first_of_word(word) + merge(0, 1, word == 3)) :: text
-      integer :: list(number_of_digits), k
+      type(digit_list) :: list
+      integer :: k
 
       list = transfer(digits, list)
       do k = 1, len(text)
-         text(k:k) = achar(iachar("0") + list(last_of_word(word) - len(text) + k))
+         text(k:k) = achar(iachar("0") + list%value(last_of_word(word) - len(text) + k))
       end do
    end function word_text
 end module contact_control_digits

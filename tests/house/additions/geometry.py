@@ -79,7 +79,8 @@ def prove(program, folder):
     except (RuntimeError, subprocess.CalledProcessError) as error:
         yield f"a case does not run: {error}"
         return
-    if flat != smooth:
+    # gaps of both formulas differ by rounding, and so do the solutions
+    if abs(flat - smooth) > 1e-12 * smooth:
         yield f"without waves the approach is {flat}, not {smooth}"
     if abs(lifted - smooth - 0.01) > 1e-6:
         yield f"lifted by 0.01 mm the approach is {lifted}, not 0.01 more than {smooth}"
