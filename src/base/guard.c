@@ -39,6 +39,7 @@ int contact_guard_new_owner(void);
 void contact_guard_set_owner(int owner);
 void contact_guard_expect(int refusals);
 void contact_guard_whole_process(void);
+_Noreturn void contact_guard_without_memory(void);
 int contact_guard_is_watched(void);
 int contact_guard_reserve_used(void);
 
@@ -58,6 +59,7 @@ void contact_guard_free(int owner) { (void)owner; }
 void contact_guard_set_owner(int owner) { (void)owner; }
 void contact_guard_expect(int refusals) { (void)refusals; }
 void contact_guard_whole_process(void) {}
+_Noreturn void contact_guard_without_memory(void) { abort(); }
 int contact_guard_is_watched(void) { return 0; }
 int contact_guard_reserve_used(void) { return 0; }
 
@@ -384,6 +386,12 @@ static void other_exit(int status) {
 static void other_abort(void) {
   if (me.guard != NULL) leave_all(gave_up);
   real.abort();
+}
+
+/* For our code in C++, whose run-time library throws where it gets no memory */
+_Noreturn void contact_guard_without_memory(void) {
+  if (me.guard != NULL) leave_all(no_memory);
+  abort();
 }
 
 /* ---- outside libraries that are linked into the program: their calls have these names (program_hdf5.cmake) ---- */

@@ -1,11 +1,12 @@
 // Plans of pocketfft for contact_fft_library
 //
 // What they need is asked for by malloc of this object, to which the guard of base/guard.c attends (C++14: later standards have a
-// function of their own). Where pocketfft would throw, the process would end, to which the guard attends as well.
+// function of their own). What operator new throws is caught, and left to the guard as well.
 #include "pocketfft_plans.hpp"
 
-#include <cstdlib>
 #include <memory>
+
+extern "C" [[noreturn]] void contact_guard_without_memory();
 
 namespace {
 
@@ -32,13 +33,14 @@ struct plan {
   std::unique_ptr<plan_tables> table;
 };
 
+// The guard is left to behind the handler, where the exception is gone
 template <typename work>
 auto or_end(work &&does) -> decltype(does()) {
   try {
     return does();
   } catch (...) {
-    std::abort();
   }
+  contact_guard_without_memory();
 }
 
 }  // namespace
