@@ -13,8 +13,8 @@ module contact_cases_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, set_elements, stay_below
    use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, take_curvatures
-   use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, is_near_enough, most_elements, most_levels, &
-      & not_converged, prepare_level, refuse_case, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
+   use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, is_near_enough, most_elements, &
+      & most_levels, not_converged, prepare_level, refuse_case, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
@@ -93,7 +93,8 @@ contains
       else if (keeps_axes(spec) .and. .not. maxval(session%curvatures) > 0.0_wp) then
          call fatal_error(error, cannot // "the semi-axes of a case without an accuracy. Curvatures do, or semi-axes that are &
             &given again", error_kind%unsupported)
-      else if (spec%motion == motion%steady_rolling .and. abs(sin(spec%rolling%chi)) > along_x) then
+      else if (any(spec%motion == [motion%steady_rolling, motion%transient_rolling]) &
+         & .and. abs(sin(spec%rolling%chi)) > along_x) then
          call fatal_error(error, cannot // "rolling that is not along x", error_kind%unsupported)
       else
          call session%series%refuse(spec, error)
@@ -198,7 +199,7 @@ contains
          cases = merge(session%series%before(spec) + 1, 1, report%levels == 1)
          if (.not. result%status%has_result()) exit
          report%estimated = -1.0_wp
-         if (is_solved) report%estimated = caution(spec)*error_of_forces(session%problem, result)
+         if (is_solved) report%estimated = error_of_forces(session%problem, result)
          if (result%ncon == 0 .and. report%levels > 1) report%estimated = 0.0_wp
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          if (is_near_enough(report%estimated, expected, report%asked)) exit
@@ -206,7 +207,7 @@ contains
          acting = result%tangential%order
          if (spec%motion == motion%steady_rolling) law%order = min(law%order, merge(law%order, 1.0_wp, acting == 2))
          next = grid
-         call tighten(spec, result, report, next%eps, tightened)
+         call tighten(result, report, next%eps, tightened)
          call next_counts(result, report, law%order, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
@@ -226,13 +227,12 @@ contains
       if (.not. is_lost) call session%series%take(asked, grid)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
-      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)
+      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)
       call tell_report(session, spec, result, report, log)
    end subroutine refine
 
    !> A smaller tolerance for the next grid, where iterations stopped too early for what is asked
-   subroutine tighten(spec, result, report, eps, tightened)
-      type(case_spec), intent(in) :: spec
+   subroutine tighten(result, report, eps, tightened)
       !> Of the present grid, with its errors
       type(patch_result), intent(in) :: result
       !> What was asked for
@@ -245,17 +245,15 @@ contains
 
       tightened = .false.
       if (.not. allocated(result%errors)) return
-      part = caution(spec)*maxval(result%errors%stopping)/report%asked
+      part = maxval(result%errors%stopping)/report%asked
       if (part <= stopping_share) return
       eps = smaller_tolerance(eps, stopping_share/part)
       tightened = eps < report%eps
    end subroutine tighten
 
    !> Of the grids of a search that ended too early keep the one with the smaller estimate
-   subroutine keep_better(session, factor, best, report, result)
+   subroutine keep_better(session, best, report, result)
       type(contact_session), intent(in) :: session
-      !> Of estimates
-      real(wp), intent(in) :: factor
       !> The grid before the last
       type(patch_result), intent(in) :: best
       type(accuracy_report), intent(inout) :: report
@@ -264,7 +262,7 @@ contains
       real(wp) :: before
 
       before = -1.0_wp
-      if (best%status%is_solved()) before = factor*error_of_forces(session%problem, best)
+      if (best%status%is_solved()) before = error_of_forces(session%problem, best)
       if (before < 0.0_wp) return
       if (report%estimated >= 0.0_wp .and. report%estimated <= before .and. allocated(result%errors)) return
       result = best
@@ -295,7 +293,7 @@ contains
       if (keeps_axes(spec)) call take_curvatures(session%curvatures, spec%grid)
       call set_elements(spec%grid, report%elements, report%elements*report%sides)
       spec%iteration%eps = report%eps
-      spec%iteration%order = 2
+      spec%iteration%order = acting_order(spec)
       spec%estimates_errors = .true.
       if (spec%motion == motion%steady_rolling) spec%rolling%dq = result%dq
       result%accuracy = report

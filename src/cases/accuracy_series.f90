@@ -39,7 +39,7 @@ contains
    pure logical function has_history(spec)
       type(case_spec), intent(in) :: spec
 
-      has_history = spec%motion == motion%shift .and. spec%link /= time_link%initiate
+      has_history = any(spec%motion == [motion%shift, motion%transient_rolling]) .and. spec%link /= time_link%initiate
    end function has_history
 
    pure subroutine clear(self)

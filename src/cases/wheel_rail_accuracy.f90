@@ -8,7 +8,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
+   use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, is_near_enough, &
       & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : typical_half_side
@@ -122,7 +122,7 @@ contains
          report%seconds = report%seconds + report%last_seconds
          if (.not. result%status%has_result()) exit
          report%estimated = -1.0_wp
-         if (result%status%is_solved()) report%estimated = caution(spec)*error_of_pair(session%memory)
+         if (result%status%is_solved()) report%estimated = error_of_pair(session%memory)
          report%order = order_of(session%memory)
          report%sides = sides
          if (is_near_enough(report%estimated, expected, report%asked)) exit

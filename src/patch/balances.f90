@@ -8,7 +8,7 @@ module contact_patch_balances
    use contact_base_choices, only : motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule
    use contact_base_kinds, only : wp
-   use contact_patch_problem, only : patch_problem
+   use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -23,17 +23,19 @@ module contact_patch_balances
 
 contains
 
-   !> Does friction take all the power that the motion gives? Not where bodies relax, layers yield, or pressures push tangentially
+   !> Does friction take all the power that the motion gives? Not where bodies relax or layers yield
    pure logical function balances_power(problem) result(balances)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
 
-      balances = problem%motion == motion%steady_rolling .and. .not. (problem%model%coupled() .or. allocated(problem%simplified) &
+      balances = problem%motion == motion%steady_rolling .and. .not. (allocated(problem%simplified) &
          & .or. allocated(problem%model%memory) .or. problem%model%layer > 0.0_wp .or. problem%remembers_yield &
          & .or. allocated(problem%parts))
    end function balances_power
 
-   !> Power of the tangential tractions with creepages, spin and extra slip, dissipation negative [W]
+   !> Power of the tractions with creepages, spin and extra slip, dissipation negative [W]; huge where it is not known
+   !>
+   !> Tractions of unlike bodies push pressures to one side of the contact, where the surfaces climb: that takes power, too.
    pure real(wp) function motion_power(problem, result) result(power)
       !> In steady rolling
       type(patch_problem), intent(in) :: problem
@@ -52,8 +54,35 @@ contains
             power = power + result%px(ix, iy)*slip(1) + result%py(ix, iy)*slip(2)
          end do
       end do
-      power = power*result%grid%dx*result%grid%dy*result%dq/(nmm_per_joule*result%dt)
+      if (problem%couples()) power = power + climbing(problem, result)
+      if (power < huge(power)) power = power*result%grid%dx*result%grid%dy*result%dq/(nmm_per_joule*result%dt)
    end function motion_power
+
+   !> Sum of pressures times the slope of the surface along rolling [N/mm2], huge where a slope is not known
+   pure real(wp) function climbing(problem, result)
+      !> Of coupled bodies
+      type(patch_problem), intent(in) :: problem
+      !> Solved
+      type(patch_result), intent(in) :: result
+      real(wp) :: change
+      integer :: ix, iy
+
+      climbing = huge(climbing)
+      if (.not. problem%solves_for_pressure() .or. problem%general_step) return
+      climbing = 0.0_wp
+      do iy = 1, result%grid%my
+         do ix = 1, result%grid%mx
+            if (.not. result%pn(ix, iy) > 0.0_wp) cycle
+            change = slope(result%h(:, iy), ix)
+            if (abs(change) > excluded_threshold) then
+               climbing = huge(climbing)
+               return
+            end if
+            climbing = climbing + result%pn(ix, iy)*change
+         end do
+      end do
+      climbing = -rolling_direction(problem)*climbing/result%grid%dx
+   end function climbing
 
    !> Part of the elastic energy that pressures have [J]
    pure real(wp) function normal_energy(result) result(energy)

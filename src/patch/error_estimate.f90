@@ -14,8 +14,8 @@ module contact_patch_error_estimate
    use contact_friction_law, only : friction_driver
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, mean_friction, residual_share, &
-      & scale_of, scale_type, scales, traction_error
+   use contact_patch_error_scales, only : mean_friction, scale_type, scales
+   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
@@ -126,7 +126,7 @@ contains
       real(wp), intent(in), optional :: approach_change
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
-      real(wp) :: load, difference, coarse_power
+      real(wp) :: load, difference
       integer :: k
 
       if (result%errors%reason /= "") return
@@ -150,14 +150,7 @@ contains
          & - load**(5.0_wp/3.0_wp)*(level%result%elastic_energy - normal_energy(level%result))
       if (.not. present(approach_change)) &
          & call error_of_normal_energy(problem, result, level%result, scale%normal_energy, scale%has_normal_energy)
-      scale%balances = balances_power(problem)
-      if (scale%balances) then
-         scale%motion_change = motion_power(problem, result)
-         scale%surplus = result%friction_power - scale%motion_change
-         coarse_power = load*motion_power(level%problem, level%result)
-         scale%coarse_surplus = load*level%result%friction_power - coarse_power
-         scale%motion_change = scale%motion_change - coarse_power
-      end if
+      call compare_powers(problem, result, level, load, scale)
       if (allocated(problem%thermal) .and. allocated(problem%friction)) then
          if (problem%friction%driver() == friction_driver%temperature) &
             & scale%warmed = abs(mean_friction(level%result) - mean_friction(result))/max(mean_friction(result), tiny(load))
@@ -182,6 +175,29 @@ contains
          end if
       end do
    end subroutine compare_levels
+
+   !> Power of the motion on both levels beside that of friction, in steady rolling
+   pure subroutine compare_powers(problem, result, level, load, scale)
+      type(patch_problem), intent(in) :: problem
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Solved
+      type(coarse_level), intent(in) :: level
+      !> Normal force over that of the coarse level [-]
+      real(wp), intent(in) :: load
+      !> Gets what belongs to power
+      type(scale_type), intent(inout) :: scale
+      real(wp) :: power(2)
+
+      if (problem%motion /= motion%steady_rolling .or. allocated(problem%simplified)) return
+      power = [motion_power(problem, result), load*motion_power(level%problem, level%result)]
+      scale%has_motion_power = all(power < huge(load))
+      if (.not. scale%has_motion_power) return
+      scale%balances = balances_power(problem)
+      scale%motion_change = power(1) - power(2)
+      scale%surplus = result%friction_power - power(1)
+      scale%coarse_surplus = load*level%result%friction_power - power(2)
+   end subroutine compare_powers
 
    !> Change of the normal force with the approach: computed, or by Hertz's theory [N/mm]
    pure real(wp) function normal_stiffness(result) result(stiffness)

@@ -2,119 +2,47 @@
 !>
 !> Orders, and what errors are not below: see doc/theory/errors.md.
 module contact_patch_level_errors
-   use contact_base_choices, only : heat_source, motion
-   use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_driver
-   use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_scales, only : first_order, normal_order, scale_type
    use contact_patch_peak, only : peak_of
-   use contact_patch_problem, only : patch_problem
    use contact_patch_quantities, only : error_law, total
    use contact_patch_result, only : error_estimate, patch_result
    use contact_patch_step_errors, only : energy_of_forces, force_error, power_error
-   use contact_patch_turning, only : turned_round, turns
    implicit none (type, external)
    private
 
-   public :: coupled_friction_floor, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, &
-      & scale_type, scales, traction_error, trusted
+   public :: coupled_friction_floor, error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error, trusted
 
-   !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
-   !> centre: its share falls with the root of the element
-   real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp
-
-   !> What is common to all totals of a patch
-   type :: scale_type
-      !> Elements across the contact in the direction that has fewest
-      real(wp) :: across = 1.0_wp
-      !> Force and moment that friction bears at most [N, N mm]
-      real(wp) :: force = 0.0_wp, moment = 0.0_wp
-      !> Larger one of the two creepages; power, or work, if all of the contact slid with it and with the spin [W, J]
-      real(wp) :: creep = 0.0_wp, power = 0.0_wp
-      !> Part of the elements in contact that does not slip [-]
-      real(wp) :: adhesion = 0.0_wp
-      !> Part of the friction bound that elements carry where slip turns round from one to the next [-]
-      real(wp) :: reversal = 0.0_wp
-      !> What an error of stopping of pressures becomes in tangential forces, at least
-      real(wp) :: gain = 0.0_wp
-      !> Differences of the levels in tangential forces, relative to the largest one [-]
-      real(wp) :: friction = 0.0_wp
-      !> Are both forces prescribed, so that the moment alone has an error?
-      logical :: is_moment_alone = .false.
-      !> Tangential tractions over what friction bears [-]
-      real(wp) :: used = 0.0_wp
-      !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Does it go in steps of transient rolling?
-      real(wp) :: order = 1.0_wp
-      logical :: clean = .true., steps = .false.
-      !> Length of a step of transient rolling [elements]
-      real(wp) :: step = 0.0_wp
-      !> Relative error of the normal problem by the levels, over that of so many elements in general, at least 1
-      real(wp) :: irregular = 1.0_wp
-      !> May what the levels tell be a rare sample of an error that jumps with the offset of the grid?
-      logical :: jumps = .false.
-      !> Length of an element over that of relaxation of viscoelastic bodies, at most 1; 0: elastic
-      real(wp) :: relaxation = 0.0_wp
-      !> Of the highest temperatures
-      real(wp) :: heat_order = peak_order
-      !> Difference of the levels in the mean coefficient of friction, relative to it, where it follows temperatures [-]
-      real(wp) :: warmed = 0.0_wp
-      !> How far a rough surface may rise between centres of elements, over the approach [-]
-      real(wp) :: roughness = 0.0_wp
-      !> Difference parameter K of unlike bodies [-]
-      real(wp) :: coupling = 0.0_wp
-      !> Elements along each side of a square of as many as in the box around the contact
-      real(wp) :: mean_across = 1.0_wp
-      !> Root of the mean square of the deviations of the coefficient of friction, over its mean, where it follows slip [-]
-      real(wp) :: falling = 0.0_wp
-      !> How far slip turns across the contact, by the second order of steady rolling, at most half a turn [rad]
-      real(wp) :: turning = 0.0_wp
-      !> Power that the motion gives and friction does not take, and what the levels differ by in that of the motion [W]; is it so?
-      real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
-      !> The first of these of the coarser level [W]
-      real(wp) :: coarse_surplus = 0.0_wp
-      logical :: balances = .false.
-      !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
-      real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
-      !> Error of the part of pressures with its sign [J]; is it known?
-      real(wp) :: normal_energy = 0.0_wp
-      logical :: has_normal_energy = .false.
-   end type scale_type
-
-   !> Order of the normal problem, and of what jumps with single elements
-   real(wp), parameter :: normal_order = 2.0_wp, jump_order = 1.0_wp
+   !> Order of what jumps with single elements
+   real(wp), parameter :: jump_order = 1.0_wp
    !> Of frictional power with the first order: its error falls to 1/(1 + 1.65) with elements of a third; median of tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
-   !> Of forces in steady rolling by both schemes; the second one shows this order from 15 to 45 elements on, with its jitter
-   real(wp), parameter :: first_order = 1.0_wp, second_order = 1.6_wp
    !> Contact of fewer elements across is not resolved, and in that direction not coarsened either: any total is off by this times
    !> n^-2; of the hard cases of tests/stability
    real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp
    !> Tractions of unlike bodies pull pressures up where elements do not see it: factor of the difference parameter K times n^-2 in
    !> the largest pressure; of the hard cases
    real(wp), parameter :: coupled_floor = 4.0_wp
-   !> Pressures of unlike bodies drive tractions at the leading edge: factor of K n^-1 in forces by the second order, see
-   !> doc/theory/second_order.md
+   !> Pressures of unlike bodies drive tractions at the leading edge: factor of K k n^-1 in forces by the second order, with k = K
+   !> over the coefficient of friction, at most 1, see doc/theory/second_order.md
    real(wp), parameter :: coupled_friction_floor = 0.15_wp
-   !> Few rows of elements stand for plane strain where they are longer than the contact by this factor; chosen
-   real(wp), parameter :: plane = 4.0_wp
+   !> Where they reach the bound beside adhesion, the zone of slip ahead is narrower than elements: factor of k^3 times the root of
+   !> the part that sticks, times n^-1; of unlike bodies with seed 8101
+   real(wp), parameter :: hidden_slip = 0.5_wp
    !> A peak of pressures bends by 4 n^-2 of itself over an element of a contact of n; what it bends beyond this multiple is a peak
    !> that elements do not resolve, and off by this part of the bend; chosen with the hard cases of tests/stability
    real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
-   !> Part of the alternation of a rough surface that peaks between centres of elements have; that of noise is the root of 15 of its
-   !> standard deviation; chosen with tests/stability/hard_wheels.py
-   real(wp), parameter :: roughness_share = 0.25_wp
    !> Errors of tangential forces and moment are at least this part of the largest of them
    real(wp), parameter :: other_component = 0.2_wp
    !> Where slip turns round without adhesion in between, elements do not see where: forces are off by this part of what an
    !> element carries there. Root of the mean square over positions of the grid, two rollers of aluminium and steel
    real(wp), parameter :: reversal_share = 0.7_wp
-   !> Of unlike bodies, pressures decide where that is: what an error of stopping of pressures becomes in forces then, also with
-   !> adhesion over this part of the contact in between. Measured with the same rollers, EPS from 1e-2 to 1e-5
-   real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
    !> with seeds 1001 and 1002. Forces of steady rolling; of shifts
    real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp
+   !> Elements that do not resolve the relaxation of viscoelastic bodies: factor of n^-1, by order (seeds 8101 and 8103)
+   real(wp), parameter :: relaxing_floor(2) = [0.05_wp, 0.15_wp]
    !> Part of these that moments have where both forces are prescribed; of random contacts (seed 3101)
    real(wp), parameter :: moment_alone = 0.5_wp
    !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
@@ -132,8 +60,6 @@ module contact_patch_level_errors
    !> Forces by the second order where friction falls with slip: factor of its relative deviations times n^-2 (seeds 1001 and 1002);
    !> where slip turns, of its turn across the contact times n^-2 (seed 2001)
    real(wp), parameter :: falling_floor = 6.0_wp, turning_floor = 0.15_wp
-   !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors, too
-   real(wp), parameter :: least_adhesion = 0.02_wp
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
    !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak of
    !> like and of unlike bodies
@@ -144,116 +70,6 @@ module contact_patch_level_errors
    real(wp), parameter :: residual_share = 0.3_wp
 
 contains
-
-   !> Mean coefficient of friction, weighted with pressures [-]
-   pure real(wp) function mean_friction(result) result(mu)
-      !> Solved, in contact
-      type(patch_result), intent(in) :: result
-
-      mu = sum(result%mu*result%pn)/max(sum(result%pn), tiny(mu))
-   end function mean_friction
-
-   !> Root of the mean square of its deviations, weighted with pressures, over the mean [-]
-   pure real(wp) function deviation_of_friction(result) result(deviation)
-      !> Solved, in contact
-      type(patch_result), intent(in) :: result
-      real(wp) :: mean
-
-      mean = mean_friction(result)
-      deviation = sqrt(sum((result%mu - mean)**2*result%pn)/max(sum(result%pn), tiny(mean)))/max(mean, tiny(mean))
-   end function deviation_of_friction
-
-   !> What totals are compared with
-   pure function scales(problem, order, result) result(scale)
-      type(patch_problem), intent(in) :: problem
-      !> Of the scheme of the tangential problem, 1 or 2
-      integer, intent(in) :: order
-      type(patch_result), intent(in) :: result
-      type(scale_type) :: scale
-      type(bounding_box) :: box
-      real(wp) :: extent(2)
-      integer :: across(2)
-
-      box = contact_box(result%division)
-      across = [box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1]
-      scale%across = minval(across)
-      extent = across*[result%grid%dx, result%grid%dy]
-      scale%mean_across = sqrt(real(product(across), wp))
-      if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) then
-         scale%across = across(1)
-         scale%mean_across = scale%across
-      else if (result%grid%mx < 3 .and. extent(1) > plane*extent(2)) then
-         scale%across = across(2)
-         scale%mean_across = scale%across
-      end if
-      scale%force = result%grid%dx*result%grid%dy*sum(result%mu*result%pn)
-      scale%moment = scale%force*sqrt(result%contact_area()/pi)
-      scale%creep = max(abs(result%cksi), abs(result%ceta))
-      scale%power = max(scale%force*hypot(result%cksi, result%ceta), scale%moment*abs(result%cphi))*result%dq/ &
-         & (nmm_per_joule*result%dt)
-      scale%adhesion = max(least_adhesion, real(result%nadh, wp)/result%ncon)
-      if (problem%model%coupled()) scale%coupling = abs(problem%model%material%ak)
-      scale%roughness = roughness_share*max(alternation(problem%h, result%division), &
-         & alternation(transpose(problem%h), transpose(result%division)))/max(abs(result%pen), tiny(extent))
-      if (scale%force > 0.0_wp) then
-         scale%used = result%grid%dx*result%grid%dy*sum(hypot(result%px, result%py))/scale%force
-         scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
-         if (scale%coupling > 0.0_wp) scale%gain = reversal_gain*min(1.0_wp, scale%across*result%grid%dx*result%grid%dy &
-            & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
-      end if
-      scale%is_moment_alone = problem%n_forces == 2
-      scale%order = normal_order
-      if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
-      if (problem%motion == motion%steady_rolling .and. order == 2) scale%turning = min(pi, scale%mean_across &
-         & *sqrt(result%grid%dx*result%grid%dy*turns(result)/max(scale%force, tiny(extent))))
-      scale%steps = problem%motion == motion%transient_rolling
-      if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
-      if (scale%steps) scale%step = result%dq/result%grid%dx
-      ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
-      scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
-      ! tractions are singular at edges that are given
-      if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
-      if (allocated(problem%thermal)) then
-         if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
-      end if
-      if (allocated(problem%friction)) then
-         if (problem%friction%driver() == friction_driver%slip_speed) scale%falling = deviation_of_friction(result)
-      end if
-      scale%jumps = scale%clean .and. scale%order > first_order .and. .not. scale%steps
-      if (allocated(problem%model%memory)) then
-         associate (memory => problem%model%memory)
-            if (any(memory%length > 0.0_wp)) scale%relaxation = min(1.0_wp, result%grid%dx/minval(memory%length, &
-               & mask=memory%length > 0.0_wp))
-         end associate
-      end if
-   end function scales
-
-   !> Noise of the undeformed distance along x, where contact has a part [mm]: root of the mean product of third differences of
-   !> neighbours, whose signs alternate; zero for what is smooth, as these have the same sign, and for waves of a few elements, as
-   !> those of next neighbours do not
-   pure real(wp) function alternation(h, division) result(noise)
-      !> [mm], and states of the elements; shape (mx, my)
-      real(wp), intent(in) :: h(:, :)
-      integer, intent(in) :: division(:, :)
-      !> Product of third differences of next neighbours over that of neighbours, for white noise
-      real(wp), parameter :: ratio = 0.4_wp
-      real(wp) :: third(3), alike(2)
-      integer :: ix, iy, n
-
-      n = 0
-      alike = 0.0_wp
-      do iy = 1, size(h, 2)
-         do ix = 2, size(h, 1) - 4
-            if (all(division(ix - 1:ix + 4, iy) < element%adhesion)) cycle
-            if (any(h(ix - 1:ix + 4, iy) > excluded_threshold)) cycle
-            third = h(ix + 2:ix + 4, iy) - 3.0_wp*(h(ix + 1:ix + 3, iy) - h(ix:ix + 2, iy)) - h(ix - 1:ix + 1, iy)
-            alike = alike + third(1)*[-third(2), third(3)/ratio]
-            n = n + 1
-         end do
-      end do
-      noise = 0.0_wp
-      if (n > 0) noise = sqrt(max(0.0_wp, minval(alike)/n))
-   end function alternation
 
    !> What the error of a total is relative to, in its unit
    pure real(wp) function scale_of(row, scale) result(unit)
@@ -280,7 +96,7 @@ contains
       type(scale_type), intent(in) :: scale
       !> Its relative parts
       type(error_estimate), intent(in) :: errors
-      real(wp) :: floor, full_power, part, stopping, unit
+      real(wp) :: floor, part, stopping, unit
 
       stopping = maxval(errors%stopping)
       unit = scale_of(row, scale)
@@ -296,27 +112,13 @@ contains
          if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across)*unit
          e = e + by_heat(scale, part, difference, unit)
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
-         floor = friction_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
+         floor = driven_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
          if (scale%is_moment_alone .and. row%law == error_law%friction) floor = moment_alone*floor
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
          if (row%law == error_law%friction) floor = max(floor, reversal_share*scale%reversal)
       case (error_law%power)
-         full_power = max(scale%power, unit, tiny(unit))
-         e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
-         if (is_unseen(scale)) e = 0.0_wp
-         if (is_long_step(scale)) e = power_error(unit/full_power, difference/full_power, scale%friction, scale%adhesion, &
-            & scale%mean_across, scale%step)*full_power
-         if (scale%balances) e = error_of_power(scale, unit)
-         e = e + by_heat(scale, part_of(scale, scale%order), difference, unit)
-         floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
-         if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
-            & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
-         floor = floor*full_power/max(unit, tiny(unit))
-         if (scale%balances .or. is_long_step(scale)) then
-            floor = 0.0_wp
-         else if (scale%jumps) then
-            e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
-         end if
+         e = error_of_power(scale, difference, unit)
+         floor = 0.0_wp
       case (error_law%energy)
          e = error_of_energy(scale) + (stopping + errors%window)*unit
          return
@@ -362,11 +164,20 @@ contains
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)/scale%mean_across**2
       end if
       ! elements that do not resolve the relaxation have the first order
-      floor = sqrt(scale%adhesion)*max(floor, rolling_floor(1)*scale%relaxation/scale%mean_across)
+      floor = sqrt(scale%adhesion)*max(floor, merge(relaxing_floor(2), relaxing_floor(1), scale%order > first_order) &
+         & *scale%relaxation/scale%mean_across)
       if (scale%order > first_order) floor = floor + falling_floor*scale%falling/scale%mean_across**2
       if (is_unseen(scale)) floor = floor*scale%irregular
-      if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling/scale%across)
    end function friction_floor
+
+   !> The same with what pressures of unlike bodies bring in, of first order by both schemes
+   pure real(wp) function driven_floor(scale) result(floor)
+      type(scale_type), intent(in) :: scale
+
+      floor = friction_floor(scale)
+      if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling*scale%driven/scale%across, &
+         & hidden_slip*scale%driven**3*sqrt(scale%sticking)/scale%mean_across)
+   end function driven_floor
 
    !> Is it a step of transient rolling that the second order is not made for?
    pure logical function is_long_step(scale)
@@ -382,7 +193,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       e = scale%warmed/(coarsening**scale%heat_order - 1.0_wp)
-      if (is_unseen(scale)) e = e + friction_floor(scale)
+      if (is_unseen(scale)) e = e + driven_floor(scale)
       if (is_long_step(scale)) e = e + force_error(scale%friction, scale%adhesion, scale%mean_across)
    end function traction_error
 
@@ -417,9 +228,44 @@ contains
       if (told > floor .and. floor > 0.0_wp) e = floor*(told/floor)**power
    end function trusted
 
-   !> Error of frictional power in steady rolling without that of solvers and window [W]: what friction does not take of the power
-   !> of the motion, with its sign, and the error of that power
-   pure real(wp) function error_of_power(scale, unit) result(e)
+   !> Error of frictional power or work without that of solvers and window, in its unit
+   pure real(wp) function error_of_power(scale, difference, unit) result(e)
+      type(scale_type), intent(in) :: scale
+      !> Between the levels, and power itself, positive
+      real(wp), intent(in) :: difference, unit
+      real(wp) :: floor, full_power, heat
+
+      full_power = max(scale%power, unit, tiny(unit))
+      heat = by_heat(scale, part_of(scale, scale%order), difference, unit)
+      if (is_long_step(scale)) then
+         e = heat + power_error(unit/full_power, difference/full_power, scale%friction, scale%adhesion, scale%mean_across, &
+            & scale%step)*full_power
+         return
+      end if
+      if (scale%balances .and. .not. (scale%coupling > 0.0_wp .and. scale%jumps)) then
+         e = heat + error_by_balance(scale, unit)
+         return
+      end if
+      e = difference
+      ! the power of the motion and what remains may change by as much with opposite signs
+      if (scale%has_motion_power .and. .not. scale%balances) &
+         & e = hypot(scale%motion_change, scale%surplus - scale%coarse_surplus)
+      e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*e
+      if (is_unseen(scale)) e = 0.0_wp
+      floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
+      if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
+         & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
+      floor = floor*full_power
+      e = e + heat
+      if (scale%jumps) e = trusted(e, floor, trust)
+      e = max(e, floor)
+      ! of unlike bodies the balance tells errors of pressures, too, that hardly show in power by the second order
+      if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
+   end function error_of_power
+
+   !> Error of frictional power in steady rolling [W]: what friction does not take of the power of the motion, with its sign, and
+   !> the error of that power
+   pure real(wp) function error_by_balance(scale, unit) result(e)
       type(scale_type), intent(in) :: scale
       !> Frictional power, positive [W]
       real(wp), intent(in) :: unit
@@ -431,7 +277,7 @@ contains
       e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
       ! a surplus that jumps with the offset of the grid may be small by accident: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, part_of(scale, scale%order)*abs(scale%coarse_surplus))
-   end function error_of_power
+   end function error_by_balance
 
    !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
    pure real(wp) function error_of_energy(scale) result(e)
@@ -453,7 +299,7 @@ contains
       end if
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
-      e = max(e, dot_product(energy_floor, floor) + more)
+      e = max(e, dot_product(energy_floor, [scale%irregular, 1.0_wp]*floor) + more)
    end function error_of_energy
 
    !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak

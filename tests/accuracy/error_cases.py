@@ -178,13 +178,72 @@ def _shifts(random, c, b1, b3, full):
                            "ceta": size * random.uniform(-1.0, 1.0)} for step in range(1, c["steps"])}
 
 
+def _slender(random, c, b1, b3, full):
+    """Ellipses of 1:4 to 1:10, either way, by Hertz's formula for the mean of the semi-axes and the creepages of sliding."""
+    ratio, mean = random.uniform(4.0, 10.0) ** random.choice([-0.5, 0.5]), math.sqrt(c["a"] * c["b"])
+    larger = max(mean * ratio, mean / ratio) / max(c["a"], 0.5 * c["b"])
+    c.update(a=mean * ratio, b=mean / ratio, creep=tuple(v / larger for v in c["creep"]))
+    b1, b3 = curvatures(c["a"], c["b"], c["gg"][0] / (1.0 - c["poiss"][0]), c["fn"])
+    c["geometry"] = f'form = "quadratic"\nplanform = "unrestricted"\nb = [{b1!r}, 0.0, {b3!r}, 0.0, 0.0, 0.0]\n'
+
+
+def _spun(random, c, full):
+    """With spin, from a tenth of that of full sliding to twice as much."""
+    c["spin"] = random.choice([-1, 1]) * full / math.sqrt(c["a"] * c["b"]) * math.exp(random.uniform(math.log(0.1), math.log(2.0)))
+
+
+def _layer_spin(random, c, b1, b3, full):
+    _layer(random, c, b1, b3, full)
+    _spun(random, c, full)
+
+
+def _dissimilar_spin(random, c, b1, b3, full):
+    _dissimilar(random, c, b1, b3, full)
+    _spun(random, c, full)
+
+
+def _viscoelastic_spin(random, c, b1, b3, full):
+    """Relaxation over a tenth to five times the half length, with spin."""
+    length = c["a"] * math.exp(random.uniform(math.log(0.1), math.log(5.0))) / 1000.0
+    c.update(model="viscoelastic", maxout=20, margin=1.5, material=f"fg = [1.0, 1.0]\ntc = [{length!r}, {length!r}]\n")
+    _spun(random, c, full)
+
+
+def _falling_forces(random, c, b1, b3, full):
+    """Friction that falls with slip, forces below its lower value, half of the contacts with one of them and spin."""
+    _falling(random, c, b1, b3, full)
+    _forces(random, c, b1, b3, full)
+    c["force"] = tuple(0.65 * v for v in c["force"])
+    if random.random() < 0.5:
+        c["tangential"] = "fx_and_ceta"
+        _spun(random, c, full)
+
+
+def _one_force(random, c, b1, b3, full):
+    """FX prescribed, with creepage across and spin."""
+    c.update(tangential="fx_and_ceta", force=(random.uniform(-0.9, 0.9), c["creep"][1]))
+    _spun(random, c, full)
+
+
+def _two(random, c, b1, b3, full):
+    """Two circles side by side, one of them lower."""
+    b, n = c["b"], 2001
+    apart, lower, y1, dy = random.uniform(0.9, 1.4) * b, random.uniform(0.0, 0.3), -4.0 * b, 8.0 * b / (n - 1)
+    values = (min(b3 * (y + apart) ** 2, b3 * (y - apart) ** 2 + lower * b3 * b * b) for y in (y1 + k * dy for k in range(n)))
+    c["geometry"] = (f'form = "profile"\nplanform = "unrestricted"\nxm = 0.0\nrm = {1 / (2 * b1)!r}\ny1 = {y1!r}\ndy1 = {dy!r}\n'
+                     "b = [" + ", ".join(f"{v:.12g}" for v in values) + "]\n")
+    c["margin"] = 2.2
+
+
 CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _forces, "dissimilar": _dissimilar,
            "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
            "transient": _transient, "reverse": _reverse}
 #: Kinds that are further out, not part of the tables
-FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps}
+FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps,
+           "slender": _slender, "layer_spin": _layer_spin, "dissimilar_spin": _dissimilar_spin,
+           "viscoelastic_spin": _viscoelastic_spin, "falling_forces": _falling_forces, "one_force": _one_force, "two": _two}
 #: Kinds that the second order is not made for: a layer, and steps that stay what they are on finer grids
-FIRST_ORDER = ("layer", "transient", "steps")
+FIRST_ORDER = ("layer", "layer_spin", "transient", "steps")
 
 
 def stress_points(c):
@@ -217,10 +276,9 @@ def text_of(c, n, offset, eps=1e-6, options=""):
         xi, eta = c["creep"]
         lines += ["[case.iteration]", 'solver = "default"', f"eps = {eps!r}", "maxgs = 999", "maxin = 200", "maxnr = 60",
                   f"maxout = {c['maxout']}", "[case.kinematics]", load, f"cphi = {c['spin']!r}"]
-        if c["tangential"] == "creepages":
-            lines += [f"cksi = {xi!r}", f"ceta = {eta!r}"]
-        else:
-            lines += [f"fx = {c['force'][0]!r}", f"fy = {c['force'][1]!r}"]
+        along, across = {"creepages": ("cksi", "ceta"), "fx_and_ceta": ("fx", "ceta")}.get(c["tangential"], ("fx", "fy"))
+        given = (xi, eta) if along == "cksi" else c["force"]
+        lines += [f"{along} = {given[0]!r}", f"{across} = {given[1]!r}"]
         lines += ["[case.friction]", c["friction"]]
         if rolling:
             lines += ["[case.rolling]", f"chi = {c['chi']!r}", f"dq = {c.get('dq', dx)!r}", "veloc = 1000.0"]

@@ -184,7 +184,7 @@ class Accuracy(Runs):
             self.assertIn("is not a number from 1e-6 to 0.1", self.run_program(f"--accuracy={word}", "2", "a", status=1))
         self.assertIn("needs", self.run_program("--accuracy", status=1))
         layer = "1000 0.02 100 10 GG3 LAYTHK TAU_C0 K_TAU"
-        for name, why, choice in (("transient", "transient rolling", {"motion": 2}),
+        for name, why, choice in (("transient", "transient rolling of", {"motion": 2, "material": 4, "layer": layer}),
                                   ("formula", "pressures by formula", {"bound": 3}),
                                   ("yield", "a layer that yields", {"material": 4, "layer": layer})):
             (self.folder / (name + ".inp")).write_text(rolling(**choice) + " 0 MODULE\n")
@@ -231,6 +231,29 @@ class Accuracy(Runs):
         once, again = (self.solve_all("c.toml", "[[case]]" + "[[case]]".join([head, *rest]), "--accuracy", "1e-3")[-1]["totals"]
                        for rest in (cases, twice))
         self.assertLess(max(abs(once[n] - again[n]) for n in ("fx", "fy")), 3e-4 * once["mu_scal"] * once["fn"])
+
+    def test_steps(self):
+        """Steps of transient rolling of a given length: as exact as asked against finer elements, those of the same cases on the
+        chosen elements; what is out of reach is told with the error that was reached"""
+        c = contact(random.Random(1), "transient")
+        c["changes"] = {2: {"cksi": -c["creep"][0]}}
+        fine = self.solve_all("fine.toml", text_of(c, 160, (0.3, 0.1)))
+        patches = self.solve_all("a.toml", text_of(c, 30, (0.2, 0.4)), "--accuracy", "2e-2")
+        self.assertEqual(len(patches), c["steps"])
+        for patch, exact in zip(patches, fine):
+            told, totals = patch["accuracy"], patch["totals"]
+            self.assertTrue(told["reached"])
+            bound = totals["mu_scal"] * totals["fn"]
+            self.assertLess(max(abs(totals[name] - exact["totals"][name]) for name in ("fx", "fy")), 2e-2 * bound)
+        text = text_of(c, 30, (0.2, 0.4), told["eps"])
+        for name in ("mx", "my", "dx", "dy"):
+            text = re.sub(rf"^{name} = .*$", f"{name} = {told[name]!r}", text, flags=re.MULTILINE)
+        again = self.solve_all("b.toml", text)[-1]["totals"]
+        self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * told["eps"] * bound)
+        told = self.solve_all("c.toml", text_of(c, 30, (0.2, 0.4)), "--accuracy", "1e-4", "--limit-elements=5000")[0]["accuracy"]
+        self.assertFalse(told["reached"])
+        self.assertGreater(told["estimated"], 1e-4)
+        self.assertIn("elements are not allowed", told["reason"])
 
     def test_series_refused(self):
         """Cases that cannot go on with the elements of those before"""

@@ -1,0 +1,134 @@
+"""What --accuracy costs beside the cheapest fixed grid of each contact: python3 best_grids.py [--count N] [--wheels N] [--seed S]
+
+The contacts of asked.py with the same seed. Each is solved with --accuracy, and on fixed grids from coarse to fine, by the second
+order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked.
+Times are user and system time of one more contact in a file: (file of 1 + COPIES contacts - file of one)/COPIES, so that start,
+reading of tables and plans of transforms do not count. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM names
+the program.
+"""
+import argparse
+import math
+import os
+import random
+import resource
+import tempfile
+from pathlib import Path
+
+from asked import FIXED, FIXED_WHEELS, KINDS, contact_errors, exact_totals, value_of, wheel_error, wheel_of
+from error_cases import contact, text_of, wheel, wheel_text
+from errors import run
+
+#: How often a contact is solved more
+COPIES = 4
+#: Finer grids than those of asked.py, for kinds of first order
+FINEST = (190, 226, 270, 320)
+
+
+def cpu_of(*what):
+    """Records of a run and its processor time [s]."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    before = used()
+    records = run(*what)
+    return records, used() - before
+
+
+def seconds_of(program, folder, text, options):
+    """Records of one contact, and what one more of them takes [s]."""
+    records, one = cpu_of(program, folder, "one", [text], False, options)
+    _, more = cpu_of(program, folder, "more", [text] * (1 + COPIES), False, options)
+    return records, max(0.0, more - one) / COPIES
+
+
+def compare(text_at, sizes, error, program, folder, tolerance):
+    """Seconds, true error and report with --accuracy; and seconds and size of the cheapest fixed grid, infinite for none."""
+    records, seconds = seconds_of(program, folder, text_at(sizes[len(sizes) // 2], 1e-5), ("--accuracy", str(tolerance)))
+    true, told = error(records)
+    for size in sizes:
+        text = text_at(size, 0.1 * tolerance)
+        if error(run(program, folder, "fixed", [text], False, ("--order", "2")))[0] <= tolerance:
+            return seconds, true, told, seconds_of(program, folder, text, ("--order", "2"))[1], size
+    return seconds, true, told, math.inf, 0
+
+
+def contacts_compared(program, asked, folder):
+    """Rows (kind, tolerance, what `compare` finds) of random contacts."""
+    source = random.Random(asked.seed)
+    for c in [contact(source, asked.kinds[k % len(asked.kinds)]) for k in range(asked.count)]:
+        references = [run(program, folder, "reference", [text_of(c, n, (source.random(), source.random()), 1e-7)], False,
+                          ("--order", "2")).get(c["steps"], {}) for n in (asked.reference, 2 * asked.reference)]
+        exact = exact_totals(c, references)
+        if exact is None:
+            continue
+        offset = (source.random(), source.random())
+
+        def error(records, c=c, exact=exact):
+            told = records.get(c["steps"], {}).get("patches", [{}])[0].get("accuracy", {})
+            return contact_errors([c], records, [exact])[0], told
+
+        for tolerance in asked.asked:
+            yield c["kind"], tolerance, *compare(lambda n, eps, c=c, o=offset: text_of(c, n, o, eps), FIXED + FINEST, error,
+                                                 program, folder, tolerance)
+
+
+def wheels_compared(program, asked, folder):
+    """The same of wheels on rails."""
+    source = random.Random(asked.seed)
+    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
+    for c in [wheel(source) for _ in range(asked.wheels)]:
+        size = asked.reference / 20.0
+        texts = [wheel_text(c, f * (1.0 + 0.04 * source.random()), profiles) for f in (size, 2.0 * size)]
+        middle, fine = (wheel_of(run(program, folder, "reference", [text], False, ("--order", "2")), 1) for text in texts)
+        if None in (middle, fine) or middle["patches"] != fine["patches"]:
+            continue
+        exact = fine | {name: fine[name] + (fine[name] - middle[name]) / 3.0 for name in ("fx_tr", "fy_tr", "z_ws")}
+
+        def error(records, c=c, exact=exact):
+            totals = wheel_of(records, 1)
+            return math.inf if totals is None else wheel_error(c, totals, exact), records.get(1, {}).get("accuracy", {})
+
+        for tolerance in asked.asked:
+            yield "wheel", tolerance, *compare(
+                lambda f, eps, c=c: wheel_text(c, f, profiles).replace("eps = 1e-6", f"eps = {eps!r}"), FIXED_WHEELS, error,
+                program, folder, tolerance)
+
+
+def main():
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=0, help="number of contacts")
+    parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--asked", default="1e-2,1e-3", help="accuracies")
+    parser.add_argument("--reference", type=int, default=60, help="elements along each side of the coarser reference grid")
+    parser.add_argument("--list", action="store_true", help="a line for each contact")
+    asked = parser.parse_args()
+    asked.kinds = asked.kinds.split(",")
+    asked.asked = [float(word) for word in asked.asked.split(",")]
+    program = os.environ["CONTACT_PROGRAM"]
+    rows = []
+    with tempfile.TemporaryDirectory() as name:
+        for compared in (contacts_compared, wheels_compared):
+            for row in compared(program, asked, Path(name)):
+                rows.append(row)
+                kind, tolerance, seconds, true, told, best, size = row
+                if asked.list:
+                    print(f"{kind} asked {tolerance:g}: {1e3 * seconds:.1f} ms, error {true:.1e}, best {size} {1e3 * best:.1f} ms, "
+                          + ", ".join(f"{key} {value_of(told, key)}" for key in told), flush=True)
+    print("| asked | kind | contacts | true [%] | no fixed grid | ms of all | best fixed grids: ms of all | ratio |\n"
+          "|---|---|---|---|---|---|---|---|")
+    for tolerance in asked.asked:
+        for kind in ("all", *dict.fromkeys(row[0] for row in rows)):
+            part = [row for row in rows if row[1] == tolerance and kind in ("all", row[0])]
+            true = 100 * sum(row[3] <= tolerance for row in part) / max(1, len(part))
+            found = [row for row in part if math.isfinite(row[5])]
+            taken, best = (1e3 * sum(row[k] for row in found) for k in (2, 5))
+            print(f"| {tolerance:g} | {kind} | {len(part)} | {true:.1f} | {len(part) - len(found)} | {taken:.1f} | {best:.1f} | "
+                  f"{taken / max(best, 1e-9):.2f} |")
+
+
+if __name__ == "__main__":
+    main()
