@@ -47,13 +47,13 @@ module contact_cases_estimate
    !> All grids of a case with an accuracy, per element of the usual last one [s]: pressures; with tractions of shifts; of rolling;
    !> of a wheel, whose height is sought. Each case, and files of profiles [s]. Elements of that grid over those of the first one,
    !> since some contacts need a second
-   real(wp), parameter :: accurate_pressures = 3.0e-6_wp, accurate_shift = 6.0e-6_wp, accurate_rolling = 6.5e-6_wp, &
-      & accurate_wheel = 1.4e-5_wp, accurate_case = 2.0e-3_wp, accurate_profiles = 4.0e-3_wp, more_elements = 1.4_wp
+   real(wp), parameter :: accurate_pressures = 2.0e-6_wp, accurate_shift = 3.5e-6_wp, accurate_rolling = 4.2e-6_wp, &
+      & accurate_wheel = 1.0e-5_wp, accurate_case = 2.0e-3_wp, accurate_profiles = 4.0e-3_wp, more_elements = 1.4_wp
    !> Simplified methods that were allowed, per element [s]: one march; and marches that find creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
    !> Factors: turns of pressures and tractions; bodies that remember; trials for prescribed forces; elements of profiles, which are
-   !> bumpy or touch in two places, and of bodies that remember
-   real(wp), parameter :: accurate_turns = 1.5_wp, remembering = 3.0_wp, accurate_trials = 1.4_wp, uneven = 2.5_wp
+   !> bumpy or touch in two places, and of bodies that remember; friction that changes with slip
+   real(wp), parameter :: accurate_turns = 3.2_wp, remembering = 4.5_wp, accurate_trials = 1.4_wp, uneven = 1.7_wp, falling = 2.5_wp
    !> Part of a window along each side that contact takes
    real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
@@ -152,6 +152,7 @@ contains
       if (allocated(spec%wheel_rail)) rate = accurate_wheel
       if (is_dissimilar(spec)) rate = accurate_turns*rate
       if (remembers) rate = remembering*rate
+      if (is_varying_law(spec%friction_law) .and. spec%motion /= motion%none) rate = falling*rate
       if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
          & rate = accurate_trials*rate
       cost%seconds = accurate_case + rate*n
