@@ -53,7 +53,7 @@ module contact_cases_estimate
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
    !> Factors: turns of pressures and tractions; bodies that remember; trials for prescribed forces; elements of profiles, which are
    !> bumpy or touch in two places, and of bodies that remember; friction that changes with slip
-   real(wp), parameter :: accurate_turns = 3.2_wp, remembering = 4.5_wp, accurate_trials = 1.4_wp, uneven = 1.7_wp, falling = 2.5_wp
+   real(wp), parameter :: accurate_turns = 2.0_wp, remembering = 4.0_wp, accurate_trials = 1.4_wp, uneven = 1.8_wp, falling = 2.0_wp
    !> Part of a window along each side that contact takes
    real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact

@@ -2,9 +2,10 @@
 
 The contacts of asked.py with the same seed. Each is solved with --accuracy, and on fixed grids from coarse to fine, by the second
 order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked.
-Times are user and system time of one more contact in a file: (file of 1 + COPIES contacts - file of one)/COPIES, so that start,
-reading of tables and plans of transforms do not count. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM names
-the program.
+Times are user and system time of a process with one contact, the least of some, without that of a process that solves nothing: from
+scratch, with influence coefficients and plans of transforms. With --further they are those of one more contact in the same file,
+which finds plans, and on a fixed grid coefficients, too. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM
+names the program.
 """
 import argparse
 import math
@@ -15,11 +16,14 @@ import tempfile
 from pathlib import Path
 
 from asked import FIXED, FIXED_WHEELS, KINDS, contact_errors, exact_totals, value_of, wheel_error, wheel_of
+from cost import processor_time
 from error_cases import contact, text_of, wheel, wheel_text
 from errors import run
 
-#: How often a contact is solved more
-COPIES = 4
+#: How often a contact is solved more, and repeated
+COPIES, RUNS = 4, 3
+#: Time of a process that solves nothing [s], and whether further contacts are measured
+START = {"seconds": 0.0, "further": False}
 #: Finer grids than those of asked.py, for kinds of first order
 FINEST = (190, 226, 270, 320)
 
@@ -36,7 +40,10 @@ def cpu_of(*what):
 
 
 def seconds_of(program, folder, text, options):
-    """Records of one contact, and what one more of them takes [s]."""
+    """Records of one contact, and what it, or one more of them, takes [s]."""
+    if not START["further"]:
+        runs = [cpu_of(program, folder, "one", [text], False, options) for _ in range(RUNS)]
+        return runs[0][0], max(0.0, min(seconds for _, seconds in runs) - START["seconds"])
     records, one = cpu_of(program, folder, "one", [text], False, options)
     _, more = cpu_of(program, folder, "more", [text] * (1 + COPIES), False, options)
     return records, max(0.0, more - one) / COPIES
@@ -105,12 +112,16 @@ def main():
     parser.add_argument("--asked", default="1e-2,1e-3", help="accuracies")
     parser.add_argument("--reference", type=int, default=60, help="elements along each side of the coarser reference grid")
     parser.add_argument("--list", action="store_true", help="a line for each contact")
+    parser.add_argument("--further", action="store_true", help="times of one more contact instead of those from scratch")
     asked = parser.parse_args()
     asked.kinds = asked.kinds.split(",")
     asked.asked = [float(word) for word in asked.asked.split(",")]
     program = os.environ["CONTACT_PROGRAM"]
     rows = []
+    START["further"] = asked.further
     with tempfile.TemporaryDirectory() as name:
+        (Path(name) / "empty.inp").write_text(" 0 MODULE\n")
+        START["seconds"] = min(processor_time([program, "--json", "2", "empty"], name)[0] for _ in range(3 * RUNS))
         for compared in (contacts_compared, wheels_compared):
             for row in compared(program, asked, Path(name)):
                 rows.append(row)
