@@ -23,14 +23,15 @@ module contact_patch_balances
 
 contains
 
-   !> Does friction take all the power that the motion gives? Not where bodies relax or layers yield
+   !> Does friction take all the power that the motion gives? Not where bodies relax or layers yield, and where given pressures
+   !> drive tractions that do not drive them
    pure logical function balances_power(problem) result(balances)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
 
       balances = problem%motion == motion%steady_rolling .and. .not. (allocated(problem%simplified) &
          & .or. allocated(problem%model%memory) .or. problem%model%layer > 0.0_wp .or. problem%remembers_yield &
-         & .or. allocated(problem%parts))
+         & .or. allocated(problem%parts) .or. (problem%model%coupled() .and. .not. problem%couples()))
    end function balances_power
 
    !> Power of the tractions with creepages, spin and extra slip, dissipation negative [W]; huge where it is not known
