@@ -14,7 +14,7 @@ module contact_cases_distance
    implicit none (type, external)
    private
 
-   public :: distance_form, is_distance_form, list_forms, visit_distance, fill_distance, curve_along_x, fill_quadratic, quadratic
+   public :: distance_form, is_distance_form, list_forms, visit_distance, fill_distance, fill_quadratic, quadratic
 
    !> How the undeformed distance is given (IBASE)
    type :: distance_form_list
@@ -119,23 +119,6 @@ contains
             & forms // " are")
       end select
    end subroutine fill_distance
-
-   !> Curvature [1/mm] or radius [mm] along x that the guess of the contact area of a single row uses; as they are where unknown
-   pure subroutine curve_along_x(spec, curvature, radius)
-      !> Form and its numbers
-      type(geometry_spec), intent(in) :: spec
-      !> One of them is set: curvature [1/mm], radius [mm]
-      real(wp), intent(inout) :: curvature, radius
-
-      select case (spec%form)
-      case (distance_form%quadratic)
-         curvature = spec%b(1)
-      case (distance_form%profile)
-         radius = max(0.0_wp, spec%rm)
-      case (distance_form%quadratic_and_sines)
-         radius = max(0.0_wp, 0.5_wp*spec%b(7))
-      end select
-   end subroutine curve_along_x
 
    !> IBASE = 1: c1 x**2 + c2 x y + c3 y**2 + c4 x + c5 y + c6
    pure subroutine fill_quadratic(grid, c, h)

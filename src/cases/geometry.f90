@@ -6,8 +6,8 @@ module contact_cases_geometry
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
-   use contact_cases_distance, only : curve_along_x, fill_distance, fill_quadratic, quadratic
-   use contact_cases_numbers, only : min_value, require_finite, require_positive
+   use contact_cases_distance, only : fill_distance, fill_quadratic, quadratic
+   use contact_cases_numbers, only : require_finite, require_positive
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_axes, hertz_by_curvatures, hertz_by_ratio, hertz_contact, &
@@ -17,7 +17,7 @@ module contact_cases_geometry
    implicit none (type, external)
    private
 
-   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, part_labels
+   public :: solve_hertz, build_grid, undeformed_distance, part_labels
    public :: strip_rows
 
    !> Semi-axis that takes the place of zero when a grid is laid out [mm]
@@ -354,23 +354,4 @@ contains
       real(wp), intent(in) :: sides(4), x, y
       inside = sides(1) <= x .and. x <= sides(2) .and. sides(3) <= y .and. y <= sides(4)
    end function in_rectangle
-
-   !> Radius of curvature along x [mm] that the guess of the contact area of a single row uses; 0: unknown
-   pure real(wp) function curvature_radius(spec, hertz) result(radius)
-      !> Form of the gap with its coefficients
-      type(geometry_spec), intent(in) :: spec
-      !> Hertz solution of a Hertzian geometry; may be absent or unallocated
-      type(hertz_result), intent(in), optional :: hertz
-      real(wp) :: curvature
-
-      curvature = 0.0_wp
-      radius = 0.0_wp
-      if (present(hertz)) then
-         curvature = hertz%a1
-      else
-         call curve_along_x(spec, curvature, radius)
-      end if
-      if (curvature > min_value) radius = 0.5_wp/curvature
-   end function curvature_radius
-
 end module contact_cases_geometry

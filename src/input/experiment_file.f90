@@ -14,7 +14,7 @@ module contact_input_experiment_file
    implicit none (type, external)
    private
 
-   public :: experiment_reader, input_case, case_failure, is_readable_format
+   public :: experiment_reader, input_case, is_readable_format
 
    !> Largest numbers on the module line, and number of different result elements
    integer, parameter :: highest_element = 999, highest_patch = 9, max_elements = 100
@@ -241,9 +241,9 @@ contains
 
    !> The next case, with its module number 0 at the end
    !>
-   !> Problems of values are in the case and do not stop the reader: `case_failure` tells whether the
-   !> case can be solved, and the stored input is that of the file in any event. After an error
-   !> nothing can be read any more.
+   !> Problems of values are in the case and do not stop the reader: its list tells whether the case can be
+   !> solved, and the stored input is that of the file in any event. After an error nothing can be read any
+   !> more.
    subroutine next_case(self, this, error)
       class(experiment_reader), intent(inout) :: self
       type(input_case), intent(out) :: this
@@ -404,28 +404,4 @@ contains
       self%stores(self%current)%reid = reid
       self%stores(self%current)%cpid = cpid
    end subroutine select_store
-
-   !> The error that ends a run because of what is wrong with a case; nothing when it can be solved
-   !>
-   !> A case with both wrong and unbuilt choices counts as wrong.
-   subroutine case_failure(this, error)
-      type(input_case), intent(in) :: this
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: place
-      integer :: k, wrong
-
-      wrong = this%problems%number_of(severity%error)
-      place = "case " // integer_text(this%number) // ", which starts at this line, "
-      if (wrong > 0) then
-         call fatal_error(error, place // "has " // integer_text(wrong) // " error" // trim(merge("s", " ", wrong > 1)) // &
-            & " in its input and cannot be solved", error_kind%input, this%problems%file, this%first_line)
-         return
-      end if
-      do k = 1, this%problems%count
-         if (this%problems%items(k)%severity /= severity%unsupported) cycle
-         error = this%problems%items(k)%what
-         call add_context(error, "case " // integer_text(this%number))
-         return
-      end do
-   end subroutine case_failure
 end module contact_input_experiment_file

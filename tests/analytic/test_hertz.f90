@@ -4,7 +4,7 @@ program test_hertz
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_normal_estimate, only : elliptic_pressure, guess_contact, parabolic_pressure, sdec_pressure
+   use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_normal_hertz, only : axis_ratio, curvature_ratio, hertz_by_axes, hertz_by_curvatures, &
       & hertz_by_ratio, hertz_contact, hertz_load, line_contact_by_axes, line_contact_by_curvature
    use contact_test_harness, only : test_suite
@@ -24,8 +24,6 @@ program test_hertz
    call no_load(suite)
    call displacement_of_centre(suite)
    call pressures(suite)
-   call guesses(suite)
-   call guesses_of_reference(suite)
    call suite%finish()
 
 contains
@@ -211,100 +209,4 @@ contains
       call elliptic_pressure(grid, 0.0_wp, 0.0_wp, .false., 0.0_wp, pn)
       call suite%close_to(maxval(pn), 0.0_wp, 0.0_wp, "no contact")
    end subroutine pressures
-
-   !> The guess finds force and approach of Hertz within a few tens of per cent, and always ends
-   subroutine guesses(suite)
-      type(test_suite), intent(inout) :: suite
-      real(wp), parameter :: gg = 200.0_wp, nu = 0.42_wp, curvature = 0.01_wp, fn = 9.1954_wp
-      type(potential_contact) :: grid
-      real(wp), allocatable :: h(:, :)
-      logical, allocatable :: contact(:, :)
-      real(wp) :: approach, stiffness
-      integer :: ix, iy
-
-      grid = potential_contact(40, 40, -1.5_wp, -1.5_wp, 0.075_wp, 0.075_wp)
-      allocate(h(40, 40), contact(40, 40))
-      do iy = 1, 40
-         do ix = 1, 40
-            h(ix, iy) = curvature*(grid%x(ix)**2 + grid%y(iy)**2) - 0.3_wp
-         end do
-      end do
-      call guess_contact(grid, h, normal_control%force, fn, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%close_to(approach + 0.3_wp, 0.02_wp, 0.3_wp, "approach of a sphere", relative=.true.)
-      call suite%close_to(count(contact)*0.075_wp**2, pi, 0.4_wp, "area of a sphere", relative=.true.)
-      call suite%close_to(stiffness, 2.0_wp*gg/(1.0_wp - nu), 0.5_wp, "stiffness of a sphere", relative=.true.)
-      call guess_contact(grid, h, normal_control%approach, 0.0_wp, -0.28_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%close_to(count(contact)*0.075_wp**2, pi, 0.4_wp, "area, approach given", relative=.true.)
-      call guess_contact(grid, h, normal_control%approach, 0.0_wp, -0.5_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%equal(count(contact), 0, "separated bodies")
-      call guess_contact(grid, h, normal_control%force, 0.0_wp, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%equal(count(contact), 0, "no force")
-      call guess_contact(grid, h, normal_control%force, 1.0e-200_wp, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%check(count(contact) >= 1, "tiny force")
-      call guess_contact(grid, h, normal_control%force, 1.0e20_wp, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%equal(count(contact), 1600, "huge force")
-      h(1:20, :) = 1.0e30_wp
-      call guess_contact(grid, h, normal_control%force, 1.0e20_wp, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%equal(count(contact), 800, "excluded elements stay out")
-      h = 1.0e30_wp
-      call guess_contact(grid, h, normal_control%force, fn, 0.0_wp, gg, nu, 50.0_wp, contact, approach, stiffness)
-      call suite%equal(count(contact), 0, "everything excluded")
-      call guess_row(suite, 1.0_wp)
-      call guess_row(suite, 200.0_wp)
-      call guess_row(suite, 1.0e9_wp)
-      call guess_row(suite, 1.0e-9_wp)
-   end subroutine guesses
-
-   !> Sizes of the first guess in the flow traces of the reference results
-   subroutine guesses_of_reference(suite)
-      type(test_suite), intent(inout) :: suite
-      real(wp), parameter :: bentall_gg = 2.0_wp/(1.0_wp/23000.0_wp + 1.0_wp/82000.0_wp)
-      real(wp), parameter :: bentall_nu = 0.5_wp*bentall_gg*(0.31_wp/23000.0_wp + 0.28_wp/82000.0_wp)
-
-      call one_guess(suite, potential_contact(216, 45, -7.9_wp, -11.25_wp, 0.2_wp, 0.5_wp), 0.001015_wp, &
-         & 0.0004215_wp, 1.0e5_wp, 82000.0_wp, 0.28_wp, 2249, "ertz_temperature")
-      call one_guess(suite, potential_contact(216, 1, -0.108_wp, -500.0_wp, 0.001_wp, 1000.0_wp), 0.02_wp, &
-         & 0.0_wp, 16201.9_wp, bentall_gg, bentall_nu, 216, "bentall, case 3")
-      call one_guess(suite, potential_contact(55, 1, -1.07_wp, -100.0_wp, 0.04_wp, 200.0_wp), 0.001_wp, &
-         & 0.0_wp, 35780.0_wp, 82000.0_wp, 0.28_wp, 55, "carter2d")
-      call one_guess(suite, potential_contact(45, 45, -4.4999_wp, -4.4999_wp, 0.2_wp, 0.2_wp), 0.004116_wp, &
-         & 0.004116_wp, 1.1e-5_wp, 1.0_wp, 0.25_wp, 1, "spence35")
-   end subroutine guesses_of_reference
-
-   subroutine one_guess(suite, grid, a1, b1, fn, gg, nu, expected, what)
-      type(test_suite), intent(inout) :: suite
-      type(potential_contact), intent(in) :: grid
-      real(wp), intent(in) :: a1, b1, fn, gg, nu
-      !> Number of elements in contact
-      integer, intent(in) :: expected
-      character(len=*), intent(in) :: what
-      real(wp), allocatable :: h(:, :)
-      logical, allocatable :: contact(:, :)
-      real(wp) :: approach, stiffness
-      integer :: ix, iy
-
-      allocate(h(grid%mx, grid%my), contact(grid%mx, grid%my))
-      do iy = 1, grid%my
-         do ix = 1, grid%mx
-            h(ix, iy) = a1*grid%x(ix)**2 + b1*grid%y(iy)**2
-         end do
-      end do
-      call guess_contact(grid, h, normal_control%force, fn, 0.0_wp, gg, nu, 0.5_wp/a1, contact, approach, stiffness)
-      call suite%equal(count(contact), expected, "first guess of " // what)
-   end subroutine one_guess
-
-   subroutine guess_row(suite, dy)
-      type(test_suite), intent(inout) :: suite
-      real(wp), intent(in) :: dy
-      type(potential_contact) :: grid
-      real(wp) :: h(60, 1), approach, stiffness
-      logical :: contact(60, 1)
-      integer :: ix
-
-      grid = potential_contact(60, 1, -3.0_wp, -0.5_wp*dy, 0.1_wp, dy)
-      h(:, 1) = [(0.5_wp*grid%x(ix)**2/50.0_wp, ix = 1, 60)]
-      call guess_contact(grid, h, normal_control%force, 40.0_wp*dy, 0.0_wp, 200.0_wp, 0.42_wp, 50.0_wp, contact, &
-         & approach, stiffness)
-      call suite%check(count(contact) > 1 .and. approach > 0.0_wp .and. stiffness > 0.0_wp, "guess for a single row")
-   end subroutine guess_row
 end program test_hertz

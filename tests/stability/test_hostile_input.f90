@@ -2,7 +2,7 @@
 program test_hostile_input
    use, intrinsic :: iso_fortran_env, only : int64
    use contact_base_error, only : error_type, full_text
-   use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
+   use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text
    use contact_test_harness, only : environment, test_suite
    implicit none (type, external)
@@ -69,7 +69,7 @@ contains
          if (allocated(error)) length = length + len(full_text(error))
          if (allocated(error) .or. this%module_number == 0) exit
          cases = cases + 1
-         call case_failure(this, failure)
+         call this%problems%first_failure(failure)
          if (allocated(failure)) length = length + len(full_text(failure))
       end do
       complete = .not. allocated(error) .and. length >= 0

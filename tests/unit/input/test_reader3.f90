@@ -4,7 +4,7 @@ program test_reader3
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, part_source
-   use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
+   use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_list, problem_text, severity
    use contact_input_reader, only : read_case
    use contact_test_harness, only : environment, test_suite
@@ -785,8 +785,7 @@ contains
       call sequence(suite, "3 1 10", [integer ::], "CPID = 10 is outside its range 1 to 9", "a wrong patch")
       call sequence(suite, "3" // nl // new_case("") // "3" // nl // "abc", [1], """abc"" is not an integer; expected PBTNFS", &
          & "an unreadable second case")
-      call failures(suite)
-      call replaced_store(suite)
+         call replaced_store(suite)
       call too_many_elements(suite)
    end subroutine experiments
 
@@ -816,24 +815,6 @@ contains
          call suite%check(this%module_number == 0, what // ", module 0")
       end if
    end subroutine sequence
-
-   !> The error that ends a run
-   subroutine failures(suite)
-      type(test_suite), intent(inout) :: suite
-      type(experiment_reader) :: reader
-      type(input_case) :: this
-      type(error_type), allocatable :: error
-
-      call reader%open_text("3" // nl // new_case("") // "3" // nl // new_case("4=0 0 1 1 1e-5") // "0", "test")
-      call reader%next_case(this, error)
-      call case_failure(this, error)
-      call suite%check(.not. allocated(error), "a good case has no failure")
-      call reader%next_case(this, error)
-      call case_failure(this, error)
-      call suite%check(allocated(error), "a faulty case has a failure")
-      if (allocated(error)) call suite%equal(full_text(error), "test:15: case 2, which starts at this line, has 2 errors " // &
-         & "in its input and cannot be solved", "its words")
-   end subroutine failures
 
    !> What is known only after a case was prepared can be put into the store
    subroutine replaced_store(suite)
