@@ -10,7 +10,7 @@ module contact_hdf5_columns
    use contact_base_kinds, only : wp
    use contact_hdf5_container, only : hdf5_container
    use contact_hdf5_scales, only : attach_scales, make_scale
-   use contact_hdf5_values, only : item_kind, name_length, named_value
+   use contact_output_record, only : item_kind, name_length, named_value
    implicit none (type, external)
    private
 

@@ -20,8 +20,8 @@ module contact_hdf5_file
    use contact_hdf5_columns, only : column_table
    use contact_hdf5_container, only : clock, hdf5_container
    use contact_hdf5_kept, only : kept_list
-   use contact_hdf5_values, only : item_kind, value_list, write_array
-   use contact_output_record, only : record_writer
+   use contact_hdf5_values, only : is_same, value_list, write_array, write_value
+   use contact_output_record, only : named_value, record_writer
    implicit none (type, external)
    private
 
@@ -97,11 +97,7 @@ module contact_hdf5_file
       procedure :: renew
       !> Size of the file in the making [bytes]
       procedure :: bytes_so_far
-      procedure :: number
-      procedure :: numbers
-      procedure :: count => whole_number
-      procedure :: text
-      procedure :: flag
+      procedure :: take
    end type hdf5_file
 
 contains
@@ -376,16 +372,16 @@ contains
          do i = 1, self%values%count
             associate (this => self%values%items(i))
                if (i <= known) then
-                  if (before%group%items(i)%is_same(this)) then
+                  if (is_same(before%group%items(i), this)) then
                      call h5lcreate_hard_f(before%id, trim(this%name), group, trim(this%name), status)
                      call self%container%check(status)
                      cycle
                   end if
                end if
                if (self%is_table) then
-                  call this%write(self%container, group, along)
+                  call write_value(this, self%container, group, along)
                else
-                  call this%write(self%container, group)
+                  call write_value(this, self%container, group)
                end if
             end associate
          end do
@@ -397,44 +393,12 @@ contains
       end associate
    end subroutine close_group
 
-   subroutine number(self, name, unit, title, value)
+   subroutine take(self, item)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
-      real(wp), intent(in) :: value
-      call self%values%add(name, unit, title, item_kind%real_number, value)
-   end subroutine number
+      type(named_value), intent(in) :: item
 
-   subroutine numbers(self, name, unit, title, values)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
-      real(wp), intent(in) :: values(:)
-      call self%values%add(name, unit, title, item_kind%real_numbers, 0.0_wp, values)
-   end subroutine numbers
-
-   subroutine whole_number(self, name, title, value)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title
-      integer, intent(in) :: value
-      call self%values%add(name, "", title, item_kind%whole, real(value, wp))
-   end subroutine whole_number
-
-   subroutine text(self, name, title, value)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title, value
-
-      if (len(value) > 0) then
-         call self%values%add(name, "", title, item_kind%text, 0.0_wp, text=value)
-      else
-         call self%values%add(name, "", title, item_kind%text, 0.0_wp, text=" ")
-      end if
-   end subroutine text
-
-   subroutine flag(self, name, title, value)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title
-      logical, intent(in) :: value
-      call self%values%add(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value))
-   end subroutine flag
+      call self%values%add(item)
+   end subroutine take
 
    !> Places along a dimension of the arrays that follow, as a dataset of the group that was entered
    subroutine scale(self, dimension, name, unit, title, values)

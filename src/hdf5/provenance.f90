@@ -11,7 +11,8 @@ module contact_hdf5_provenance
    use contact_base_kinds, only : wp
    use contact_hdf5_container, only : compression_level, hdf5_container
    use contact_hdf5_scales, only : make_scale
-   use contact_hdf5_values, only : item_kind, value_list
+   use contact_hdf5_values, only : write_value
+   use contact_output_record, only : item_kind, named_value
    use contact_text_lexer, only : input_lexer
    use contact_text_sha256, only : sha256
    use contact_text_words, only : integer_text
@@ -91,7 +92,6 @@ contains
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      type(value_list) :: values
       integer(hid_t) :: inner
       interface
          function seconds_now(place) result(seconds) bind(c, name="time")
@@ -102,9 +102,8 @@ contains
       end interface
 
       call container%new_group(group, "created", inner)
-      call values%add("seconds", "seconds since 1970-01-01T00:00:00Z", "when the file was begun", item_kind%real_number, &
-         & real(seconds_now(c_null_ptr), wp))
-      if (.not. container%failed) call values%items(1)%write(container, inner)
+      if (.not. container%failed) call write_value(named_value("seconds", "seconds since 1970-01-01T00:00:00Z", &
+         & "when the file was begun", item_kind%real_number, real(seconds_now(c_null_ptr), wp)), container, inner)
       call container%release(inner)
    end subroutine write_time
 
@@ -227,14 +226,18 @@ contains
       character(len=*), intent(in) :: prefix
       !> Name of the file and what it holds
       character(len=*), intent(in) :: name, text
-      type(value_list) :: values
-      integer :: k
 
-      call values%add(prefix // "file", "", "name of the file", item_kind%text, 0.0_wp, text=name)
-      call values%add(prefix // "sha256", "", "hash SHA-256 of its bytes", item_kind%text, 0.0_wp, text=sha256(text))
-      do k = 1, values%count
-         if (.not. container%failed) call values%items(k)%write(container, group)
-      end do
+      call write_text("file", "name of the file", name)
+      call write_text("sha256", "hash SHA-256 of its bytes", sha256(text))
+
+   contains
+
+      subroutine write_text(key, title, value)
+         character(len=*), intent(in) :: key, title, value
+
+         if (.not. container%failed) call write_value(named_value(prefix // key, "", title, item_kind%text, text=value), &
+            & container, group)
+      end subroutine write_text
    end subroutine describe
 
    !> All bytes of the input, as one text of its length

@@ -5,40 +5,14 @@ module contact_hdf5_values
    use contact_base_kinds, only : long, wp
    use contact_hdf5_container, only : hdf5_container, large, max_chunk, max_text_length
    use contact_hdf5_scales, only : attach_scales, make_scale, tell_flags
+   use contact_output_record, only : item_kind, named_value
    implicit none (type, external)
    private
 
-   public :: flag_meanings, item_kind, name_length, named_value, same_number, value_list, write_array
+   public :: flag_meanings, is_same, same_number, value_list, write_array, write_value
 
-   !> Longest name of a value, unit, description [characters]
-   integer, parameter :: name_length = 32, unit_length = 36, title_length = 104
    !> What element states mean, from 0
    character(len=*), parameter :: flag_meanings = "exterior adhesion slip plastic"
-
-   type :: item_kind_list
-      integer :: real_number = 1, real_numbers = 2, whole = 3, text = 4, flag = 5
-   end type item_kind_list
-   type(item_kind_list), parameter :: item_kind = item_kind_list()
-
-   !> One named value
-   type :: named_value
-      character(len=name_length) :: name
-      character(len=unit_length) :: unit
-      character(len=title_length) :: title
-      !> Member of item_kind
-      integer :: kind = 0
-      !> Of a number, an integer or a flag (1 or 0)
-      real(wp) :: value = 0.0_wp
-      !> Of several numbers
-      real(wp), allocatable :: values(:)
-      !> Of a text
-      character(len=:), allocatable :: text
-   contains
-      !> Has the other the same name and value?
-      procedure :: is_same
-      !> Write it as a dataset
-      procedure :: write
-   end type named_value
 
    !> The values of one group in their order
    type :: value_list
@@ -56,19 +30,11 @@ module contact_hdf5_values
 
 contains
 
-   !> Append a value
-   subroutine add(self, name, unit, title, kind, value, values, text)
+   !> Append a value; texts are cut at max_text_length, and have one blank at least
+   subroutine add(self, item)
       class(value_list), intent(inout) :: self
-      !> Name, unit ("-" for a ratio, "" where none is worth telling), and what it is
-      character(len=*), intent(in) :: name, unit, title
-      !> Member of item_kind
-      integer, intent(in) :: kind
-      !> Of a single number
-      real(wp), intent(in) :: value
-      !> Of several numbers
-      real(wp), intent(in), optional :: values(:)
-      !> Cut at max_text_length
-      character(len=*), intent(in), optional :: text
+      !> Of the group in hand
+      type(named_value), intent(in) :: item
       type(named_value), allocatable :: longer(:)
 
       if (.not. allocated(self%items)) allocate(self%items(100))
@@ -78,17 +44,10 @@ contains
          call move_alloc(longer, self%items)
       end if
       self%count = self%count + 1
-      associate (this => self%items(self%count))
-         this%name = name
-         this%unit = unit
-         this%title = title
-         this%kind = kind
-         this%value = value
-         if (allocated(this%values)) deallocate(this%values)
-         if (allocated(this%text)) deallocate(this%text)
-         if (present(values)) this%values = values
-         if (present(text)) this%text = text(:min(len(text), max_text_length))
-      end associate
+      self%items(self%count) = item
+      if (item%kind /= item_kind%text) return
+      if (len(item%text) == 0) self%items(self%count)%text = " "
+      if (len(item%text) > max_text_length) self%items(self%count)%text = item%text(:max_text_length)
    end subroutine add
 
    !> Drop all but texts
@@ -115,7 +74,7 @@ contains
       equals = .false.
       if (self%count /= other%count) return
       do i = 1, self%count
-         if (.not. self%items(i)%is_same(other%items(i))) return
+         if (.not. is_same(self%items(i), other%items(i))) return
       end do
       equals = .true.
    end function equals
@@ -142,9 +101,8 @@ contains
 
    !> Have two values the same name and value?
    pure logical function is_same(self, other) result(same)
-      class(named_value), intent(in) :: self
       !> Compared bit by bit
-      type(named_value), intent(in) :: other
+      type(named_value), intent(in) :: self, other
 
       same = .false.
       if (self%name /= other%name .or. self%kind /= other%kind) return
@@ -168,8 +126,9 @@ contains
    end function same_number
 
    !> Write the value as a dataset of its group, with its unit and what it is
-   subroutine write(self, container, group, along)
-      class(named_value), intent(in), target :: self
+   subroutine write_value(self, container, group, along)
+      !> What is written
+      type(named_value), intent(in), target :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
@@ -212,7 +171,7 @@ contains
       case (item_kind%whole, item_kind%flag)
          call h5dwrite_f(data, h5t_native_integer, nint(self%value), dims, status)
       case default
-         call h5dwrite_f(data, kind, self%text, dims, status)
+         call h5dwrite_f(data, kind, self%text // " ", dims, status)
       end select
       call container%check(status)
       call container%describe(data, trim(self%unit), trim(self%title))
@@ -228,7 +187,7 @@ contains
          end if
       end if
       call container%release(data)
-   end subroutine write
+   end subroutine write_value
 
    !> Write an array of any rank as a dataset
    subroutine write_array(container, group, name, unit, title, values, dims, kind, scales, data)

@@ -12,8 +12,9 @@ module contact_output_json_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_head, describe_wheel_rail, describe_patch, describe_run, run_summary
    use contact_output_finished_file, only : close_result, open_result, open_result_again
-   use contact_output_record, only : record_writer
+   use contact_output_record, only : item_kind, named_value, record_writer
    use contact_patch_result, only : patch_result
+   use contact_text_words, only : integer_text
    use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
@@ -47,11 +48,7 @@ module contact_output_json_file
       procedure :: write_wheel_rail => write_wheel_rail_line
       procedure :: open_group => open_object
       procedure :: close_group => close_object
-      procedure :: number => write_number
-      procedure :: numbers => write_numbers
-      procedure :: count => write_count
-      procedure :: text => write_text
-      procedure :: flag => write_flag
+      procedure :: take => write_value
       procedure, private :: begin_line
       procedure, private :: key
       procedure, private :: add
@@ -214,77 +211,33 @@ contains
       self%follows = .true.
    end subroutine close_object
 
-   subroutine write_number(self, name, unit, title, value)
+   subroutine write_value(self, item)
       class(json_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
-      real(wp), intent(in) :: value
-
-      call self%key(name)
-      if (len(unit) == 0) then
-         call self%add(trim(number_text(value)))
-      else
-         call self%add('{"value":' // trim(number_text(value)) // ',"unit":')
-         call self%add_quoted(unit)
-         call self%add("}")
-      end if
-      associate (unused => title)
-      end associate
-   end subroutine write_number
-
-   subroutine write_numbers(self, name, unit, title, values)
-      class(json_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
-      real(wp), intent(in) :: values(:)
+      type(named_value), intent(in) :: item
       integer :: k
 
-      call self%key(name)
-      if (len(unit) > 0) call self%add('{"value":')
-      do k = 1, size(values)
-         call self%add(merge("[", ",", k == 1) // trim(number_text(values(k))))
-      end do
-      call self%add(trim(merge("[]", "] ", size(values) == 0)))
-      if (len(unit) > 0) then
-         call self%add(',"unit":')
-         call self%add_quoted(unit)
-         call self%add("}")
-      end if
-      associate (unused => title)
-      end associate
-   end subroutine write_numbers
-
-   subroutine write_count(self, name, title, value)
-      class(json_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title
-      integer, intent(in) :: value
-      character(len=12) :: figures
-
-      call self%key(name)
-      write(figures, "(I0)") value
-      call self%add(trim(figures))
-      associate (unused => title)
-      end associate
-   end subroutine write_count
-
-   subroutine write_text(self, name, title, value)
-      class(json_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title, value
-
-      call self%key(name)
-      call self%add_quoted(value)
-      associate (unused => title)
-      end associate
-   end subroutine write_text
-
-   subroutine write_flag(self, name, title, value)
-      class(json_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title
-      logical, intent(in) :: value
-
-      call self%key(name)
-      call self%add(trim(merge("true ", "false", value)))
-      associate (unused => title)
-      end associate
-   end subroutine write_flag
+      call self%key(trim(item%name))
+      if (item%unit /= "") call self%add('{"value":')
+      select case (item%kind)
+      case (item_kind%real_number)
+         call self%add(trim(number_text(item%value)))
+      case (item_kind%real_numbers)
+         do k = 1, size(item%values)
+            call self%add(merge("[", ",", k == 1) // trim(number_text(item%values(k))))
+         end do
+         call self%add(trim(merge("[]", "] ", size(item%values) == 0)))
+      case (item_kind%whole)
+         call self%add(integer_text(nint(item%value)))
+      case (item_kind%flag)
+         call self%add(trim(merge("true ", "false", item%value > 0.0_wp)))
+      case default
+         call self%add_quoted(item%text)
+      end select
+      if (item%unit == "") return
+      call self%add(',"unit":')
+      call self%add_quoted(trim(item%unit))
+      call self%add("}")
+   end subroutine write_value
 
    !> Name of the next member, after a comma if one is needed
    subroutine key(self, name)

@@ -7,7 +7,33 @@ module contact_output_record
    implicit none (type, external)
    private
 
-   public :: record_writer
+   public :: item_kind, named_value, record_writer
+
+   !> Longest name of a value, unit, description [characters]
+   integer, parameter, public :: name_length = 32
+   integer, parameter :: unit_length = 36, title_length = 104
+
+   type :: item_kind_list
+      integer :: real_number = 1, real_numbers = 2, whole = 3, text = 4, flag = 5
+   end type item_kind_list
+   !> Kinds of values
+   type(item_kind_list), parameter :: item_kind = item_kind_list()
+
+   !> One named value
+   type :: named_value
+      !> Name, unit ("-" for a ratio, "" where none is worth telling), and what it is
+      character(len=name_length) :: name
+      character(len=unit_length) :: unit
+      character(len=title_length) :: title
+      !> Member of item_kind
+      integer :: kind = 0
+      !> Of a number, which may be NaN or infinite: then there is no value; of an integer or a flag (1 or 0)
+      real(wp) :: value = 0.0_wp
+      !> Of several numbers
+      real(wp), allocatable :: values(:)
+      !> Of a text
+      character(len=:), allocatable :: text
+   end type named_value
 
    !> Takes the values of one case, in groups
    type, abstract :: record_writer
@@ -16,16 +42,14 @@ module contact_output_record
       procedure(open_interface), deferred :: open_group
       !> End the group
       procedure(close_interface), deferred :: close_group
-      !> A real number
-      procedure(number_interface), deferred :: number
-      !> Several real numbers
-      procedure(numbers_interface), deferred :: numbers
-      !> An integer
-      procedure(count_interface), deferred :: count
-      !> A text
-      procedure(text_interface), deferred :: text
-      !> Yes or no
-      procedure(flag_interface), deferred :: flag
+      !> Take a value
+      procedure(take_interface), deferred :: take
+      !> A real number, several of them, an integer, a text, yes or no
+      procedure :: number
+      procedure :: numbers
+      procedure :: count => whole_number
+      procedure :: text
+      procedure :: flag
    end type record_writer
 
    abstract interface
@@ -45,47 +69,70 @@ module contact_output_record
          class(record_writer), intent(inout) :: self
       end subroutine close_interface
 
-      subroutine number_interface(self, name, unit, title, value)
-         import :: record_writer, wp
+      subroutine take_interface(self, item)
+         import :: named_value, record_writer
          class(record_writer), intent(inout) :: self
-         !> Name, unit ("-" for a ratio, "" where none is worth telling), and what it is
-         character(len=*), intent(in) :: name, unit, title
-         !> May be NaN or infinite: then there is no value
-         real(wp), intent(in) :: value
-      end subroutine number_interface
-
-      subroutine numbers_interface(self, name, unit, title, values)
-         import :: record_writer, wp
-         class(record_writer), intent(inout) :: self
-         !> Of the list; its unit, and in words what it is
-         character(len=*), intent(in) :: name, unit, title
-         !> In that unit
-         real(wp), intent(in) :: values(:)
-      end subroutine numbers_interface
-
-      subroutine count_interface(self, name, title, value)
-         import :: record_writer
-         class(record_writer), intent(inout) :: self
-         !> Of the integer, and in words what it is
-         character(len=*), intent(in) :: name, title
-         !> What is written
-         integer, intent(in) :: value
-      end subroutine count_interface
-
-      subroutine text_interface(self, name, title, value)
-         import :: record_writer
-         class(record_writer), intent(inout) :: self
-         !> Of the text; in words what it is, and the text itself
-         character(len=*), intent(in) :: name, title, value
-      end subroutine text_interface
-
-      subroutine flag_interface(self, name, title, value)
-         import :: record_writer
-         class(record_writer), intent(inout) :: self
-         !> Of the answer, and in words the question
-         character(len=*), intent(in) :: name, title
-         !> What is written
-         logical, intent(in) :: value
-      end subroutine flag_interface
+         !> For the group in hand, or for the case itself
+         type(named_value), intent(in) :: item
+      end subroutine take_interface
    end interface
+
+contains
+
+   !> A real number
+   subroutine number(self, name, unit, title, value)
+      class(record_writer), intent(inout) :: self
+      !> As for named_value
+      character(len=*), intent(in) :: name, unit, title
+      !> In that unit
+      real(wp), intent(in) :: value
+
+      call self%take(named_value(name, unit, title, item_kind%real_number, value))
+   end subroutine number
+
+   !> Several real numbers
+   subroutine numbers(self, name, unit, title, values)
+      class(record_writer), intent(inout) :: self
+      !> As for named_value
+      character(len=*), intent(in) :: name, unit, title
+      !> In that unit
+      real(wp), intent(in) :: values(:)
+      type(named_value) :: item
+
+      item = named_value(name, unit, title, item_kind%real_numbers)
+      ! gfortran 12 takes no notice of strides in a constructor
+      item%values = values
+      call self%take(item)
+   end subroutine numbers
+
+   !> An integer
+   subroutine whole_number(self, name, title, value)
+      class(record_writer), intent(inout) :: self
+      !> As for named_value
+      character(len=*), intent(in) :: name, title
+      !> What is written
+      integer, intent(in) :: value
+
+      call self%take(named_value(name, "", title, item_kind%whole, real(value, wp)))
+   end subroutine whole_number
+
+   !> A text
+   subroutine text(self, name, title, value)
+      class(record_writer), intent(inout) :: self
+      !> As for named_value, and the text itself
+      character(len=*), intent(in) :: name, title, value
+
+      call self%take(named_value(name, "", title, item_kind%text, text=value))
+   end subroutine text
+
+   !> Yes or no
+   subroutine flag(self, name, title, value)
+      class(record_writer), intent(inout) :: self
+      !> As for named_value
+      character(len=*), intent(in) :: name, title
+      !> What is written
+      logical, intent(in) :: value
+
+      call self%take(named_value(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value)))
+   end subroutine flag
 end module contact_output_record
