@@ -25,6 +25,8 @@ module contact_control_digits
       & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
    !> Where the words 1, 2 and 3 begin and end among them, C1 apart; the digits of a case have one number more
    integer, parameter :: first_of_word(3) = [2, 8, 16], last_of_word(3) = [7, 14, 23], number_of_digits = size(digit_names) + 1
+   !> Letters of the names that have no figure
+   integer, parameter :: single_letters(*) = merge(iachar(digit_names(:)(1:1)), -1, digit_names(:)(2:2) == " ")
 
    !> The digits of a case: integers only, in the order of digit_names, so that they are a list, too
    type :: case_digits
@@ -237,6 +239,8 @@ module contact_control_digits
    !> The first row with a letter, 0: none, and the next one with the same letter; the last one is followed by itself
    integer, parameter :: first_row(0:127) = [(findloc(letters(:size(digit_table)), i, dim=1), i=0, 127)]
    integer, parameter :: next_row(*) = [(i + findloc(letters(i + 1:), letters(i), dim=1), i=1, size(digit_table))]
+   !> Place of the name that is one letter, 0: none
+   integer, parameter :: place_of_letter(0:127) = [(findloc(single_letters, i, dim=1), i=0, 127)]
 
 contains
 
@@ -367,6 +371,16 @@ contains
       text = text(3:)
    end function allowed_text
 
+   !> Place of a name in digit_names, 0 when there is none
+   pure integer function place_of(name) result(k)
+      character(len=*), intent(in) :: name
+
+      k = 0
+      if (len(name) == 0) return
+      k = place_of_letter(iachar(name(1:1)))
+      if (len_trim(name) > 1) k = findloc(digit_names, name, dim=1)
+   end function place_of
+
    !> Value of the digit with the given name, -1 when there is none
    pure integer function digit_value(digits, name) result(digit)
       type(case_digits), intent(in) :: digits
@@ -376,7 +390,7 @@ contains
       integer :: k
 
       digit = -1
-      k = findloc(digit_names, name, dim=1)
+      k = place_of(name)
       if (k == 0) return
       list = transfer(digits, list)
       digit = list%value(k)
@@ -392,7 +406,7 @@ contains
       type(digit_list) :: list
       integer :: k
 
-      k = findloc(digit_names, name, dim=1)
+      k = place_of(name)
       if (k == 0) return
       list = transfer(digits, list)
       list%value(k) = value
