@@ -154,13 +154,10 @@ contains
          state%creep = [result%cksi, result%ceta]
          return
       end if
+      if (.not. is_deferred(problem)) call displacements(problem, state, box, workspace, result)
       if (allocated(problem%simplified)) then
-         call spring_displacements(problem, state, workspace, result)
          result%friction_power = area/(nmm_per_joule*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
-      else if (.not. is_deferred(problem)) then
-         call displacements(problem, state, box, workspace, result)
-      end if
-      if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
+      else if (problem%motion /= motion%none) then
          associate (solution => workspace%solution)
             do iy = box%iy0, box%iy1
                do ix = box%ix0, box%ix1
@@ -179,10 +176,11 @@ contains
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
 
-   !> Are the displacements of a solution without tangential tractions wanted later, if at all?
+   !> Are displacements wanted later, if at all? What is left of coupled conditions is judged by them
    pure logical function is_deferred(problem)
       type(patch_problem), intent(in) :: problem
-      is_deferred = problem%defers_displacements .and. problem%motion == motion%none .and. .not. allocated(problem%simplified)
+      is_deferred = problem%defers_displacements .and. (problem%motion == motion%none .or. allocated(problem%simplified) &
+         & .or. .not. problem%model%coupled())
    end function is_deferred
 
    !> Displacements and elastic energy that were left out
@@ -224,8 +222,7 @@ contains
       result%ux = workspace%simplified_solution%compliance(1)*result%px
       result%uy = workspace%simplified_solution%compliance(2)*result%py
       if (allocated(problem%given_pressure)) return
-      call prepare_window(problem, workspace)
-      call workspace%window%normal(state%now%pn, result%un)
+      call pressure_displacement(problem, workspace, state%now%pn, result%un)
       if (.not. problem%want_exterior) then
          where (result%division == element%exterior) result%un = 0.0_wp
       end if
@@ -255,6 +252,10 @@ contains
       type(patch_result), intent(inout) :: result
       integer :: ix, iy
 
+      if (allocated(problem%simplified)) then
+         call spring_displacements(problem, state, workspace, result)
+         return
+      end if
       if (problem%motion == motion%none .and. .not. problem%model%coupled()) then
          call pressure_displacement(problem, workspace, state%now%pn, result%un)
          return
@@ -283,6 +284,9 @@ contains
       workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
       call workspace%box%normal(workspace%box_pn, workspace%box_un)
       result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
+      ! the last step of a height may have been to first order
+      workspace%solution%p(:, :, 1) = state%now%px(box%ix0:box%ix1, box%iy0:box%iy1)
+      workspace%solution%p(:, :, 2) = state%now%py(box%ix0:box%ix1, box%iy0:box%iy1)
       call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
       result%ux(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 1)
       result%uy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 2)

@@ -28,8 +28,8 @@ contains
       type(patch_result), intent(inout) :: result
       !> Weight of the spin in x and y, for simplified theory [-]; default 1
       real(wp), intent(in), optional :: spin_weight(2)
-      integer :: ix, iy
       real(wp) :: x0, y0, cx, cy, spin(2), offset
+      integer :: ix, iy
 
       offset = spin_offset_of(problem, result%tangential)*problem%dq
       x0 = problem%spin_centre(1) - offset*cos(problem%chi)
@@ -38,11 +38,12 @@ contains
       cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
       spin = problem%spin_weight*problem%spin
       if (present(spin_weight)) spin = spin_weight*spin
+      do ix = 1, problem%grid%mx
+         result%wy(ix, 1) = problem%dq*(cy + spin(2)*(problem%grid%x(ix) - x0))
+      end do
       do iy = 1, problem%grid%my
-         do ix = 1, problem%grid%mx
-            result%wx(ix, iy) = problem%dq*(cx - spin(1)*(problem%grid%y(iy) - y0))
-            result%wy(ix, iy) = problem%dq*(cy + spin(2)*(problem%grid%x(ix) - x0))
-         end do
+         result%wx(:, iy) = problem%dq*(cx - spin(1)*(problem%grid%y(iy) - y0))
+         if (iy > 1) result%wy(:, iy) = result%wy(:, 1)
       end do
       if (.not. allocated(problem%extra_slip)) return
       if (result%tangential%order == 2) then

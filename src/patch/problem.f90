@@ -40,7 +40,7 @@ module contact_patch_problem
       integer :: pressure = 0
       !> Named choices, see contact_base_choices
       integer :: motion = 0, estimate = 0, solver = 0
-      !> Are displacements and elastic energy left out where no tractions need them, for `complete` of contact_patch_derived?
+      !> Are displacements and elastic energy left out where nothing needs them, for `complete` of contact_patch_derived?
       logical :: defers_displacements = .false.
       !> Does the solver run that is named, where the default one could?
       logical :: classical = .false.

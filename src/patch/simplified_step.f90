@@ -35,6 +35,7 @@ contains
 
       box = contact_box(state%now%division)
       if (box%ix0 > box%ix1) then
+         call rigid_slip(problem, result)
          result%tangential%ended = ending%not_started
          return
       end if

@@ -26,15 +26,16 @@ contains
       !> Its solution
       type(patch_state), intent(in) :: state
 
-      can_step = allocated(state%now%rate) .and. problem%solves_for_pressure() .and. .not. (problem%force_prescribed &
-         & .or. problem%couples() .or. allocated(problem%simplified) .or. allocated(problem%friction) &
-         & .or. allocated(problem%thermal) .or. problem%remembers_yield .or. allocated(problem%damping) .or. problem%n_forces > 0)
+      can_step = (allocated(state%now%rate) .or. .not. problem%solves_for_pressure()) .and. .not. (problem%force_prescribed &
+         & .or. problem%couples() .or. allocated(problem%friction) .or. allocated(problem%thermal) .or. problem%remembers_yield &
+         & .or. allocated(problem%damping) .or. problem%n_forces > 0)
    end function can_step
 
    !> Pressures, and forces of all kinds, at another approach
    !>
-   !> Pressures change by their derivative, tangential tractions in proportion to them: exact where the surfaces slide, and
-   !> where they adhere wrong by a part of a change that is within the tolerance.
+   !> Pressures change by their derivative, approximate ones as the force of Hertz's contact does, tangential tractions in
+   !> proportion to them: exact where the surfaces slide, and where they adhere wrong by a part of a change that is within the
+   !> tolerance.
    pure subroutine small_step(problem, change, state, result)
       !> What was solved
       type(patch_problem), intent(in) :: problem
@@ -45,20 +46,23 @@ contains
       !> The same, and its totals
       type(patch_result), intent(inout) :: result
       real(wp) :: ratio, area
+      logical :: is_hertzian
       integer :: ix, iy
 
       area = problem%grid%dx*problem%grid%dy
+      is_hertzian = .not. problem%solves_for_pressure()
+      ratio = 1.0_wp
+      if (is_hertzian .and. result%pen > 0.0_wp) ratio = max(0.0_wp, 1.0_wp + 1.5_wp*change/result%pen)
       result%mx = 0.0_wp
       result%my = 0.0_wp
       result%mz = 0.0_wp
       do iy = 1, problem%grid%my
          do ix = 1, problem%grid%mx
             if (.not. (result%pn(ix, iy) > 0.0_wp .and. result%division(ix, iy) > element%exterior)) cycle
-            ratio = max(0.0_wp, 1.0_wp + change*state%now%rate(ix, iy)/result%pn(ix, iy))
+            if (.not. is_hertzian) ratio = max(0.0_wp, 1.0_wp + change*state%now%rate(ix, iy)/result%pn(ix, iy))
             result%pn(ix, iy) = ratio*result%pn(ix, iy)
             result%px(ix, iy) = ratio*result%px(ix, iy)
             result%py(ix, iy) = ratio*result%py(ix, iy)
-            result%un(ix, iy) = result%un(ix, iy) + change
             result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
             result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
             result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))

@@ -65,7 +65,8 @@ contains
       call fit_workspace(problem, workspace)
       call reset_result(problem, state, result)
       call choose_order(problem, result%tangential)
-      if (problem%motion /= motion%none) call rigid_slip(problem, result)
+      ! simplified theory has a weight of its own for the spin
+      if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) call rigid_slip(problem, result)
       if (problem%motion == motion%none) then
          state%now%px = 0.0_wp
          state%now%py = 0.0_wp

@@ -3,7 +3,7 @@
 !> Lateral coordinate y, z down, canonical order (contact_profile_points). Rails are looked at from above,
 !> wheels from below: of several places with the same y only the one that is seen counts.
 module contact_profile_curve
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_numeric_polynomial, only : quadratic_roots
    use contact_numeric_spline, only : cubic_spline, piece_of
    use contact_profile_request, only : profile_side
@@ -26,6 +26,8 @@ module contact_profile_curve
    type :: profile_curve
       !> Member of profile_side
       integer :: side = profile_side%rail
+      !> Given to a curve by the store that holds it, and to its copies: two with the same number are the same. 0: none
+      integer(long) :: number = 0
       !> Coordinates [mm] as functions of s [mm]; both have the same pieces
       type(cubic_spline) :: y, z
       !> What is seen, in rising order of y, without overlap
@@ -73,6 +75,8 @@ contains
       !> What it is compared with
       type(profile_curve), intent(in) :: other
 
+      same_as = self%number > 0 .and. self%number == other%number
+      if (same_as) return
       same_as = allocated(self%y%c) .and. allocated(other%y%c)
       if (same_as) same_as = all(shape(self%y%c) == shape(other%y%c))
       if (same_as) same_as = all(self%y%s == other%y%s) .and. all(self%y%c == other%y%c) .and. all(self%z%c == other%z%c)

@@ -115,6 +115,7 @@ contains
       self%entries(slot)%last_use = 0
       allocate(profile)
       call load_profile(request, profile, log, error)
+      profile%curve%number = next_number()
       self%loads = self%loads + 1
       self%history = modulo(31_long*self%history + fingerprint, 2147483647_long)
       if (allocated(error)) then
@@ -126,6 +127,16 @@ contains
       call move_alloc(files, self%entries(slot)%files)
       self%entries(slot)%last_use = self%clock
    end subroutine get
+
+   !> A number that no other curve of the process has
+   integer(long) function next_number()
+      integer(long), save :: given = 0
+
+      !$omp atomic capture
+      given = given + 1
+      next_number = given
+      !$omp end atomic
+   end function next_number
 
    !> Forget the profiles of one body, so that their files are read again
    subroutine forget(self, side)

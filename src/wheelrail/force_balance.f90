@@ -148,11 +148,12 @@ contains
          return
       end if
       z = newton_step(self)
+      if (leads_on(self) .and. .not. self%last%slope > 0.0_wp) z = secant(self)
       if (.not. self%has_high) then
          if (self%last%force < 0.0_wp .and. self%last%slope > 0.0_wp) &
             & z = self%last%z + (self%target - self%last%force)/self%last%slope
          ! from below: at least a little further, and not too far
-         z = max(z, self%touch + min_growth*(self%low%z - self%touch) + self%resolution)
+         if (.not. leads_on(self)) z = max(z, self%touch + min_growth*(self%low%z - self%touch) + self%resolution)
          z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, shallow), self%highest)
          return
       end if
@@ -165,6 +166,9 @@ contains
          z = 0.5_wp*(self%low%z + self%high%z)
          self%slow = 0
          self%old_width = width
+      else if (leads_on(self) .and. z > self%low%z .and. z < self%high%z) then
+         ! however near to the end of the bracket
+         continue
       else if (self%low%z > self%touch .and. .not. self%low%force > 0.0_wp) then
          if (self%low%force < 0.0_wp) then
             ! friction carries more than the pressures: the power of the penetration means nothing
@@ -179,6 +183,26 @@ contains
          z = min(max(z, self%low%z + away), self%high%z - away)
       end if
    end function next_trial
+
+   !> Is the last trial near the target, and nearer by far than the one before it, if there was one? Then the next step is believed
+   pure logical function leads_on(self)
+      class(force_balance), intent(in) :: self
+      !> Missed force relative to the target, and to what the trial before missed
+      real(wp), parameter :: near_target = 0.05_wp, nearer = 0.2_wp
+      real(wp) :: miss
+
+      associate (last => self%last, before => self%before)
+         miss = abs(last%force - self%target)
+         leads_on = last%z > self%touch .and. last%force > 0.0_wp .and. miss <= near_target*self%target
+         if (.not. leads_on) return
+         if (before%z > self%touch) then
+            leads_on = miss <= nearer*abs(before%force - self%target) .and. before%force > 0.0_wp &
+               & .and. (last%force - before%force)*(last%z - before%z) > 0.0_wp
+         else
+            leads_on = last%slope > 0.0_wp
+         end if
+      end associate
+   end function leads_on
 
    !> Newton's step for F**(2/3) from the last trial; the interpolation where the slope is not known, or is not that of the
    !> bracket: the caller's slope leaves out that steep patches turn

@@ -23,8 +23,12 @@ module contact_wheelrail_height
 
    public :: settle, out_of_sight, small_step
 
-   !> Searches with ratios of friction that are kept, each followed by a tangential solution
-   integer, parameter :: rounds_apart = 4
+   !> Tangential solutions in a search with ratios of friction that are kept; from one that misses the force by less than this part
+   !> of it a step leads to the next one, without trials in between
+   integer, parameter :: rounds_apart = 6
+   real(wp), parameter :: direct = 0.02_wp
+   !> Tolerance of forces with friction in a ratio that is only estimated
+   real(wp), parameter :: estimated = 1.0e-3_wp
 
    !> Steps of the force that are due to the grids, relative to the force
    real(wp), parameter :: small_step = 1.0e-4_wp
@@ -172,7 +176,7 @@ contains
       call tell_missed_force(memory, search, log, result)
    end subroutine balance_forces
 
-   !> Searches without friction in the trials, each followed by a tangential solution at the height found
+   !> A search without friction in the trials, and tangential solutions at the height found and at those that they lead to
    subroutine search_apart(problem, memory, search, is_settled, log, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
@@ -182,38 +186,51 @@ contains
       logical, intent(out) :: is_settled
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: first_guess, miss, last_miss
+      real(wp) :: first_guess, miss, last_miss, last_z, last_force, stiffer
       integer :: round
 
-      ! friction decouples from the pressures for bodies that are alike
-      is_settled = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
+      ! friction decouples from the pressures for bodies that are alike; by simplified theory it costs next to nothing
+      is_settled = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled() &
+         & .and. .not. allocated(problem%template%simplified)
       if (.not. is_settled) return
       first_guess = search%guess
       last_miss = huge(last_miss)
-      associate (maxnr => problem%template%settings%maxnr, target => search%target, balance => search%balance)
+      last_z = 0.0_wp
+      last_force = 0.0_wp
+      stiffer = 1.0_wp
+      associate (maxnr => problem%template%settings%maxnr, eps => problem%template%settings%eps, target => search%target, &
+         & balance => search%balance)
          do round = 1, rounds_apart
-            call search%run(problem, memory, .false., maxnr/2 - search%trials, log, error)
-            if (allocated(error)) return
-            if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
-               is_settled = .false.
-               search%guess = balance%z
-               if (balance%has_high) search%guess = balance%next_trial(search%guess)
-               if (balance%ended == balance_ending%out_of_reach) search%guess = first_guess
-               return
+            if (last_miss > direct*target) then
+               call search%run(problem, memory, .false., max(eps, estimated), maxnr/2 - search%trials, log, error)
+               if (allocated(error)) return
+               if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
+                  is_settled = .false.
+                  search%guess = balance%z
+                  if (balance%has_high) search%guess = balance%next_trial(search%guess)
+                  if (balance%ended == balance_ending%out_of_reach) search%guess = first_guess
+                  return
+               end if
+            else
+               search%z = search%guess
             end if
             ! the tangential problem at the height found corrects the lateral forces
             call search%try(problem, memory, search%z, .true., log, error)
             if (allocated(error)) return
             call learn_shares(memory)
             miss = abs(search%force - target)
+            balance%tolerance = eps*target
             if (miss <= balance%tolerance) return
+            if (round > 1) call search%compare_stiffness(search%z, last_z, last_force, stiffer)
             search%guess = search%z + (target - search%force) &
-               & /max(search%slope, min_stiffness*target/max(search%z - search%touch, min_penetration))
+               & /max(stiffer*search%stiffness, min_stiffness*target/max(search%z - search%touch, min_penetration))
             if (search%guess <= search%bottom) search%guess = search%z
             ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
             is_settled = round < rounds_apart .and. miss < good_progress*last_miss .and. search%trials < maxnr/2
             if (.not. is_settled) return
             last_miss = miss
+            last_z = search%z
+            last_force = search%force
          end do
       end associate
    end subroutine search_apart
@@ -228,7 +245,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       ! one trial is left for a last look at the best height
-      call search%run(problem, memory, .true., problem%template%settings%maxnr - search%trials - 1, log, error)
+      associate (settings => problem%template%settings)
+         call search%run(problem, memory, .true., settings%eps, settings%maxnr - search%trials - 1, log, error)
+      end associate
       if (allocated(error)) return
       if (abs(search%balance%force - search%force) > 0.0_wp) call search%try(problem, memory, search%z, .true., log, error)
    end subroutine search_together

@@ -23,8 +23,9 @@ module contact_wheelrail_height_search
       real(wp) :: target = 0.0_wp, spring = 0.0_wp
       !> Height of first touch, lowest height for a wheel that is lifted off, guess for the next search, best height found [mm]
       real(wp) :: touch = 0.0_wp, bottom = 0.0_wp, guess = 0.0_wp, z = 0.0_wp
-      !> Force of the last trial [N] and its derivative to the height [N/mm]
-      real(wp) :: force = 0.0_wp, slope = 0.0_wp
+      !> Force of the last trial [N] and its derivative to the height [N/mm]: 0 where the stiffness of the contacts is not known,
+      !> and with that of Hertz's contact in its place
+      real(wp) :: force = 0.0_wp, slope = 0.0_wp, stiffness = 0.0_wp
       !> Trials so far
       integer :: trials = 0
       !> The last bracket
@@ -44,6 +45,7 @@ module contact_wheelrail_height_search
       procedure :: run
       procedure :: follow
       procedure :: try
+      procedure :: compare_stiffness
       procedure, private :: bracket
    end type height_search
 
@@ -94,7 +96,7 @@ contains
    end subroutine begin
 
    !> A search from a bracket of its own, from `guess` on; its best height is z
-   subroutine run(self, problem, memory, with_friction, max_trials, log, error)
+   subroutine run(self, problem, memory, with_friction, eps, max_trials, log, error)
       class(height_search), intent(inout) :: self
       !> What is asked for wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
@@ -102,6 +104,8 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Solve the tangential problems in all trials, too?
       logical, intent(in) :: with_friction
+      !> Relative tolerance of the force [-]
+      real(wp), intent(in) :: eps
       !> Trials after which it ends
       integer, intent(in) :: max_trials
       !> Takes the trace of the trials
@@ -111,7 +115,7 @@ contains
       integer :: before, k
 
       before = self%trials
-      call self%bracket(problem, memory, with_friction, max_trials, log, error)
+      call self%bracket(problem, memory, with_friction, eps, max_trials, log, error)
       if (allocated(error) .or. self%balance%ended /= balance_ending%above_touch) return
       ! Elements overlap before the mesh of the gap does, by less than its width shows: the regions of the first touch stay
       ! while the wheel is lifted off
@@ -121,7 +125,7 @@ contains
          self%bottom = min(self%bottom, self%touch - lifted_approaches*memory%slot(k)%result%pen)
       end do
       self%guess = self%touch
-      call self%bracket(problem, memory, with_friction, max_trials - (self%trials - before), log, error)
+      call self%bracket(problem, memory, with_friction, eps, max_trials - (self%trials - before), log, error)
    end subroutine run
 
    !> A search without bracket, with friction in every trial, from a guess that follows the last case
@@ -144,12 +148,16 @@ contains
       type(log_type), intent(inout) :: log
       !> Allocated when a trial has no result
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: z, last_z, last_force, miss, last_miss, best, told, low(2), high(2)
+      real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
+      logical :: is_plain, has_derivative
       integer :: k
 
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max_followed, forces_are_estimates=.false.)
       is_settled = .false.
+      ! formulas leave nothing to iterations, so that the first trial is as good as any
+      is_plain = .not. problem%template%solves_for_pressure() .and. allocated(problem%template%simplified)
+      has_derivative = problem%template%solves_for_pressure() .and. .not. allocated(problem%template%simplified)
       self%all_sharp = .true.
       z = self%guess
       best = huge(best)
@@ -163,22 +171,20 @@ contains
          call self%try(problem, memory, z, .true., log, error)
          if (allocated(error)) exit
          miss = abs(self%force - self%target)
-         if (k > 1 .and. abs(z - last_z) > telling_way*(z - self%touch)) then
-            told = (self%force - last_force)/((z - last_z)*max(self%slope, tiny(told)))
-            if (told > least_stiff .and. told < most_stiff) stiffer = told
-         end if
+         if (k > 1) call self%compare_stiffness(z, last_z, last_force, stiffer)
          if (miss < best) then
             best = miss
             self%z = z
          end if
-         is_settled = k > 1 .and. miss <= smooth_part(problem)*self%balance%tolerance
-         if (k > 1 .and. .not. is_settled .and. can_finish(self, miss, stiffer)) then
+         is_settled = (k > 1 .or. is_plain) .and. miss <= smooth_part(problem)*self%balance%tolerance
+         if ((k > 1 .or. is_plain) .and. .not. is_settled .and. (miss <= self%balance%tolerance &
+            & .or. (has_derivative .and. can_finish(self, miss, stiffer)))) then
             call finish(self, memory, stiffer, z, log, is_settled)
             if (.not. is_settled .and. miss <= self%balance%tolerance) &
                & is_settled = k == max_followed .or. miss > quick_progress*last_miss
          end if
          if (is_settled) self%z = z
-         if (is_settled .or. .not. (self%slope > 0.0_wp .and. self%force > 0.0_wp)) exit
+         if (is_settled .or. .not. (self%stiffness > 0.0_wp .and. self%force > 0.0_wp)) exit
          if (k > 1 .and. miss > max(some_progress*last_miss, step_of_grids*self%target)) exit
          if (self%force < self%target) then
             low = [z, self%force]
@@ -188,7 +194,7 @@ contains
          last_miss = miss
          last_z = z
          last_force = self%force
-         z = z + self%force/(power*stiffer*self%slope)*((self%target/self%force)**power - 1.0_wp)
+         z = z + self%force/(power*stiffer*self%stiffness)*((self%target/self%force)**power - 1.0_wp)
          ! between heights with less and with more force a chord leads on
          if (max(low(1), high(1)) < huge(low) .and. .not. (z > low(1) .and. z < high(1))) &
             & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
@@ -199,6 +205,21 @@ contains
       self%balance%force = self%force
       self%guess = self%z
    end subroutine follow
+
+   !> What two trials tell of the true derivative of the force
+   pure subroutine compare_stiffness(self, z, last_z, last_force, stiffer)
+      !> With force and stiffness of the last trial
+      class(height_search), intent(in) :: self
+      !> Heights of the last trial and of the one before it [mm], and the force of that one [N]
+      real(wp), intent(in) :: z, last_z, last_force
+      !> Derivative of the force, relative to that by the stiffness [-]; stays where they tell nothing
+      real(wp), intent(inout) :: stiffer
+      real(wp) :: told
+
+      if (.not. abs(z - last_z) > telling_way*(z - self%touch)) return
+      told = (self%force - last_force)/((z - last_z)*max(self%stiffness, tiny(told)))
+      if (told > least_stiff .and. told < most_stiff) stiffer = told
+   end subroutine compare_stiffness
 
    !> Is a trial so near that a step to first order is the rest?
    pure logical function can_finish(self, miss, stiffer)
@@ -231,13 +252,13 @@ contains
       integer :: k
 
       is_done = .false.
-      if (.not. self%slope > 0.0_wp .or. memory%used == 0) return
+      if (.not. self%stiffness > 0.0_wp .or. memory%used == 0) return
       do k = 1, memory%used
          if (.not. can_step(memory%slot(k)%problem, memory%slot(k)%state)) return
       end do
       is_far = abs(self%force - self%target) > self%balance%tolerance
       do
-         step = (self%target - self%force)/(stiffer*self%slope)
+         step = (self%target - self%force)/(stiffer*self%stiffness)
          do k = 1, memory%used
             associate (slot => memory%slot(k), change => stiffer*memory%slot(k)%plane%axes(3, 3)*step)
                ! what turns and moves with the height makes the force stiffer; the patch takes its part of it
@@ -268,17 +289,18 @@ contains
    end function smooth_part
 
    !> A search between two heights
-   subroutine bracket(self, problem, memory, with_friction, max_trials, log, error)
+   subroutine bracket(self, problem, memory, with_friction, eps, max_trials, log, error)
       class(height_search), intent(inout) :: self
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
       logical, intent(in) :: with_friction
+      real(wp), intent(in) :: eps
       integer, intent(in) :: max_trials
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: trial
 
-      call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
+      call self%balance%start(self%target, eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max(1, max_trials), &
          & forces_are_estimates=.not. with_friction)
       do while (self%balance%ended == balance_ending%running)
@@ -330,7 +352,8 @@ contains
       self%small = 1.0_wp
       if (sum_of_normal_forces(memory) > mostly_friction*self%target) &
          & self%small = max(smallest, self%target/sum_of_normal_forces(memory))
-      self%slope = vertical_slope(memory) + self%spring
+      self%slope = vertical_slope(memory, estimated=.false.) + self%spring
+      self%stiffness = vertical_slope(memory, estimated=.true.) + self%spring
       call trace_trial(self, z, log)
    end subroutine try
 

@@ -8,7 +8,7 @@ module contact_wheelrail_memory
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_wheelrail_carry_over, only : carried_step, lattice_window
-   use contact_wheelrail_course, only : course_type
+   use contact_wheelrail_course, only : course_type, power
    use contact_wheelrail_creepage, only : contact_motion
    use contact_wheelrail_curved_patch, only : curved_reference
    use contact_wheelrail_frame, only : frame
@@ -111,16 +111,23 @@ contains
    end function vertical_force
 
    !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
-   pure real(wp) function vertical_slope(memory) result(slope)
+   pure real(wp) function vertical_slope(memory, estimated) result(slope)
       !> Patches of the last trial
       type(wheel_rail_memory), intent(in) :: memory
+      !> Is the stiffness of a patch that of Hertz's contact where it is not known? Otherwise 0
+      logical, intent(in) :: estimated
+      real(wp) :: stiffness
       integer :: k
 
       slope = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
+            if (.not. slot%result%fn > 0.0_wp) cycle
+            stiffness = slot%result%sensitivity(1, 1)
+            if (estimated .and. slot%result%pen > 0.0_wp .and. .not. stiffness > 0.0_wp) &
+               & stiffness = slot%result%fn/(power*slot%result%pen)
             ! the normal force changes by the stiffness, the vertical one along with it
-            if (slot%result%fn > 0.0_wp) slope = slope + slot%plane%axes(3, 3)*slot%result%sensitivity(1, 1) &
+            slope = slope + slot%plane%axes(3, 3)*stiffness &
                & *dot_product(slot%plane%axes(3, :), slot%pressure_force/slot%result%fn + slot%friction_share)
          end associate
       end do

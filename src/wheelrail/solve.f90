@@ -136,8 +136,7 @@ contains
       type(wheel_rail_memory), intent(in) :: memory
 
       follows = problem%in_loop .and. memory%started .and. problem%force_prescribed .and. .not. problem%geometry_only &
-         & .and. problem%force == force_control%creepages .and. problem%template%motion == memory%motion &
-         & .and. problem%template%solves_for_pressure()
+         & .and. problem%force == force_control%creepages .and. problem%template%motion == memory%motion
       if (follows) follows = memory%course%is_near(problem%spec%wheelset)
    end function follows_last
 

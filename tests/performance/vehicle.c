@@ -1,7 +1,8 @@
 /* A vehicle of four wheelsets that runs over a straight track: one call of the library per wheel and time step.
  *
- * usage: vehicle FOLDER_OF_PROFILES [--check] [--derivatives] [--calls FILE] [STEPS]
+ * usage: vehicle FOLDER_OF_PROFILES [--check] [--derivatives] [--simplified] [--calls FILE] [STEPS]
  *
+ * With --simplified tractions are those of Fastsim and FaStrip, on pressures of the full theory, of KPEC and of ANALYN.
  * With --derivatives the derivatives of the forces are asked for after each call, and their time is told beside that of the call.
  *
  * Tells the distribution of the processor time of calls, with the goals of doc/validation/performance.md, and how often they ask
@@ -22,6 +23,8 @@ enum { wheels = 8, sweep = 80 };
 static const double pi = 3.14159265358979323846, radius = 460.0, speed = 25000.0, eps = 1e-5, load = 62500.0;
 static const int whole = -1, zero = 0;
 static const char *folder;
+/* M and B of all set-ups: the theory of tractions and that of pressures */
+static int theory = 0, pressures = 0;
 static int failures = 0;
 static FILE *calls;
 long bench_allocations(void);
@@ -55,17 +58,18 @@ static void profile(int ire, const char *name) {
 
 /* A wheel on the left or on the right rail; P says what a case continues */
 static void set_up(int ire, int left, double side, int p) {
-  const int one = 1, two = 2, four = 4, five = 5, eight = 8, three = 3, eleven = 11, type = -1;
+  const int one = 1, two = 2, four = 4, five = 5, seven = 7, nine = 9, three = 3, eleven = 11, type = -1;
   const int flags[] = {CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_ic_pvtime,
-                       CNTC_ic_norm,  CNTC_ic_output, CNTC_ic_flow, CNTC_ic_discns};
-  const int values[] = {CNTC_un_cntc, left ? 0 : 1, 3, p, 1, 0, 0, 2}, limits[] = {999, 100, 30, 1};
-  const double steel[] = {0.28, 0.28, 82000.0, 82000.0}, coulomb[] = {0.35, 0.35}, no_offset = 0.0, step = 1.0;
+                       CNTC_ic_norm,  CNTC_ic_output, CNTC_ic_flow, CNTC_ic_discns, CNTC_ic_bound};
+  const int values[] = {CNTC_un_cntc, left ? 0 : 1, 3, p, 1, 0, 0, 2, pressures}, limits[] = {999, 100, 30, 1};
+  /* what simplified theory asks for besides: no reduction of slopes */
+  const double steel[] = {0.28, 0.28, 82000.0, 82000.0, 1.0, 0.125, 1.0}, coulomb[] = {0.35, 0.35}, no_offset = 0.0, step = 1.0;
   const double grid[] = {side, side, pi / 2, 8.0, 4.0}, set[] = {1360.0, -70.0, radius};
   const double track[] = {14.0, 0.0, 1435.0, 0.025, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   int version, error;
   cntc_initialize(&ire, &one, &version, &error, " ", &one);
-  cntc_setflags(&ire, &whole, &eight, flags, values);
-  cntc_setmaterialparameters(&ire, &whole, &zero, &four, steel);
+  cntc_setflags(&ire, &whole, &nine, flags, values);
+  cntc_setmaterialparameters(&ire, &whole, &theory, theory == 0 ? &four : &seven, steel);
   cntc_setfrictionmethod(&ire, &whole, &zero, &two, coulomb);
   cntc_setsolverflags(&ire, &whole, &zero, &four, limits, &one, &eps);
   cntc_setpotcontact(&ire, &whole, &type, &five, grid);
@@ -112,14 +116,14 @@ static int compare(const void *a, const void *b) {
 
 /* A goal beside what was measured [ms]; 0: none */
 static void judge(double measured, double goal) {
-  if (goal > 0.0) printf(" %.1f: %s |", goal, measured <= goal ? "met" : "MISSED");
+  if (goal > 0.0) printf(" %g: %s |", goal, measured <= goal ? "met" : "MISSED");
   else printf(" |");
 }
 
 /* All wheels through all steps: the distribution of the time of calls [ms], with goals for the median, for 99 of 100 and for all */
 static void drive(double side, int steps, const double *goal) {
   double *time = malloc(sizeof(double) * (size_t)(wheels * steps)), force[6], sum = 0.0, from;
-  int k, wheel, n = wheels * steps;
+  int k, wheel, n = wheels * steps, unsolved = 0, missed = 0;
   long requests = 0;
   if (time == NULL) exit(1);
   for (wheel = 0; wheel < wheels; wheel++) set_up(wheel + 1, wheel % 2, side, 2);
@@ -127,13 +131,16 @@ static void drive(double side, int steps, const double *goal) {
     for (wheel = 0; wheel < wheels; wheel++) {
       if (wheels * k + wheel == n / 2) requests = bench_allocations();
       from = seconds();
-      check(step(wheel + 1, on_the_way(wheel, k), force) == 0, "a call fails at step", k);
+      unsolved += step(wheel + 1, on_the_way(wheel, k), force) != 0;
       time[wheels * k + wheel] = 1e3 * (seconds() - from);
       if (calls != NULL)
         fprintf(calls, "%g %d %d %.5f %.15g %.15g %.15g\n", side, wheel, k, time[wheels * k + wheel], force[0], force[1], force[2]);
-      check(fabs(force[2] / on_the_way(wheel, k).fz - 1.0) <= eps, "the vertical force is missed at step", k);
+      missed += fabs(force[2] / on_the_way(wheel, k).fz - 1.0) > eps;
     }
   requests = bench_allocations() - requests;
+  /* tractions of simplified theory jump where elements enter the contact: some forces cannot be met */
+  if (theory == 0) check(unsolved + missed == 0, "calls that fail, or miss the vertical force", unsolved + missed);
+  else if (missed > 0) printf("%d calls miss the vertical force by more than EPS, %d of them end so\n", missed, unsolved);
   for (wheel = 1; wheel <= wheels; wheel++) cntc_finalize(&wheel);
   for (k = 0; k < n; k++) sum += time[k];
   qsort(time, (size_t)n, sizeof(double), compare);
@@ -265,13 +272,27 @@ static void differentiate(double side, int steps) {
   free(time);
 }
 
+/* The loop with simplified theory; goal: 0.15 ms */
+static void simplify(int steps) {
+  const int theories[] = {3, 5}, methods[] = {0, 5, 6};
+  int i, k;
+  for (i = 0; i < 2; i++)
+    for (k = 0; k < 3; k++) {
+      theory = theories[i];
+      pressures = methods[k];
+      printf("M = %d, B = %d\n", theory, pressures);
+      drive(1.0, steps, (const double[]){0.15, 0.0, 0.0});
+    }
+}
+
 int main(int count, char **word) {
-  int version, error, steps = 500, judges = 0, derivatives = 0, i;
+  int version, error, steps = 500, judges = 0, derivatives = 0, simplified = 0, i;
   if (count < 2) return 2;
   folder = word[1];
   for (i = 2; i < count; i++) {
     if (strcmp(word[i], "--check") == 0) judges = 1;
     else if (strcmp(word[i], "--derivatives") == 0) derivatives = 1;
+    else if (strcmp(word[i], "--simplified") == 0) simplified = 1;
     else if (strcmp(word[i], "--calls") == 0 && i + 1 < count) calls = fopen(word[++i], "w");
     else steps = atoi(word[i]);
   }
@@ -286,6 +307,13 @@ int main(int count, char **word) {
     judge_smoothness(0.5, 1.3);
     judge_smoothness(0.5, 5.3);
     judge_requests(1.0, 170.0);
+    theory = 3;
+    compare_with_fresh(1.0, 0, 60, 2);
+    pressures = 5;
+    compare_with_fresh(1.0, 0, 60, 2);
+    judge_requests(1.0, 190.0);
+  } else if (simplified) {
+    simplify(steps);
   } else if (derivatives) {
     printf("| DX = DS, mm | calls | call: mean, ms | median | derivatives: mean | median | 99 %% | both/call | one-sided |\n"
            "|---|---|---|---|---|---|---|---|---|\n");

@@ -9,7 +9,7 @@ program test_force_balance
    integer, parameter :: hertz = 1, second_patch = 2, jump_down = 3, jump_up = 4, fold = 5, bounded = 6, broken = 7, &
       & carried = 8, flank = 9
    type(test_suite) :: suite
-   real(wp) :: target
+   real(wp) :: target, slope
    integer :: k
 
    call suite%start("force balance")
@@ -21,6 +21,12 @@ program test_force_balance
       call reaches(suite, second_patch, target, 0.02_wp, .true., 9)
       call reaches(suite, second_patch, target, 0.02_wp, .false., 16)
       call reaches(suite, jump_up, 1.0e3_wp*target, 0.1_wp, .false., 60)
+   end do
+   ! next to the height that is sought, on both sides of it: steps are not made longer than Newton's method wants
+   call force_at(second_patch, 0.2_wp, target, slope)
+   do k = -3, 3
+      if (k /= 0) call reaches(suite, second_patch, target, 0.2_wp*(1.0_wp + sign(10.0_wp**(-1 - abs(k)), real(k, wp))), .true., 3)
+      if (k /= 0) call reaches(suite, second_patch, target, 0.2_wp*(1.0_wp + sign(10.0_wp**(-1 - abs(k)), real(k, wp))), .false., 7)
    end do
    call reaches(suite, fold, 5.0e3_wp, 0.1_wp, .false., 40)
    do k = 0, 3
