@@ -1,11 +1,12 @@
 !> One wheel on one rail: contact patches, their solutions, total forces
 module contact_wheelrail_solve
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : force_control, motion, time_link
+   use contact_base_choices, only : force_control, is_fastrip, motion, pressure_model, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_patch_derived, only : complete
+   use contact_patch_problem, only : patch_problem
    use contact_text_words, only : real_text
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
@@ -137,8 +138,18 @@ contains
 
       follows = problem%in_loop .and. memory%started .and. problem%force_prescribed .and. .not. problem%geometry_only &
          & .and. problem%force == force_control%creepages .and. problem%template%motion == memory%motion
+      if (follows) follows = has_one_height(problem%template)
       if (follows) follows = memory%course%is_near(problem%spec%wheelset)
    end function follows_last
+
+   !> Is there one height that carries a force? FaStrip and ANALYN have steps, where the last case would decide among two
+   pure logical function has_one_height(template)
+      !> What all patches have in common
+      type(patch_problem), intent(in) :: template
+
+      has_one_height = template%pressure /= pressure_model%analyn
+      if (allocated(template%simplified)) has_one_height = has_one_height .and. .not. is_fastrip(template%simplified%choice)
+   end function has_one_height
 
    !> Warn of a wheel that turns against its direction of travel
    subroutine judge_direction(problem, pitch_rate, log)

@@ -312,6 +312,11 @@ int main(int count, char **word) {
     pressures = 5;
     compare_with_fresh(1.0, 0, 60, 2);
     judge_requests(1.0, 190.0);
+    pressures = 6;
+    compare_with_fresh(1.0, 0, 24, 2);
+    theory = 5;
+    pressures = 0;
+    compare_with_fresh(1.0, 0, 24, 2);
   } else if (simplified) {
     simplify(steps);
   } else if (derivatives) {
