@@ -65,6 +65,9 @@ module contact_profile_store
       procedure :: release
    end type profile_store
 
+   !> Number of the last curve that was prepared in this process, counted atomically
+   integer(long) :: last_number = 0
+
 contains
 
    !> The profile for a request, from the store or from its file
@@ -130,11 +133,9 @@ contains
 
    !> A number that no other curve of the process has
    integer(long) function next_number()
-      integer(long), save :: given = 0
-
       !$omp atomic capture
-      given = given + 1
-      next_number = given
+      last_number = last_number + 1
+      next_number = last_number
       !$omp end atomic
    end function next_number
 

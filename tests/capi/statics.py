@@ -23,7 +23,7 @@ KNOWN = {
     "stage_of_call": "one per thread",
     "guarded_thread": "one per thread",
     "owners": "counted atomically",
-    "given": "number of the last profile that was prepared, counted atomically",
+    "__contact_profile_store_MOD_last_number": "counted atomically",
     "whole_process": "set once, before the libraries of the program are initialised",
     "watched": "set once, when the code is loaded",
     "real": "addresses of functions, set once when the code is loaded",
