@@ -25,8 +25,8 @@ module contact_patch_error_scales
    !> Part of the alternation of a rough surface that peaks between centres of elements have; that of noise is the root of 15 of its
    !> standard deviation; chosen with tests/stability/hard_wheels.py
    real(wp), parameter :: roughness_share = 0.25_wp
-   !> Of unlike bodies, pressures decide where that is: what an error of stopping of pressures becomes in forces then, also with
-   !> adhesion over this part of the contact in between. Measured with the same rollers, EPS from 1e-2 to 1e-5
+   !> Of unlike bodies, pressures decide where slip turns round: what an error of stopping of pressures becomes in forces then, also
+   !> with adhesion over this part of the contact in between. Measured with rollers of aluminium and steel, EPS from 1e-2 to 1e-5
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors,
    !> too; of shifts, whose errors in full sliding are half as large as others (seed 8102)

@@ -177,8 +177,7 @@ contains
             self%z = z
          end if
          is_settled = (k > 1 .or. is_plain) .and. miss <= smooth_part(problem)*self%balance%tolerance
-         if ((k > 1 .or. is_plain) .and. .not. is_settled .and. (miss <= self%balance%tolerance &
-            & .or. (has_derivative .and. can_finish(self, miss, stiffer)))) then
+         if ((k > 1 .or. is_plain) .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
             call finish(self, memory, stiffer, z, log, is_settled)
             if (.not. is_settled .and. miss <= self%balance%tolerance) &
                & is_settled = k == max_followed .or. miss > quick_progress*last_miss
@@ -222,13 +221,17 @@ contains
    end subroutine compare_stiffness
 
    !> Is a trial so near that a step to first order is the rest?
-   pure logical function can_finish(self, miss, stiffer)
+   pure logical function can_finish(self, miss, stiffer, has_derivative)
       type(height_search), intent(in) :: self
       !> What the trial misses the force by [N], and the derivative of the force, relative to that by the stiffness [-]
       real(wp), intent(in) :: miss, stiffer
+      !> Are pressures and tractions those of the full theory? Others are not gone on from beyond EPS
+      logical, intent(in) :: has_derivative
 
       associate (tolerance => self%balance%tolerance)
-         can_finish = miss <= tolerance .or. (miss <= finished*tolerance .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
+         can_finish = miss <= tolerance
+         if (has_derivative) can_finish = can_finish .or. (miss <= finished*tolerance &
+            & .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
       end associate
    end function can_finish
 
@@ -245,7 +248,7 @@ contains
       real(wp), intent(inout) :: z
       !> Takes the trace of the solvers
       type(log_type), intent(inout) :: log
-      !> Is the force met? If not, the patches belong to z all the same
+      !> Is the force met? If not, another trial is needed, also where the tractions of a patch were not found
       logical, intent(out) :: is_done
       logical :: is_far
       real(wp) :: step

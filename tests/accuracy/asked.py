@@ -196,15 +196,21 @@ def misses(rows):
     return "\n".join(complaints)
 
 
-def main():
-    """Study or test."""
-    parser = argparse.ArgumentParser(description=__doc__)
+def parser_of(description):
+    """Options that tell which contacts are drawn and what is asked of them."""
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--count", type=int, default=0, help="number of contacts")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--asked", default="1e-2,1e-3", help="accuracies")
     parser.add_argument("--reference", type=int, default=60, help="elements along each side of the coarser reference grid")
+    return parser
+
+
+def main():
+    """Study or test."""
+    parser = parser_of(__doc__)
     parser.add_argument("--fixed", action="store_true", help="compare with fixed grids")
     parser.add_argument("--list", action="store_true", help="name the contacts that miss what was asked")
     parser.add_argument("--check", action="store_true", help="a small sample; fail where bounds are missed")

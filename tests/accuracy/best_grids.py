@@ -7,7 +7,6 @@ scratch, with influence coefficients and plans of transforms. With --further the
 which finds plans, and on a fixed grid coefficients, too. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM
 names the program.
 """
-import argparse
 import math
 import os
 import random
@@ -15,7 +14,7 @@ import resource
 import tempfile
 from pathlib import Path
 
-from asked import FIXED, FIXED_WHEELS, KINDS, contact_errors, exact_totals, value_of, wheel_error, wheel_of
+from asked import FIXED, FIXED_WHEELS, contact_errors, exact_totals, parser_of, value_of, wheel_error, wheel_of
 from cost import processor_time
 from error_cases import contact, text_of, wheel, wheel_text
 from errors import run
@@ -104,13 +103,7 @@ def wheels_compared(program, asked, folder):
 
 def main():
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=0, help="number of contacts")
-    parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kinds", default=",".join(KINDS))
-    parser.add_argument("--asked", default="1e-2,1e-3", help="accuracies")
-    parser.add_argument("--reference", type=int, default=60, help="elements along each side of the coarser reference grid")
+    parser = parser_of(__doc__)
     parser.add_argument("--list", action="store_true", help="a line for each contact")
     parser.add_argument("--further", action="store_true", help="times of one more contact instead of those from scratch")
     asked = parser.parse_args()
