@@ -59,13 +59,7 @@ contains
       call find_working_folder(folder)
       ! callers step through time; programs of cases read each one as if it stood alone
       problem%wheel_rail%problem%in_loop = .true.
-      if (allocated(problem%solved)) deallocate(problem%solved)
-      if (problem%spec%iteration%accuracy > 0.0_wp) then
-         allocate(problem%solved, source=problem%spec)
-         call solve_wheel_on_rail(problem%wheel_rail, problem%solved, folder, log, problem%wheel_rail_result, error)
-      else
-         call solve_wheel_on_rail(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, error)
-      end if
+      call solve_wheel_on_rail(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, problem%solved, error)
    end subroutine solve_wheel_rail
 
    !> What was found becomes what is stored, and goes into print and files

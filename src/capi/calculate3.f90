@@ -52,13 +52,7 @@ contains
       call check_coefficients(digits%c == 0, problem%spec, problem%coefficients, error)
       if (allocated(error)) return
       call find_working_folder(folder)
-      if (allocated(problem%solved)) deallocate(problem%solved)
-      if (problem%spec%iteration%accuracy > 0.0_wp) then
-         allocate(problem%solved, source=problem%spec)
-         call solve_contact_case(problem%session, problem%solved, log, problem%result, error, folder)
-      else
-         call solve_contact_case(problem%session, problem%spec, log, problem%result, error, folder)
-      end if
+      call solve_contact_case(problem%session, problem%spec, log, problem%result, problem%solved, error, folder)
       code = library_code%other
       if (.not. allocated(error)) return
       if (.not. continues(problem)) code = library_code%discretisation

@@ -35,13 +35,15 @@ module contact_cases_accuracy
 contains
 
    !> Solve one case: as it is, or with the grid that its accuracy needs
-   subroutine solve_contact_case(session, spec, log, result, error, folder)
+   subroutine solve_contact_case(session, spec, log, result, solved, error, folder)
       type(contact_session), intent(inout) :: session
-      !> Complete specification; where an accuracy is asked for, on return with the elements, the order and EPS that were chosen
-      type(case_spec), intent(inout) :: spec
+      !> Complete specification
+      type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       !> Gets `accuracy` where one was asked for
       type(patch_result), intent(inout) :: result
+      !> The case with the elements, the order and EPS that its accuracy has chosen; unallocated where none was asked for
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
       character(len=*), intent(in), optional :: folder
@@ -59,12 +61,12 @@ contains
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
       if (chosen%found) then
          call session%series%clear()
-         call approximate(session, chosen, spec, log, result, error, folder)
+         call approximate(session, chosen, spec, log, result, solved, error, folder)
       else
-         call refine(session, spec, trim(chosen%words), log, result, error, folder)
+         call refine(session, spec, trim(chosen%words), log, result, solved, error, folder)
       end if
       if (.not. allocated(error) .and. spec%has_stress .and. result%status%has_result()) then
-         call subsurface_stresses(spec, result, error)
+         call subsurface_stresses(solved, result, error)
          if (.not. allocated(error)) call warn_of_steps(result, log)
       end if
       call log%publish()
@@ -102,13 +104,15 @@ contains
    end subroutine refuse_contact
 
    !> Solve a case by a simplified method whose error is known
-   subroutine approximate(session, chosen, spec, log, result, error, folder)
+   subroutine approximate(session, chosen, spec, log, result, solved, error, folder)
       type(contact_session), intent(inout) :: session
       !> The method
       type(approximate_method), intent(in) :: chosen
-      type(case_spec), intent(inout) :: spec
+      type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
+      !> As it was solved
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: folder
       type(accuracy_report) :: report
@@ -136,8 +140,9 @@ contains
       else
          report%reason = not_converged
       end if
-      call take_method(chosen, spec)
-      call tell_report(session, spec, result, report, log)
+      level = spec
+      call take_method(chosen, level)
+      call tell_report(session, level, result, report, solved, log)
       result%accuracy%order = 0
       call leave_errors(result)
    end subroutine approximate
@@ -155,25 +160,25 @@ contains
    end subroutine leave_errors
 
    !> From grid to grid until the estimate is small enough, or no finer one can be had
-   subroutine refine(session, spec, method, log, result, error, folder)
+   subroutine refine(session, spec, method, log, result, solved, error, folder)
       type(contact_session), intent(inout) :: session
-      type(case_spec), intent(inout) :: spec
+      type(case_spec), intent(in) :: spec
       !> Why no simplified method is chosen, where they are allowed; "" where they are not
       character(len=*), intent(in) :: method
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
+      !> As it was solved
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: folder
       type(accuracy_report) :: report
       type(patch_result), allocatable :: best
-      type(case_spec) :: asked
       type(accuracy_law) :: law
       type(level_grid) :: grid, next
       real(wp) :: expected
       integer :: fixed(2), acting, cases
       logical :: is_solved, is_lost, tightened
 
-      asked = spec
       report%asked = spec%iteration%accuracy
       report%method = method
       law = expected_law(spec)
@@ -182,7 +187,7 @@ contains
       expected = 0.0_wp
       do while (report%levels < most_levels)
          report%eps = grid%eps
-         call solve_level(session, asked, grid, log, result, is_solved, report%last_seconds, error, folder)
+         call solve_level(session, spec, grid, log, result, is_solved, report%last_seconds, error, folder)
          is_lost = allocated(error)
          if (is_lost) then
             call session%series%clear()
@@ -224,11 +229,11 @@ contains
          best = result
          grid = next
       end do
-      if (.not. is_lost) call session%series%take(asked, grid)
+      if (.not. is_lost) call session%series%take(spec, grid)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)
-      call tell_report(session, spec, result, report, log)
+      call tell_report(session, spec, result, report, solved, log)
    end subroutine refine
 
    !> A smaller tolerance for the next grid, where iterations stopped too early for what is asked
@@ -269,13 +274,16 @@ contains
       report%estimated = before
    end subroutine keep_better
 
-   !> Put what was chosen into specification and result; a warning where the accuracy was not reached
-   subroutine tell_report(session, spec, result, report, log)
+   !> Tell what was chosen; a warning where the accuracy was not reached
+   subroutine tell_report(session, spec, result, report, solved, log)
       !> With the curvatures of the case before
       type(contact_session), intent(in) :: session
-      type(case_spec), intent(inout) :: spec
+      !> As it was asked for
+      type(case_spec), intent(in) :: spec
       type(patch_result), intent(inout) :: result
       type(accuracy_report), intent(inout) :: report
+      !> The case with what was chosen
+      type(case_spec), allocatable, intent(out) :: solved
       type(log_type), intent(inout) :: log
 
       report%elements = [result%grid%mx, result%grid%my]
@@ -290,12 +298,13 @@ contains
             if (result%errors%reason /= "") report%reason = "there is no estimate: " // result%errors%reason
          end if
       end if
-      if (keeps_axes(spec)) call take_curvatures(session%curvatures, spec%grid)
-      call set_elements(spec%grid, report%elements, report%elements*report%sides)
-      spec%iteration%eps = report%eps
-      spec%iteration%order = acting_order(spec)
-      spec%estimates_errors = .true.
-      if (spec%motion == motion%steady_rolling) spec%rolling%dq = result%dq
+      allocate(solved, source=spec)
+      if (keeps_axes(spec)) call take_curvatures(session%curvatures, solved%grid)
+      call set_elements(solved%grid, report%elements, report%elements*report%sides)
+      solved%iteration%eps = report%eps
+      solved%iteration%order = acting_order(spec)
+      solved%estimates_errors = .true.
+      if (spec%motion == motion%steady_rolling) solved%rolling%dq = result%dq
       result%accuracy = report
       if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
    end subroutine tell_report

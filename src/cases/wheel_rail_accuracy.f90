@@ -35,18 +35,18 @@ module contact_cases_wheel_rail_accuracy
 contains
 
    !> Solve one case: as it is, or with the elements that its accuracy needs
-   subroutine solve_wheel_on_rail(session, spec, folder, log, result, error)
+   subroutine solve_wheel_on_rail(session, spec, folder, log, result, solved, error)
       type(wheel_rail_session), intent(inout) :: session
-      !> Complete specification of a case of module 1; where an accuracy is asked for, on return with DX, DS, the order and EPS
-      !> that were chosen
-      type(case_spec), intent(inout) :: spec
+      !> Complete specification of a case of module 1
+      type(case_spec), intent(in) :: spec
       !> Folder to which names of profile files are relative, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       !> Gets `accuracy` where one was asked for
       type(wheel_rail_result), intent(inout) :: result
+      !> The case with DX, DS, the order and EPS that its accuracy has chosen; unallocated where none was asked for
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: asked(2)
       integer :: k
 
       if (.not. (abs(spec%iteration%accuracy) > 0.0_wp .and. spec%solve)) then
@@ -57,14 +57,13 @@ contains
       call refuse_case(spec, error)
       if (allocated(error)) return
       call log%note()
-      asked = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
-      call refine(session, spec, folder, log, result, error)
+      call refine(session, spec, folder, log, result, solved, error)
       ! the next case is compared with what was asked for
-      session%problem%spec%search%dx = asked(1)
-      session%problem%spec%search%ds = asked(2)
+      session%problem%spec%search%dx = spec%wheel_rail%search%dx
+      session%problem%spec%search%ds = spec%wheel_rail%search%ds
       if (.not. allocated(error) .and. spec%has_stress) then
          do k = 1, size(result%patches)
-            call subsurface_stresses(spec, result%patches(k)%contact, error, spec%wheel_rail%left)
+            call subsurface_stresses(solved, result%patches(k)%contact, error, spec%wheel_rail%left)
             if (allocated(error)) exit
             call warn_of_steps(result%patches(k)%contact, log)
          end do
@@ -75,12 +74,14 @@ contains
    end subroutine solve_wheel_on_rail
 
    !> Smaller and smaller elements until the estimate is small enough, or no finer ones can be had
-   subroutine refine(session, spec, folder, log, result, error)
+   subroutine refine(session, spec, folder, log, result, solved, error)
       type(wheel_rail_session), intent(inout) :: session
-      type(case_spec), intent(inout) :: spec
+      type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(wheel_rail_result), intent(inout) :: result
+      !> As it was solved
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       type(accuracy_report) :: report
       type(wheel_rail_result), allocatable :: best
@@ -150,7 +151,7 @@ contains
             report%estimated = before
          end if
       end if
-      call tell_report(spec, sides, result, report, log)
+      call tell_report(spec, sides, result, report, solved, log)
    end subroutine refine
 
    !> Estimated relative error of all patches together, each weighted by its load; negative without contact
@@ -217,13 +218,16 @@ contains
       end do
    end subroutine next_sides
 
-   !> Put what was chosen into specification and result; a warning where the accuracy was not reached
-   subroutine tell_report(spec, sides, result, report, log)
-      type(case_spec), intent(inout) :: spec
+   !> Tell what was chosen; a warning where the accuracy was not reached
+   subroutine tell_report(spec, sides, result, report, solved, log)
+      !> As it was asked for
+      type(case_spec), intent(in) :: spec
       !> Of the last elements [mm]
       real(wp), intent(in) :: sides(2)
       type(wheel_rail_result), intent(inout) :: result
       type(accuracy_report), intent(inout) :: report
+      !> The case with what was chosen
+      type(case_spec), allocatable, intent(out) :: solved
       type(log_type), intent(inout) :: log
 
       report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%asked
@@ -234,11 +238,12 @@ contains
          report%reason = "smaller elements did not help"
       end if
       if (.not. report%sides(1) > 0.0_wp) report%sides = sides
-      spec%wheel_rail%search%dx = report%sides(1)
-      spec%wheel_rail%search%ds = report%sides(2)
-      spec%iteration%eps = report%eps
-      spec%iteration%order = 2
-      spec%estimates_errors = .true.
+      allocate(solved, source=spec)
+      solved%wheel_rail%search%dx = report%sides(1)
+      solved%wheel_rail%search%ds = report%sides(2)
+      solved%iteration%eps = report%eps
+      solved%iteration%order = 2
+      solved%estimates_errors = .true.
       result%accuracy = report
       if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
    end subroutine tell_report

@@ -8,6 +8,7 @@ module contact_experiment_batch
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : release_slot
+   use contact_cases_spec, only : case_spec
    use contact_experiment_state, only : complete_spec, experiment_state, find_slot, run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : severity
@@ -169,6 +170,7 @@ contains
       !> Shall nothing be kept of the cases before, a Hertzian geometry that another load has laid out included? Default no
       logical, intent(in), optional :: is_alone
       type(error_type), allocatable :: refusal
+      type(case_spec), allocatable :: solved
       type(case_status) :: status
       integer :: k
 
@@ -191,7 +193,7 @@ contains
          call find_slot(batch%state, this%reid, this%cpid, k)
          if (present(is_alone) .and. associated(batch%state%slots(k)%problem_slot%session)) &
             & batch%state%slots(k)%problem_slot%session%problem%has_geometry = .false.
-         call solve_one(batch%state, batch%state%slots(k), this, batch%state%log, status, refusal)
+         call solve_one(batch%state, batch%state%slots(k), this, batch%state%log, status, solved, refusal)
          if (status%has_result()) then
             batch%last = k
             call note_results(batch, this, room, error)

@@ -13,6 +13,7 @@ module contact_experiment_resume
    use contact_cases_wheel_rail_session, only : check_files
    use contact_cases_session, only : check_case
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot
+   use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_settings, letter_of, &
       & read_journal
    use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, numbered_slot, &
@@ -170,6 +171,7 @@ contains
       type(input_case) :: this
       type(log_type) :: quiet
       type(case_status) :: ended
+      type(case_spec), allocatable :: solved
       integer, allocatable :: first(:)
       integer :: j, k
       character(len=1) :: letter
@@ -189,7 +191,7 @@ contains
          if (j >= first(place_of(k, this%module_number))) then
             if (letter == case_letter%time) this%spec%limits%deadline%seconds = tiny(1.0_wp)
             call this%spec%limits%deadline%start()
-            call solve_one(state, state%slots(k), this, quiet, ended, error)
+            call solve_one(state, state%slots(k), this, quiet, ended, solved, error)
          else if (this%module_number == 1) then
             call open_wheel_rail(state%slots(k)%problem_slot)
             call check_files(state%slots(k)%wheel_rail, this%spec, state%place%folder, quiet, error)

@@ -26,8 +26,8 @@ module contact_experiment_run
    use contact_experiment_journal, only : journal_name
    use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
    use contact_experiment_resume, only : catch_up, find_point, note_case, resume_point, settings_of
-   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, run_settings, &
-      & solve_one, stop_question
+   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, &
+      & numbered_slot, run_settings, solve_one, stop_question
    use contact_input_experiment_file, only : experiment_reader, input_case, is_readable_format
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head, planned_text
@@ -484,11 +484,12 @@ contains
    !> Check, solve and write one case
    subroutine compute_case(state, this, go_on)
       type(experiment_state), intent(inout) :: state
-      type(input_case), intent(inout) :: this
+      type(input_case), intent(in) :: this
       !> Can the next case be read?
       logical, intent(out) :: go_on
       type(error_type), allocatable :: error
       type(case_head) :: head
+      type(case_spec), allocatable :: solved
       character(len=:), allocatable :: reason
       type(case_cost) :: cost
       real(wp) :: solving_before
@@ -521,7 +522,7 @@ contains
          solving_before = state%solving%wall
          call state%solving%start()
          state%log%level = this%spec%flow_level
-         call solve_one(state, slot, this, state%log, head%status, error)
+         call solve_one(state, slot, this, state%log, head%status, solved, error)
          call state%solving%halt()
          head%seconds = state%solving%wall - solving_before
          if (allocated(error) .or. this%spec%solve) call count_case(state, head%status)
@@ -531,26 +532,10 @@ contains
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
             call report_error(state, error)
-         else if (this%module_number == 1) then
-            call state%writing%start()
-            if (this%spec%solve) then
-               call write_wheel_rail(state%log, this%spec, slot%wheel_rail_result)
-               call write_wheel_rail_files(state%place%results, this%number, this%reid, this%spec, slot%wheel_rail_result, error)
-               if (allocated(error)) call report_error(state, error)
-               if (state%exports%wanted()) then
-                  call state%exports%write_wheel_rail(head, this%spec, slot%wheel_rail, slot%wheel_rail_result, error)
-                  if (allocated(error)) call report_error(state, error)
-               end if
-            end if
-            call state%writing%halt()
+         else if (allocated(solved)) then
+            call write_results(state, this, solved, slot, head)
          else if (this%spec%solve) then
-            call state%writing%start()
-            call write_results(state, this, slot%result)
-            if (state%exports%wanted()) then
-               call state%exports%write_contact(head, this%spec, slot%result, error)
-               if (allocated(error)) call report_error(state, error)
-            end if
-            call state%writing%halt()
+            call write_results(state, this, this%spec, slot, head)
          end if
          call note_case(state, this, head%status, slot)
       end associate
@@ -580,26 +565,59 @@ contains
       end do
    end subroutine refusal_of
 
-   !> Report, .mat and .subs file of a solved case
-   subroutine write_results(state, this, result)
+   !> Everything that is written of a solved case of either module
+   subroutine write_results(state, this, solved, slot, head)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
+      !> The case as it was solved
+      type(case_spec), intent(in) :: solved
+      !> With its results
+      type(numbered_slot), intent(inout) :: slot
+      !> For files of other programs
+      type(case_head), intent(in) :: head
+      type(error_type), allocatable :: error
+
+      call state%writing%start()
+      if (this%module_number == 1) then
+         call write_wheel_rail(state%log, solved, slot%wheel_rail_result)
+         call write_wheel_rail_files(state%place%results, this%number, this%reid, solved, slot%wheel_rail_result, error)
+         if (allocated(error)) call report_error(state, error)
+      else
+         call write_contact_files(state, this, solved, slot%result)
+      end if
+      if (state%exports%wanted()) then
+         if (this%module_number == 1) then
+            call state%exports%write_wheel_rail(head, solved, slot%wheel_rail, slot%wheel_rail_result, error)
+         else
+            call state%exports%write_contact(head, solved, slot%result, error)
+         end if
+         if (allocated(error)) call report_error(state, error)
+      end if
+      call state%writing%halt()
+   end subroutine write_results
+
+   !> Report, .mat and .subs file of a solved case of module 3
+   subroutine write_contact_files(state, this, solved, result)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(in) :: this
+      !> The case as it was solved
+      type(case_spec), intent(in) :: solved
       type(patch_result), intent(in) :: result
       type(error_type), allocatable :: error
 
-      call write_case(state%log, this%spec, result)
-      if (this%spec%mat_file >= 1) then
-         call write_mat_file(case_file_name(state%place%results, this%number, "mat", this%reid, 0), this%spec, result, &
+      call write_case(state%log, solved, result)
+      if (solved%mat_file >= 1) then
+         call write_mat_file(case_file_name(state%place%results, this%number, "mat", this%reid, 0), solved, result, &
             & result%status, error)
          if (allocated(error)) call report_error(state, error)
       end if
-      if (.not. this%spec%has_stress .or. .not. allocated(result%subsurface)) return
-      call write_subsurface(state%log, this%spec, result)
-      if (this%spec%subsurface%matfil >= 1) then
-         call write_subs_file(case_file_name(state%place%results, this%number, "subs", this%reid, 0), this%spec, result, error)
+      if (.not. solved%has_stress .or. .not. allocated(result%subsurface)) return
+      call write_subsurface(state%log, solved, result)
+      if (solved%subsurface%matfil >= 1) then
+         call write_subs_file(case_file_name(state%place%results, this%number, "subs", this%reid, 0), solved, result, error)
          if (allocated(error)) call report_error(state, error)
       end if
-   end subroutine write_results
+   end subroutine write_contact_files
 
    !> Number of cases in the input, as far as it can be read
    subroutine count_planned(state)

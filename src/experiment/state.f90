@@ -8,6 +8,7 @@ module contact_experiment_state
    use contact_base_log, only : log_type
    use contact_cases_accuracy, only : solve_contact_case
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot
+   use contact_cases_spec, only : case_spec
    use contact_cases_wheel_rail_accuracy, only : solve_wheel_on_rail
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_journal, only : journal_file
@@ -155,24 +156,25 @@ contains
    end subroutine find_slot
 
    !> Solve a case of either module
-   subroutine solve_one(state, slot, this, log, status, error)
+   subroutine solve_one(state, slot, this, log, status, solved, error)
       type(experiment_state), intent(in) :: state
       !> Contact problem of the case
       type(numbered_slot), intent(inout) :: slot
-      !> On return with the grid that its accuracy needs, where one is asked for
-      type(input_case), intent(inout) :: this
+      type(input_case), intent(in) :: this
       type(log_type), intent(inout) :: log
       !> How it ended
       type(case_status), intent(inout) :: status
+      !> The case with what its accuracy has chosen; unallocated where none was asked for
+      type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
 
       if (this%module_number == 1) then
          call open_wheel_rail(slot%problem_slot)
-         call solve_wheel_on_rail(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, error)
+         call solve_wheel_on_rail(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, solved, error)
          if (.not. allocated(error)) status = slot%wheel_rail_result%status
       else
          call open_contact(slot%problem_slot)
-         call solve_contact_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
+         call solve_contact_case(slot%session, this%spec, log, slot%result, solved, error, state%place%folder)
          if (.not. allocated(error)) status = slot%result%status
       end if
       if (.not. allocated(error)) return

@@ -25,6 +25,18 @@ KEEP = re.compile(r"::.*\bkeep\s*=\s*\d")
 CHOICE = re.compile(r"\bspec%(force|motion|normal|pressure|kernel|material_model|solver|variation|link|estimate) ?"
                     r"(==|/=|[<>]=?) ?\d")
 MIXED = re.compile(r"\bdigits%\w+ ?(==|/=) ?(motion|normal_control|force_control|variation|kernel_model|material_model)%")
+# Whoever makes a result reads the specification, and does not change it
+PROCEDURE = re.compile(r"^ *(?:\w+ )*subroutine (\w+)\(.*?^ *end subroutine \1$", re.MULTILINE | re.DOTALL)
+CHANGED_INPUT = re.compile(r"(?:type|class)\((?:\w+_spec|input_case)\), intent\(inout\)")
+MADE_RESULT = re.compile(r"(?:type|class)\(\w+_result\), intent\((?:inout|out)\)")
+
+
+def written_back(text):
+    """Names of procedures that may put what they compute into the specification"""
+    for match in PROCEDURE.finditer(text):
+        own = match[0].split("\n   contains\n")[0]
+        if CHANGED_INPUT.search(own) and MADE_RESULT.search(own):
+            yield match[1]
 
 
 def offences(lines, room="base"):
@@ -71,6 +83,9 @@ def main():
     assert not list(offences(told, "input")), "digits in messages of the reader"
     mixed = ["   if (spec%motion > 0) return", "   if (digits%t == motion%shift) return", "   if (spec%force /= force_control%a)"]
     assert [line[0] for line in offences(mixed, "capi")] == [1, 2], "numbers of choices"
+    made = ("   pure subroutine a(spec, result)\n      type(case_spec), intent({}) :: spec\n"
+            "      type(patch_result), intent(out) :: result\n   end subroutine a\n")
+    assert list(written_back(made.format("inout"))) == ["a"] and not list(written_back(made.format("in"))), "results in the input"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
     keys = {f"{group}.{key}" if group else key: name
@@ -90,6 +105,9 @@ def main():
             bad += 1
             print(f"FAILED {file}: no reader knows the choice {choice}")
     for file in files:
+        for name in written_back(file.read_text(encoding="utf-8")):
+            bad += 1
+            print(f"FAILED {file}: {name} makes a result and may change its specification: problem in, result out")
         for number, line, reason in offences(file.read_text(encoding="utf-8").splitlines(), file.parent.name):
             bad += 1
             print(f"FAILED {file}:{number}: {line}\n  {reason}")
