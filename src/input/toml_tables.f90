@@ -3,8 +3,10 @@ module contact_input_toml_tables
    use contact_cases_archive, only : case_archive
    use contact_control_words, only : key_length, words_of
    use contact_input_problems, only : problem_list, severity
+   use contact_text_bounds, only : bounds_of
    use contact_text_lexer, only : printable
    use contact_text_nearest, only : nearest_word
+   use contact_text_words, only : capital
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    implicit none (type, external)
    private
@@ -347,7 +349,13 @@ contains
       else
          place = nearest_word(self%document%key_of(index), keys)
          if (place > 0) then
-            message = message // ' is not known; did you mean "' // trim(keys(place)) // '"?'
+            ! S_WS on a roller: a number of other cases
+            if (bounds_of(capital(self%document%key_of(index))) > 0) then
+               message = message // " has no meaning in this case, whose choices do not ask for it"
+            else
+               message = message // " is not known"
+            end if
+            message = message // '; did you mean "' // trim(keys(place)) // '"?'
          else
             place = nearest_word(self%document%key_of(index), known)
             if (place > 0) then

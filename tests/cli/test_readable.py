@@ -114,6 +114,8 @@ class Readable(unittest.TestCase):
         errors = self.complaints(HEAD + REST.replace("fstat", "fsat"))
         self.assertIn('a.toml:9:1: "fsat" is not known; did you mean "fstat"?', errors)
         self.assertIn("a.toml:8:1: fstat is missing: static coefficient of friction; it belongs under [case.friction]", errors)
+        errors = self.complaints(HEAD + REST.replace("[case.material]", "[case.material]\ngg3 = 1.0"))
+        self.assertIn('"gg3" has no meaning in this case, whose choices do not ask for it; did you mean "gg', errors)
         errors = self.complaints(HEAD + REST.replace("[case.material]", "[case.materials]"))
         self.assertIn('"materials" is not known; did you mean "material"?', errors)
         self.assertIn("gg1 is missing: modulus of rigidity [N/mm2]", errors)

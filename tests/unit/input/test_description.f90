@@ -129,6 +129,7 @@ end module description_archives
 
 program test_description
    use contact_base_choices, only : material_model, solver_choice, variation
+   use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive
    use contact_cases_distance, only : visit_distance
@@ -140,6 +141,7 @@ program test_description
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, friction_set
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
+   use contact_control_digits, only : digit_table
    use contact_input_file_reader, only : file_reader, new_file_reader
    use contact_input_problems, only : problem_list, problem_text
    use contact_base_output_file, only : output_file
@@ -149,10 +151,13 @@ program test_description
    use contact_text_lexer, only : input_lexer
    use contact_wheelrail_spec, only : wheel_rail_spec
    use description_archives, only : collector, filler
-   use contact_friction_new_law, only : friction_model
+   use contact_friction_law, only : friction_driver, friction_law
+   use contact_friction_new_law, only : friction_model, new_friction_law
    implicit none (type, external)
-   !> Forms of the groups
-   integer, parameter :: forms = 72
+   !> The friction laws of L
+   integer, parameter :: laws(*) = pack(digit_table%choice, digit_table%name == "L" .and. digit_table%word /= "")
+   !> Forms of the groups; from the first law each of them by none, angle, position and rows
+   integer, parameter :: first_law = 53, forms = first_law - 1 + 4*size(laws)
    type(test_suite) :: suite
    logical :: met(size(bounds_table))
    integer :: form, k
@@ -180,6 +185,37 @@ contains
       is_elsewhere = any(others == name)
    end function is_elsewhere
 
+   !> Friction law of a form, -1 where it has none
+   pure integer function law_of(form) result(law)
+      integer, intent(in) :: form
+
+      law = -1
+      if (form >= first_law) law = laws(1 + mod(form - first_law, size(laws)))
+   end function law_of
+
+   !> A law that was read is made, and without slip and in the cold it is what it says to be at rest
+   subroutine laws_at_rest(suite, label, choice, sets)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: label
+      integer, intent(in) :: choice
+      type(friction_set), intent(in) :: sets(:)
+      class(friction_law), allocatable :: law
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: cause(:, :), mu(:, :), rest(:, :)
+      real(wp) :: lowest
+
+      call new_friction_law(choice, sets, law, error)
+      call suite%check(.not. allocated(error), label // ": new_friction_law makes the law")
+      if (allocated(error)) return
+      lowest = merge(-273.15_wp, 0.0_wp, law%driver() == friction_driver%temperature)
+      allocate(cause(1, size(sets)), source=lowest)
+      allocate(mu, rest, mold=cause)
+      call law%coefficient(cause, mu)
+      call law%at_rest(rest)
+      call suite%close_to(mu(1, :), rest(1, :), 1.0e-14_wp*maxval(rest), label &
+         & // ": its coefficient without slip or heat is fstat, which visit_friction_set sets")
+   end subroutine laws_at_rest
+
    !> Take one form of one group to or from an archive
    subroutine visit(a, form, spec)
       class(case_archive), intent(inout) :: a
@@ -187,8 +223,6 @@ contains
       type(case_spec), intent(inout), target :: spec
       integer, parameter :: solvers(0:5) = [solver_choice%default, solver_choice%default, solver_choice%convex_gs, &
          & solver_choice%gauss_seidel, solver_choice%default_friction, solver_choice%gd_steady]
-      integer, parameter :: laws(5) = [friction_model%coulomb, friction_model%linear, friction_model%rational, &
-         & friction_model%exponential, friction_model%temperature]
       integer, parameter :: grids(10) = [-6, -5, -4, -3, -2, -1, 1, 2, 3, 4], distances(4) = [1, 2, 3, 9]
 
       associate (pair => spec%wheel_rail, m => spec%material)
@@ -199,57 +233,56 @@ contains
             call visit_kinematics(a, spec%kinematics, mod(form, 2), (form - 7)/2)
          case (13)
             call visit_rolling(a, spec%rolling, material_model%elastic)
-         case (14:18)
-            call visit_friction(a, laws(form - 13), variation%none, spec%friction)
-         case (19:23)
-            call visit_friction(a, laws(form - 18), variation%by_angle, spec%friction)
-         case (24:28)
-            call visit_friction(a, laws(form - 23), variation%by_position, spec%friction)
-         case (29:33)
-            call visit_friction_rows(a, laws(form - 28), 3, spec%friction)
-         case (34:41)
+         case (14:21)
             call visit_elastic(a, m)
-            call visit_material_model(a, form - 34, m)
-         case (42)
+            call visit_material_model(a, form - 14, m)
+         case (22)
             call visit_sheet(a, m)
             call visit_conformal(a, m)
             call visit_coefficient_file(a, m)
-         case (43)
+         case (23)
             if (.not. allocated(m%table_y)) m%table_y = [-1.25_wp, 0.1_wp, 3.7_wp]
             if (.not. allocated(m%table_alpha)) m%table_alpha = [-0.3_wp, 0.01_wp, 0.2_wp]
             call visit_inclinations(a, m)
-         case (44)
+         case (24)
             call visit_damping(a, spec%damping)
             call visit_stress_output(a, spec%subsurface)
-         case (45:46)
-            call visit_heat(a, spec%heat, with_plastic_work=form == 46)
-         case (47:56)
-            spec%grid%form = grids(form - 46)
+         case (25:26)
+            call visit_heat(a, spec%heat, with_plastic_work=form == 26)
+         case (27:36)
+            spec%grid%form = grids(form - 26)
             call visit_grid(a, spec%grid)
-         case (57:60)
-            spec%geometry%form = distances(form - 56)
+         case (37:40)
+            spec%geometry%form = distances(form - 36)
             call visit_distance(a, spec%geometry, 6)
-         case (61:63)
-            spec%geometry%planform = form - 59
+         case (41:43)
+            spec%geometry%planform = form - 39
             if (.not. allocated(spec%geometry%rectangles)) allocate(spec%geometry%rectangles(4, 3))
             if (.not. allocated(spec%geometry%interaction)) allocate(spec%geometry%interaction(3, 3), source=0.5_wp)
             call visit_planform(a, spec%geometry)
-         case (64)
+         case (44)
             call visit_search(a, pair%search, with_step=.true.)
-         case (65:66)
-            call visit_track(a, pair%track, roller=form == 66)
-         case (67)
+         case (45:46)
+            call visit_track(a, pair%track, roller=form == 46)
+         case (47)
             call visit_deviations(a, pair%rail)
             call visit_springs(a, pair%rail)
             call visit_dimensions(a, pair%wheelset)
             call visit_flexibility(a, pair%wheelset)
-         case (68:69)
-            call visit_position(a, pair%wheelset, form == 68, with_force=form == 69)
-            call visit_velocity(a, pair%wheelset, form == 68, with_force=form == 69)
-         case (70:71)
-            call visit_profile(a, trim(merge("RFNAME", "WFNAME", form == 70)), pair%rail_profile)
-         case (72)
+         case (48:49)
+            call visit_position(a, pair%wheelset, form == 48, with_force=form == 49)
+            call visit_velocity(a, pair%wheelset, form == 48, with_force=form == 49)
+         case (50:51)
+            call visit_profile(a, trim(merge("RFNAME", "WFNAME", form == 50)), pair%rail_profile)
+         case (52)
             call visit_wear(a, spec%wear)
+         case (first_law:)
+            select case ((form - first_law)/size(laws))
+            case (0); call visit_friction(a, law_of(form), variation%none, spec%friction)
+            case (1); call visit_friction(a, law_of(form), variation%by_angle, spec%friction)
+            case (2); call visit_friction(a, law_of(form), variation%by_position, spec%friction)
+            case default; call visit_friction_rows(a, law_of(form), 3, spec%friction)
+            end select
          end select
       end associate
    end subroutine visit
@@ -267,7 +300,7 @@ contains
       type(file_reader) :: reader
       type(input_lexer), target :: lexer
       type(problem_list), target :: problems
-      character(len=8) :: label
+      character(len=16) :: label
       character(len=:), allocatable :: text
       character(len=:), allocatable :: reason
       character(len=400) :: line
@@ -275,6 +308,7 @@ contains
       logical :: complete
 
       write(label, '("form ", I0)') form
+      if (form >= first_law) write(label, '("L = ", I0, ", V = ", I0)') law_of(form), (form - first_law)/size(laws)
       allocate(asked%wheel_rail, source=wheel_rail_spec())
       allocate(found%wheel_rail, source=wheel_rail_spec())
       allocate(asked%friction%sets(3))
@@ -310,6 +344,7 @@ contains
       call suite%check(all(before%names == after%names), trim(label) // ": names")
       call suite%check(.not. before%without_bounds, trim(label) // ": every number has bounds")
       met = met .or. before%met
+      if (form >= first_law) call laws_at_rest(suite, trim(label), law_of(form), found%friction%sets)
    end subroutine round_trip
 
    !> Give a case values that fit to each other
@@ -324,7 +359,7 @@ contains
       do k = 1, size(spec%friction%sets)
          associate (set => spec%friction%sets(k))
             set%position = 0.11_wp*k
-            set%fkin = merge(set%fstat, set%fkin, form == 14 .or. form == 19 .or. form == 24 .or. form == 29)
+            set%fkin = merge(set%fstat, min(set%fkin, set%fstat), law_of(form) == friction_model%coulomb)
             set%dfheat = 0.5_wp*min(set%dfheat, 0.1_wp)
          end associate
       end do
@@ -353,9 +388,9 @@ contains
       spec%kinematics%fx = 0.3_wp
       spec%kinematics%fy = -0.4_wp
       spec%geometry%pl(2::2) = spec%geometry%pl(1::2) + 1.0_wp
-      if (form == 63) spec%geometry%rectangles = spread([-1.0_wp, 1.5_wp, -2.0_wp, 2.5_wp], 2, 3)
-      if (form == 65) spec%wheel_rail%track%gaught = -1.0_wp
-      if (form == 66) spec%wheel_rail%track%gaught = 14.0_wp
+      if (form == 43) spec%geometry%rectangles = spread([-1.0_wp, 1.5_wp, -2.0_wp, 2.5_wp], 2, 3)
+      if (form == 45) spec%wheel_rail%track%gaught = -1.0_wp
+      if (form == 46) spec%wheel_rail%track%gaught = 14.0_wp
    end subroutine fill
 
    !> The words of the first problem
