@@ -15,9 +15,12 @@ module contact_normal_conjugate_gradient
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    use contact_normal_few_elements, only : area_factor, solve_few
+   use contact_normal_gradient_loops, only : choose_free, go_along, mean_gap, mean_of_free, project, &
+      & residuals, turn_direction
    use contact_normal_last_answer, only : answer_type
    use contact_normal_problem, only : approach_scale, load_lowest_element, make_admissible, normal_problem, &
       & pressure_displacement
+   use contact_numeric_vectors, only : add, inner
    implicit none (type, external)
    private
 
@@ -29,7 +32,8 @@ module contact_normal_conjugate_gradient
       class(compliance), allocatable :: operator
       real(wp), allocatable :: p(:, :)
       real(wp), allocatable :: u(:, :), r(:, :), z(:, :), d(:, :), q(:, :), previous(:, :)
-      logical, allocatable :: free(:, :)
+      !> 1 where an element has pressure or wants it, 0 elsewhere
+      real(wp), allocatable :: free(:, :)
    end type level_type
 
    !> Scratch of all levels, no meaning between calls; level 1 belongs to the finest grid
@@ -174,9 +178,10 @@ contains
       type(log_type), intent(inout), optional :: log
       character(len=96) :: line
       real(wp) :: rz, dq, dr, worst, scale, h_min, best
-      integer :: it, since_best, updates
+      integer :: it, n, since_best, updates
       logical :: exact_u
 
+      n = problem%mx*problem%my
       h_min = minval(problem%h)
       level%previous = 0.0_wp
       level%d = 0.0_wp
@@ -187,7 +192,9 @@ contains
       call pressure_displacement(problem, operator, p, level%u)
       report%ended = ending%iteration_limit
       do it = 1, problem%maxgs + 1
-         call residuals(problem, level, p, pen, worst)
+         ! for a prescribed force the approach that makes the residual vanish on average
+         if (problem%force_prescribed) pen = mean_gap(n, problem%h, level%u, p)
+         worst = residuals(n, pen, problem%h, level%u, p, level%r)
          if (.not. worst <= huge(worst)) then
             report%ended = ending%diverged
             exit
@@ -253,35 +260,45 @@ contains
       real(wp), intent(inout) :: rz
       !> d.r and d.A d; 0 where no direction lowers the energy
       real(wp), intent(out) :: dr, dq
-      real(wp) :: beta, rz_old, rz_cross
+      real(wp) :: beta, products(2), rz_old
+      integer :: n
 
       dr = 0.0_wp
       dq = 0.0_wp
       rz_old = rz
-      level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
-      level%r = merge(level%r, 0.0_wp, level%free)
+      n = problem%mx*problem%my
+      call choose_free(n, p, problem%h, excluded_threshold, level%free, level%r)
       call operator%normal_inverse(level%r, level%z)
-      call project(problem, level%free, level%z)
-      rz = sum(level%r*level%z)
-      if (.not. rz > 0.0_wp) then
+      call settle(level%z)
+      if (.not. products(1) > 0.0_wp) then
          level%z = level%r
-         call project(problem, level%free, level%z)
-         rz = sum(level%r*level%z)
+         call settle(level%z)
       end if
+      rz = products(1)
       if (.not. rz > 0.0_wp) return
-      rz_cross = sum(level%previous*level%z)
       beta = 0.0_wp
-      if (.not. first) beta = max(0.0_wp, (rz - rz_cross)/rz_old)
-      level%previous = level%r
-      level%d = merge(level%z + beta*level%d, 0.0_wp, level%free)
-      call project(problem, level%free, level%d)
-      dr = sum(level%d*level%r)
+      if (.not. first) beta = max(0.0_wp, (rz - products(2))/rz_old)
+      call turn_direction(n, beta, level%z, level%r, level%d, level%previous)
+      call settle(level%d)
+      dr = products(1)
       if (.not. dr > 0.0_wp) then
          level%d = level%z
          dr = rz
       end if
       call pressure_displacement(problem, operator, level%d, level%q)
-      dq = sum(level%d*level%q)
+      dq = inner(n, level%d, level%q)
+
+   contains
+
+      !> Zero outside of the free elements, and for a prescribed force in total; products with this and the previous residual
+      subroutine settle(v)
+         real(wp), contiguous, intent(inout) :: v(:, :)
+         real(wp) :: mean
+
+         mean = 0.0_wp
+         if (problem%force_prescribed) mean = mean_of_free(n, level%free, v)
+         call project(n, level%free, mean, v, level%r, level%previous, products)
+      end subroutine settle
    end subroutine set_direction
 
    !> Go along the direction; pressures below zero are cut off, the force is kept
@@ -296,11 +313,11 @@ contains
       !> Were the displacements computed anew, not only changed by those of the step?
       logical, intent(out) :: exact_u
       real(wp) :: mean
+      integer :: n
 
-      p = p + alpha*level%d
-      exact_u = any(p < 0.0_wp)
+      n = problem%mx*problem%my
+      exact_u = go_along(n, alpha, level%d, p) < 0.0_wp
       if (exact_u) then
-         p = max(p, 0.0_wp)
          if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
       end if
       if (problem%force_prescribed) then
@@ -313,43 +330,9 @@ contains
       if (exact_u) then
          call pressure_displacement(problem, operator, p, level%u)
       else
-         level%u = level%u + alpha*level%q
+         call add(n, alpha, level%q, level%u)
       end if
    end subroutine take_step
-
-   !> r = -(h - pen + u) and the largest violation of the contact conditions [mm]
-   !>
-   !> For a prescribed force the approach is the mean that makes the residual vanish on average.
-   subroutine residuals(problem, level, p, pen, worst)
-      type(normal_problem), intent(in) :: problem
-      type(level_type), intent(inout) :: level
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), intent(inout) :: pen
-      real(wp), intent(out) :: worst
-      integer :: ix, iy, n
-      real(wp) :: total
-
-      if (problem%force_prescribed) then
-         total = 0.0_wp
-         n = 0
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (.not. p(ix, iy) > 0.0_wp) cycle
-               total = total + problem%h(ix, iy) + level%u(ix, iy)
-               n = n + 1
-            end do
-         end do
-         pen = total/max(1, n)
-      end if
-      worst = 0.0_wp
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            level%r(ix, iy) = pen - problem%h(ix, iy) - level%u(ix, iy)
-            if (.not. p(ix, iy) > 0.0_wp) level%r(ix, iy) = max(0.0_wp, level%r(ix, iy))
-            if (.not. abs(level%r(ix, iy)) <= worst) worst = abs(level%r(ix, iy))
-         end do
-      end do
-   end subroutine residuals
 
    !> Quality of an estimate: violation of the contact conditions relative to the approach
    real(wp) function estimate_quality(problem, u, p, pen) result(quality)
@@ -363,18 +346,6 @@ contains
       quality = max(maxval(abs(problem%h + u - approach), p > 0.0_wp), maxval(approach - problem%h - u))
       quality = quality/approach_scale(approach, minval(problem%h), quality)
    end function estimate_quality
-
-   !> Directions of zero total force on the free set, when the force is prescribed; zero elsewhere
-   subroutine project(problem, free, v)
-      type(normal_problem), intent(in) :: problem
-      logical, contiguous, intent(in) :: free(:, :)
-      real(wp), contiguous, intent(inout) :: v(:, :)
-      real(wp) :: mean
-
-      mean = 0.0_wp
-      if (problem%force_prescribed) mean = sum(v, free)/max(1, count(free))
-      v = merge(v - mean, 0.0_wp, free)
-   end subroutine project
 
    !> First pressures without any estimate
    subroutine first_guess(problem, operator, level, p, pen)
@@ -480,7 +451,6 @@ contains
          deallocate(level%p, level%u, level%r, level%z, level%d, level%q, level%previous, level%free)
       end if
       allocate(level%p(mx, my), level%u(mx, my), level%r(mx, my), level%z(mx, my), level%d(mx, my), &
-         & level%q(mx, my), level%previous(mx, my), source=0.0_wp)
-      allocate(level%free(mx, my), source=.false.)
+         & level%q(mx, my), level%previous(mx, my), level%free(mx, my), source=0.0_wp)
    end subroutine fit_level
 end module contact_normal_conjugate_gradient

@@ -197,7 +197,7 @@ contains
       real(wp), allocatable :: response(:, :, :, :)
       real(wp), allocatable :: field(:, :), period(:, :), factor(:, :, :)
       complex(wp), allocatable :: product(:, :, :), packed(:, :)
-      logical :: keeps, serves
+      logical :: has_begun(size(group, 1)), keeps, serves
       integer :: f, g, jx, jy, layer, n
 
       keeps = .false.
@@ -218,18 +218,19 @@ contains
          if (abs(z(layer)) > farthest_point) cycle
          if (.not. serves) call fill_responses(load, window, z(layer), response)
          do g = 1, size(group, 2)
-            product = (0.0_wp, 0.0_wp)
+            has_begun = .false.
             do n = 1, size(packs)
                if (packs(n)%group /= g) cycle
                if (serves) then
-                  call add_products(packs(n), shelf%factor(:, :, :, n, layer), spectrum, product)
+                  call add_products(packs(n), shelf%factor(:, :, :, n, layer), spectrum, product, has_begun)
                   cycle
                end if
                call transform_pack(packs(n), response, period_plan, period, packed, factor)
-               call add_products(packs(n), factor, spectrum, product)
+               call add_products(packs(n), factor, spectrum, product, has_begun)
                if (keeps) shelf%factor(:, :, :, n, layer) = factor
             end do
             do f = 1, size(group, 1)
+               if (.not. has_begun(f)) product(:, :, f) = (0.0_wp, 0.0_wp)
                call plan%backward(product(:, :, f), field)
                do jy = 1, size(iy)
                   do jx = 1, size(ix)

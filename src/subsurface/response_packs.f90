@@ -5,6 +5,7 @@
 !> responses, of different symmetry, are obtained from one real transform of their sum, and half of the real or imaginary
 !> parts tell all.
 module contact_subsurface_response_packs
+   use, intrinsic :: iso_c_binding, only : c_double, c_double_complex, c_int
    use contact_base_kinds, only : wp
    use contact_fft_plan, only : fft_plan
    use contact_subsurface_element_field, only : odd_in_x, odd_in_y
@@ -26,6 +27,22 @@ module contact_subsurface_response_packs
 
    !> Fields that are worked on together, to save memory: displacements, normal and shear stresses
    integer, parameter :: group(3, 3) = reshape([1, 2, 3,  4, 7, 9,  5, 6, 8], [3, 3])
+
+   interface
+      !> Product of a column of a response with one of a traction; in pack_products.c
+      pure subroutine multiply_column(n, half, factor, other_half, flags, traction, product) bind(c, name="contact_pack_product")
+         import :: c_double, c_double_complex, c_int
+         !> Length of the column, and how much of it has factors of its own
+         integer(c_int), value :: n, half
+         !> Factors; those of the rest are the same in reverse, times the other number
+         real(c_double), intent(in) :: factor(half)
+         real(c_double), value :: other_half
+         !> 1 or 0: times i; added to what there is
+         integer(c_int), intent(in) :: flags(2)
+         complex(c_double_complex), intent(in) :: traction(n)
+         complex(c_double_complex), intent(inout) :: product(n)
+      end subroutine multiply_column
+   end interface
 
 contains
 
@@ -103,7 +120,7 @@ contains
    end function is_odd_in_y
 
    !> Add the products of the responses of a pack and their tractions to the spectra of the fields
-   pure subroutine add_products(pack, factor, spectrum, product)
+   pure subroutine add_products(pack, factor, spectrum, product, has_begun)
       !> Which responses
       type(response_pack), intent(in) :: pack
       !> Real or imaginary parts of the spectra of the responses, shape (py/2 + 1, px/2 + 1, 4)
@@ -112,12 +129,17 @@ contains
       complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
       !> Spectra of the fields of the group, shape (py, px/2 + 1, 3)
       complex(wp), contiguous, intent(inout) :: product(:, :, :)
+      !> Which of them have something in them already; the others are overwritten
+      logical, intent(inout) :: has_begun(:)
       integer :: part
 
       do part = 1, n_parts
-         if (pack%field(part) == 0) cycle
-         call add_product(factor(:, :, part), is_odd_in_x(part), is_odd_in_y(part), spectrum(:, :, pack%load(part)), &
-            & product(:, :, pack%field(part)))
+         associate (field => pack%field(part))
+            if (field == 0) cycle
+            call add_product(factor(:, :, part), is_odd_in_x(part), is_odd_in_y(part), has_begun(field), &
+               & spectrum(:, :, pack%load(part)), product(:, :, field))
+            has_begun(field) = .true.
+         end associate
       end do
    end subroutine add_products
 
@@ -178,39 +200,23 @@ contains
       end do
    end subroutine take_out
 
-   !> Add the product of one response with a traction
-   pure subroutine add_product(factor, odd_x, odd_y, traction, product)
+   !> Product of one response with a traction, put in place of a field or added to it
+   pure subroutine add_product(factor, odd_x, odd_y, is_added, traction, product)
       !> Real or imaginary part of the spectrum of the response, shape (py/2 + 1, px/2 + 1)
       real(wp), contiguous, intent(in) :: factor(:, :)
       !> Its symmetry
       logical, intent(in) :: odd_x, odd_y
+      !> Is there something in the field already?
+      logical, intent(in) :: is_added
       !> Spectra of the traction and of the field, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(in) :: traction(:, :)
       complex(wp), contiguous, intent(inout) :: product(:, :)
-      real(wp) :: f, other_half
-      integer :: half, k, l, py
+      integer :: flags(2), k
 
-      py = size(traction, 1)
-      half = size(factor, 1)
-      other_half = merge(-1.0_wp, 1.0_wp, odd_y)
+      flags = merge(1, 0, [odd_x .neqv. odd_y, is_added])
       do k = 1, size(traction, 2)
-         if (odd_x .eqv. odd_y) then
-            do l = 1, half
-               product(l, k) = product(l, k) + factor(l, k)*traction(l, k)
-            end do
-            do l = half + 1, py
-               product(l, k) = product(l, k) + other_half*factor(py + 2 - l, k)*traction(l, k)
-            end do
-         else
-            do l = 1, half
-               f = factor(l, k)
-               product(l, k) = product(l, k) + cmplx(-f*aimag(traction(l, k)), f*real(traction(l, k)), wp)
-            end do
-            do l = half + 1, py
-               f = other_half*factor(py + 2 - l, k)
-               product(l, k) = product(l, k) + cmplx(-f*aimag(traction(l, k)), f*real(traction(l, k)), wp)
-            end do
-         end if
+         call multiply_column(size(traction, 1), size(factor, 1), factor(:, k), merge(-1.0_wp, 1.0_wp, odd_y), flags, &
+            & traction(:, k), product(:, k))
       end do
    end subroutine add_product
 end module contact_subsurface_response_packs

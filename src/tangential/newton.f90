@@ -14,6 +14,7 @@ module contact_tangential_newton
    use contact_tangential_newton_linear, only : solve_linear
    use contact_tangential_problem, only : add_creepages, apply_operator, divide_elements, slip_of, tangential_problem, &
       & tangential_solution, true_residual
+   use contact_tangential_slip_loops, only : step_and_project
    implicit none (type, external)
    private
 
@@ -193,7 +194,8 @@ contains
       if (problem%n_forces > 0) longest = creep_range/max(creep_range, norm2(correction))
       do attempt = 1, size(lengths)
          alpha = longest*lengths(attempt)
-         call step_and_project(problem, solution%p, alpha, workspace%step, workspace%trial)
+         call step_and_project(problem%mx*problem%my, problem%contact, problem%bound, alpha, solution%p, workspace%step, &
+            & workspace%trial)
          creep = solution%creep + alpha*correction
          call slip_of(problem, operator, workspace%trial, creep, workspace%trial_slip)
          trial = true_residual(problem, workspace%trial, workspace%trial_slip, system%r)
@@ -363,27 +365,4 @@ contains
       if (problem%n_forces > 0) write(line(len_trim(line) + 1:), "(A,2ES14.6)") ", creepages :", solution%creep(:problem%n_forces)
       call log%trace(5, trim(line))
    end subroutine trace_step
-
-   !> out := projection of p + alpha d onto the discs
-   subroutine step_and_project(problem, p, alpha, d, out)
-      type(tangential_problem), intent(in) :: problem
-      real(wp), contiguous, intent(in) :: p(:, :, :), d(:, :, :)
-      real(wp), intent(in) :: alpha
-      real(wp), contiguous, intent(inout) :: out(:, :, :)
-      integer :: ix, iy
-      real(wp) :: q(2), length
-
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            q = p(ix, iy, :) + alpha*d(ix, iy, :)
-            length = sqrt(q(1)**2 + q(2)**2)
-            if (.not. problem%contact(ix, iy)) then
-               q = 0.0_wp
-            else if (length > problem%bound(ix, iy)) then
-               q = q*(problem%bound(ix, iy)/length)
-            end if
-            out(ix, iy, :) = q
-         end do
-      end do
-   end subroutine step_and_project
 end module contact_tangential_newton

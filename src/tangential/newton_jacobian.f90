@@ -10,6 +10,7 @@ module contact_tangential_newton_jacobian
    use contact_grid_element_division, only : element
    use contact_tangential_problem, only : add_creepages, apply_operator, limits_before, residual_scale, &
       & tangential_problem, tangential_solution
+   use contact_tangential_slip_loops, only : jacobian_of_projection, linearise_projection, project_change
    use contact_tangential_slip_turns, only : slip_turns
    use contact_tangential_yield, only : return_map, yield_point
    implicit none (type, external)
@@ -106,8 +107,6 @@ contains
       type(tangential_solution), intent(in) :: solution
       !> Gets weights, directions and the residual field
       type(newton_workspace), intent(inout) :: workspace
-      integer :: ix, iy
-      real(wp) :: z(2), square, share, g
 
       if (allocated(workspace%point)) deallocate(workspace%point)
       if (problem%hardens()) then
@@ -120,34 +119,8 @@ contains
             & problem%direction, solution%p, problem%bound, solution%slip, system%r)
          call workspace%turns%act(workspace%trial_slip)
       end if
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            workspace%weight(ix, iy) = 0.0_wp
-            workspace%direction(ix, iy, 1) = 0.0_wp
-            workspace%direction(ix, iy, 2) = 0.0_wp
-            workspace%residual(ix, iy, 1) = 0.0_wp
-            workspace%residual(ix, iy, 2) = 0.0_wp
-            if (.not. problem%contact(ix, iy)) cycle
-            g = problem%bound(ix, iy)
-            z(1) = solution%p(ix, iy, 1) - system%r*workspace%trial_slip(ix, iy, 1)
-            z(2) = solution%p(ix, iy, 2) - system%r*workspace%trial_slip(ix, iy, 2)
-            square = z(1)**2 + z(2)**2
-            if (g <= 0.0_wp) then
-               z = 0.0_wp
-            else if (square <= g**2) then
-               workspace%weight(ix, iy) = 1.0_wp
-            else
-               share = 1.0_wp/sqrt(square)
-               workspace%direction(ix, iy, 1) = share*z(1)
-               workspace%direction(ix, iy, 2) = share*z(2)
-               share = g*share
-               workspace%weight(ix, iy) = share
-               z = share*z
-            end if
-            workspace%residual(ix, iy, 1) = solution%p(ix, iy, 1) - z(1)
-            workspace%residual(ix, iy, 2) = solution%p(ix, iy, 2) - z(2)
-         end do
-      end do
+      call linearise_projection(problem%mx*problem%my, problem%contact, problem%bound, solution%p, workspace%trial_slip, system%r, &
+         & workspace%weight, workspace%direction, workspace%residual)
    end subroutine linearise
 
    !> The same where the yield limit has a slope
@@ -251,17 +224,9 @@ contains
       !> Field of two components, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
-      integer :: ix, iy
-      real(wp) :: c
 
       if (allocated(workspace%point)) whole = v
-      do iy = 1, size(v, 2)
-         do ix = 1, size(v, 1)
-            c = workspace%direction(ix, iy, 1)*v(ix, iy, 1) + workspace%direction(ix, iy, 2)*v(ix, iy, 2)
-            v(ix, iy, 1) = workspace%weight(ix, iy)*(v(ix, iy, 1) - workspace%direction(ix, iy, 1)*c)
-            v(ix, iy, 2) = workspace%weight(ix, iy)*(v(ix, iy, 2) - workspace%direction(ix, iy, 2)*c)
-         end do
-      end do
+      call project_change(size(workspace%weight), workspace%weight, workspace%direction, v)
       if (allocated(workspace%point)) call add_radial(workspace, whole, v)
    end subroutine apply_d
 
@@ -280,8 +245,8 @@ contains
       !> Of the same shape: scaled residuals of the contact conditions, then of the forces
       real(wp), contiguous, target, intent(out) :: out(:)
       real(wp), pointer, contiguous :: dp(:, :, :), res(:, :, :)
-      real(wp) :: creep(2), c, vx, vy
-      integer :: ix, iy, k
+      real(wp) :: creep(2)
+      integer :: k
 
       dp(1:problem%mx, 1:problem%my, 1:2) => y(:system%n)
       res(1:problem%mx, 1:problem%my, 1:2) => out(:system%n)
@@ -303,15 +268,8 @@ contains
          call differentiate_return_map(problem, workspace, workspace%trial, res)
          res = dp - res
       else
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
-               vy = dp(ix, iy, 2) - system%r*(workspace%trial(ix, iy, 2) + creep(2))
-               c = workspace%direction(ix, iy, 1)*vx + workspace%direction(ix, iy, 2)*vy
-               res(ix, iy, 1) = dp(ix, iy, 1) - workspace%weight(ix, iy)*(vx - workspace%direction(ix, iy, 1)*c)
-               res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
-            end do
-         end do
+         call jacobian_of_projection(problem%mx*problem%my, workspace%weight, workspace%direction, dp, workspace%trial, system%r, &
+            & creep, res)
       end if
       do k = 1, system%n_forces
          out(system%n + k) = sum(dp(:, :, k))*system%g_norm/system%g_sum

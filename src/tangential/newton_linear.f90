@@ -5,8 +5,10 @@
 module contact_tangential_newton_linear
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
+   use contact_numeric_vectors, only : add, add_and_multiply, inner
    use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, newton_workspace, restart
    use contact_tangential_problem, only : add_creepages, tangential_problem
+   use contact_tangential_slip_loops, only : join_parts
    implicit none (type, external)
    private
 
@@ -67,19 +69,9 @@ contains
                call precondition(problem, operator, system, workspace, v(:n, j), z(:n, j), preconditionings)
                call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
                before = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
-               do k = 1, j
-                  h(k, j) = inner(n, v(:, k), v(:, j + 1))
-                  call add(n, -h(k, j), v(:, k), v(:, j + 1))
-               end do
-               after = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
-               if (after < shortened*before) then
-                  do k = 1, j
-                     t = inner(n, v(:, k), v(:, j + 1))
-                     h(k, j) = h(k, j) + t
-                     call add(n, -t, v(:, k), v(:, j + 1))
-                  end do
-                  after = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
-               end if
+               h(:j, j) = 0.0_wp
+               after = take_away(n, j, v, h(:j, j))
+               if (after < shortened*before) after = take_away(n, j, v, h(:j, j))
                h(j + 1, j) = after
                if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
                do k = 1, j - 1
@@ -120,34 +112,25 @@ contains
       end associate
    end subroutine solve_linear
 
-   !> Inner product, of vectors whose squares neither overflow nor vanish
-   !>
-   !> Four sums in turn, which the compiler may take together.
-   pure real(wp) function inner(n, a, b)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: a(n), b(n)
-      real(wp) :: sums(4)
-      integer :: k, whole
+   !> Take the parts along the first j vectors away from the next one, one after the other; the length that is left
+   real(wp) function take_away(n, j, v, h) result(length)
+      !> Length of the vectors that counts, and their number
+      integer, intent(in) :: n, j
+      !> The vectors
+      real(wp), contiguous, intent(inout) :: v(:, :)
+      !> Lengths of the parts are added here
+      real(wp), intent(inout) :: h(:)
+      real(wp) :: part
+      integer :: k
 
-      whole = n - mod(n, 4)
-      sums = 0.0_wp
-      do k = 1, whole, 4
-         sums = sums + a(k:k + 3)*b(k:k + 3)
+      part = inner(n, v(:, 1), v(:, j + 1))
+      do k = 1, j
+         h(k) = h(k) + part
+         if (k < j) part = add_and_multiply(n, -part, v(:, k), v(:, j + 1), v(:, k + 1))
       end do
-      inner = (sums(1) + sums(3)) + (sums(2) + sums(4))
-      do k = whole + 1, n
-         inner = inner + a(k)*b(k)
-      end do
-   end function inner
-
-   !> b := b + factor a
-   pure subroutine add(n, factor, a, b)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: factor, a(n)
-      real(wp), intent(inout) :: b(n)
-
-      b = b + factor*a
-   end subroutine add
+      call add(n, -part, v(:, j), v(:, j + 1))
+      length = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
+   end function take_away
 
    !> out := M^-1 v, bordered
    subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)
@@ -193,8 +176,6 @@ contains
       !> Of the same shape
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
-      integer :: ix, iy
-      real(wp) :: c, vx, vy, ux, uy, w, nx, ny
 
       workspace%trial = v
       call apply_d(workspace, workspace%trial)
@@ -208,20 +189,7 @@ contains
          call invert_operator(problem, operator, workspace%trial, u)
       end if
       if (allocated(workspace%point)) whole = u/system%r
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            w = workspace%weight(ix, iy)
-            nx = workspace%direction(ix, iy, 1)
-            ny = workspace%direction(ix, iy, 2)
-            ux = u(ix, iy, 1)/system%r
-            uy = u(ix, iy, 2)/system%r
-            c = nx*ux + ny*uy
-            vx = v(ix, iy, 1) - workspace%trial(ix, iy, 1)
-            vy = v(ix, iy, 2) - workspace%trial(ix, iy, 2)
-            u(ix, iy, 1) = w*(ux - nx*c) + vx
-            u(ix, iy, 2) = w*(uy - ny*c) + vy
-         end do
-      end do
+      call join_parts(problem%mx*problem%my, workspace%weight, workspace%direction, v, workspace%trial, system%r, u)
       if (allocated(workspace%point)) call add_radial(workspace, whole, u)
       if (allocated(problem%second)) call problem%second%keep_stiff(v, u)
    end subroutine precondition_field

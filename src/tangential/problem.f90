@@ -17,6 +17,7 @@ module contact_tangential_problem
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_second_order, only : second_order
+   use contact_tangential_slip_loops, only : squares
    use contact_tangential_slip_turns, only : turned_residual
    use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
@@ -224,43 +225,22 @@ contains
       type(tangential_problem), intent(in) :: problem
       real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
       real(wp), intent(in) :: r
-      real(wp) :: total, scale
+      real(wp) :: scale, sums(2), total
 
       if (problem%hardens()) then
          call add_yielding(problem, p, slip, r, total, scale)
-      else
-         total = plain_residual(problem, p, slip, r)
+      else if (allocated(problem%second)) then
+         total = turned_residual(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
+            & problem%direction, p, problem%bound, slip, r)
          scale = sum(problem%bound**2, mask=problem%contact)
+      else
+         call squares(problem%mx*problem%my, problem%contact, problem%bound, p, slip, r, sums)
+         total = sums(1)
+         scale = sums(2)
       end if
       square = 0.0_wp
       if (scale > 0.0_wp) square = total/scale
    end function squared_residual
-
-   !> Sum of |p - P_g(p - r S)|**2 over the contact [(N/mm2)2], where limits are bounds
-   pure real(wp) function plain_residual(problem, p, slip, r) result(total)
-      !> As in contact_residual
-      type(tangential_problem), intent(in) :: problem
-      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)
-      real(wp), intent(in) :: r
-      real(wp) :: z(2), square
-      integer :: ix, iy
-
-      if (allocated(problem%second)) then
-         total = turned_residual(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
-            & problem%direction, p, problem%bound, slip, r)
-         return
-      end if
-      total = 0.0_wp
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            if (.not. problem%contact(ix, iy)) cycle
-            z = [p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2)]
-            square = z(1)**2 + z(2)**2
-            if (square > problem%bound(ix, iy)**2) z = z*(problem%bound(ix, iy)/sqrt(square))
-            total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
-         end do
-      end do
-   end function plain_residual
 
    !> The same where the return map takes the place of the projection, and the sum of squares that it counts beside
    pure subroutine add_yielding(problem, p, slip, r, total, scale)

@@ -1,0 +1,34 @@
+/* Numbers taken four at once, for loops that are compiled twice: for all processors, and for those with AVX2, which are asked when
+ * the loop runs. Both have the same numbers to the last digit. Vectors are those of GCC and Clang.
+ *
+ * A file of loops is included twice by that of their doors: OF(name) is what a function is called there, TARGET its attribute, ROOTS
+ * takes four square roots. */
+#ifndef CONTACT_LANES_H
+#define CONTACT_LANES_H
+#include <math.h>
+
+typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef long long four_masks __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int four_flags __attribute__((vector_size(16), aligned(4), may_alias));
+
+#define FOUR(at) (*(four *)(at))
+#define READ_FOUR(at) (*(const four *)(at))
+
+/* Numbers where a mask tells, else 0, or other numbers */
+#define WHERE(mask, v) ((four)((mask) & (four_masks)(v)))
+#define CHOOSE(mask, v, w) ((four)(((mask) & (four_masks)(v)) | (~(mask) & (four_masks)(w))))
+/* Of logical values of Fortran */
+#define TRUE_OF(at) (__builtin_convertvector(*(const four_flags *)(at), four_masks) != 0)
+#define SUM_OF(v) (((v)[0] + (v)[2]) + ((v)[1] + (v)[3]))
+#define MAGNITUDES(v) ((four)((four_masks)(v)&0x7fffffffffffffffLL))
+#define ROOTS_ONE_BY_ONE(v) ((four){sqrt((v)[0]), sqrt((v)[1]), sqrt((v)[2]), sqrt((v)[3])})
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#define FOR_AVX2 __attribute__((target("avx2")))
+#define ROOTS_AT_ONCE(v) ((four)_mm256_sqrt_pd((__m256d)(v)))
+#define CALL(name, ...) (__builtin_cpu_supports("avx2") ? name##_avx2(__VA_ARGS__) : name##_anywhere(__VA_ARGS__))
+#else
+#define CALL(name, ...) name##_anywhere(__VA_ARGS__)
+#endif
+#endif

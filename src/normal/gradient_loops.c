@@ -1,0 +1,42 @@
+/* Loops over the elements of a window between two products of conjugate gradients; gradient_loops.f90 tells what, lanes.h why in C */
+#include "../base/lanes.h"
+
+double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p);
+double contact_gradient_residuals(int n, double pen, const double *h, const double *u, const double *p, double *r);
+void contact_gradient_choose_free(int n, const double *p, const double *h, double highest, double *free, double *r);
+double contact_gradient_mean(int n, const double *free, const double *v);
+void contact_gradient_project(int n, const double *free, double mean, double *v, const double *r, const double *s, double *products);
+void contact_gradient_turn(int n, double beta, const double *z, const double *r, double *d, double *previous);
+double contact_gradient_go_along(int n, double alpha, const double *d, double *p);
+
+#define OF(name) name##_anywhere
+#define TARGET
+#include "gradient_bodies.h"
+
+#ifdef __x86_64__
+#define OF(name) name##_avx2
+#define TARGET FOR_AVX2
+#include "gradient_bodies.h"
+#endif
+
+double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p) { return CALL(mean_gap, n, h, u, p); }
+
+double contact_gradient_residuals(int n, double pen, const double *h, const double *u, const double *p, double *r) {
+  return CALL(residuals, n, pen, h, u, p, r);
+}
+
+void contact_gradient_choose_free(int n, const double *p, const double *h, double highest, double *free, double *r) {
+  CALL(choose_free, n, p, h, highest, free, r);
+}
+
+double contact_gradient_mean(int n, const double *free, const double *v) { return CALL(mean, n, free, v); }
+
+void contact_gradient_project(int n, const double *free, double mean, double *v, const double *r, const double *s, double *products) {
+  CALL(project, n, free, mean, v, r, s, products);
+}
+
+void contact_gradient_turn(int n, double beta, const double *z, const double *r, double *d, double *previous) {
+  CALL(turn, n, beta, z, r, d, previous);
+}
+
+double contact_gradient_go_along(int n, double alpha, const double *d, double *p) { return CALL(go_along, n, alpha, d, p); }

@@ -1,0 +1,49 @@
+/* Loops over the elements of a window in Newton's method for friction; slip_loops.f90 tells what, lanes.h why in C.
+ *
+ * Fields of two components have the second one n numbers behind the first. */
+#include "../base/lanes.h"
+
+void contact_slip_residual(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums);
+void contact_slip_step(int n, const int *contact, const double *bound, double alpha, const double *p, const double *d, double *out);
+void contact_slip_linearise(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *weight,
+                            double *direction, double *residual);
+void contact_slip_project(int n, const double *weight, const double *direction, double *v);
+void contact_slip_jacobian(int n, const double *weight, const double *direction, const double *dp, const double *change, double r,
+                           const double *creep, double *out);
+void contact_slip_join(int n, const double *weight, const double *direction, const double *v, const double *projected, double r, double *u);
+
+#define OF(name) name##_anywhere
+#define TARGET
+#define ROOTS ROOTS_ONE_BY_ONE
+#include "slip_bodies.h"
+
+#ifdef __x86_64__
+#define OF(name) name##_avx2
+#define TARGET FOR_AVX2
+#define ROOTS ROOTS_AT_ONCE
+#include "slip_bodies.h"
+#endif
+
+void contact_slip_residual(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums) {
+  CALL(residual, n, contact, bound, p, slip, r, sums);
+}
+
+void contact_slip_step(int n, const int *contact, const double *bound, double alpha, const double *p, const double *d, double *out) {
+  CALL(step, n, contact, bound, alpha, p, d, out);
+}
+
+void contact_slip_linearise(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *weight,
+                            double *direction, double *residual) {
+  CALL(linearise, n, contact, bound, p, slip, r, weight, direction, residual);
+}
+
+void contact_slip_project(int n, const double *weight, const double *direction, double *v) { CALL(project_change, n, weight, direction, v); }
+
+void contact_slip_jacobian(int n, const double *weight, const double *direction, const double *dp, const double *change, double r,
+                           const double *creep, double *out) {
+  CALL(jacobian, n, weight, direction, dp, change, r, creep, out);
+}
+
+void contact_slip_join(int n, const double *weight, const double *direction, const double *v, const double *projected, double r, double *u) {
+  CALL(join, n, weight, direction, v, projected, r, u);
+}

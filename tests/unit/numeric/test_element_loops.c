@@ -1,0 +1,221 @@
+/* Loops in C over vectors, elements and spectra, of all kinds of processors that this one can be, against their definition, and
+ * against each other; those between transforms have test_lines.c */
+#include "normal/gradient_loops.c"
+#include "numeric/vectors.c"
+#include "subsurface/pack_products.c"
+#include "tangential/slip_loops.c"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Longest vector, and numbers of a buffer: two components, and one more that must stay as it is */
+enum { LONGEST = 19, ROOM = 2 * LONGEST + 1, FIELDS = 7 };
+
+/* Fields of two components, flags, sums; what a loop may change comes first */
+typedef struct {
+  double a[ROOM], b[ROOM], c[ROOM], sums[2];
+} buffers;
+
+static double from[FIELDS][ROOM], creep[2], r, factor;
+static int contact[LONGEST];
+
+enum { INNER, ADD, ADD_AND_MULTIPLY, MEAN_GAP, RESIDUALS, CHOOSE_FREE, MEAN, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
+       PROJECT_CHANGE, JACOBIAN, JOIN, COLUMN, KINDS };
+
+static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
+
+#define LOOPS(processor) \
+  static void try_##processor(int kind, int n, buffers *z) { \
+    double **f = (double *[FIELDS]){from[0], from[1], from[2], from[3], from[4], from[5], from[6]}; \
+    switch (kind) { \
+      case INNER: z->sums[0] = inner_##processor(n, f[0], f[1]); break; \
+      case ADD: add_##processor(n, factor, f[0], z->a); break; \
+      case ADD_AND_MULTIPLY: z->sums[0] = add_and_multiply_##processor(n, factor, f[0], z->a, f[1]); break; \
+      case MEAN_GAP: z->sums[0] = mean_gap_##processor(n, f[0], f[1], f[2]); break; \
+      case RESIDUALS: z->sums[0] = residuals_##processor(n, r, f[0], f[1], f[2], z->a); break; \
+      case CHOOSE_FREE: choose_free_##processor(n, f[2], f[0], 0.5, z->a, z->b); break; \
+      case MEAN: z->sums[0] = mean_##processor(n, f[3], f[0]); break; \
+      case PROJECT: project_##processor(n, f[3], r, z->a, f[0], f[1], z->sums); break; \
+      case TURN: turn_##processor(n, factor, f[0], f[1], z->a, z->b); break; \
+      case GO_ALONG: z->sums[0] = go_along_##processor(n, factor, f[0], z->a); break; \
+      case SLIP_RESIDUAL: residual_##processor(n, contact, f[4], f[0], f[1], r, z->sums); break; \
+      case STEP: step_##processor(n, contact, f[4], factor, f[0], f[1], z->a); break; \
+      case LINEARISE: linearise_##processor(n, contact, f[4], f[0], f[1], r, z->a, z->b, z->c); break; \
+      case PROJECT_CHANGE: project_change_##processor(n, f[3], f[5], z->a); break; \
+      case JACOBIAN: jacobian_##processor(n, f[2], f[5], f[0], f[1], r, creep, z->a); break; \
+      case JOIN: join_##processor(n, f[2], f[5], f[0], f[1], r, z->a); break; \
+      default: column_##processor(n, n / 2 + 1, f[0], factor, contact[0], contact[1], f[1], z->a); break; \
+    } \
+  }
+LOOPS(anywhere)
+#ifdef __x86_64__
+LOOPS(avx2)
+#endif
+
+/* P: vectors cut off at the bound; what is left of their length */
+static double share_of(double x, double y, double bound) {
+  const double length = hypot(x, y);
+  return length > bound ? bound / length : 1.0;
+}
+
+/* Element k by the definition; sums are added up */
+static void define_pressures(int kind, int k, buffers *z) {
+  const double h = from[0][k], u = from[1][k], p = from[2][k], gap = r - h - u;
+  const int is_free = from[3][k] > 0.0;
+  switch (kind) {
+    case INNER: z->sums[0] += h * u; break;
+    case ADD: z->a[k] += factor * h; break;
+    case ADD_AND_MULTIPLY:
+      z->a[k] += factor * h;
+      z->sums[0] += z->a[k] * u;
+      break;
+    case MEAN_GAP: z->sums[0] += p > 0.0 ? h + u : 0.0; break;
+    case RESIDUALS:
+      z->a[k] = p > 0.0 || gap > 0.0 ? gap : 0.0;
+      z->sums[0] = fmax(z->sums[0], fabs(z->a[k]));
+      break;
+    case CHOOSE_FREE:
+      z->a[k] = (p > 0.0 || z->b[k] > 0.0) && h < 0.5;
+      if (z->a[k] == 0.0) z->b[k] = 0.0;
+      break;
+    case MEAN: z->sums[0] += is_free ? h : 0.0; break;
+    case PROJECT:
+      z->a[k] = is_free ? z->a[k] - r : 0.0;
+      z->sums[0] += z->a[k] * h;
+      z->sums[1] += z->a[k] * u;
+      break;
+    case TURN:
+      z->a[k] = h + factor * z->a[k];
+      z->b[k] = u;
+      break;
+    default:
+      z->a[k] += factor * h;
+      z->sums[0] = fmin(z->sums[0], z->a[k]);
+      z->a[k] = fmax(z->a[k], 0.0);
+      break;
+  }
+}
+
+/* The same of tractions; n elements in all */
+static void define_tractions(int kind, int n, int k, buffers *z) {
+  const double px = from[0][k], py = from[0][n + k], sx = from[1][k], sy = from[1][n + k], g = from[4][k];
+  const double nx = from[5][k], ny = from[5][n + k], w = kind == PROJECT_CHANGE ? from[3][k] : from[2][k];
+  const double zx = px - r * sx, zy = py - r * sy, share = share_of(zx, zy, g), slides = contact[k] && g > 0.0 && share < 1.0;
+  const double x = px + factor * sx, y = py + factor * sy, vx = px - r * (sx + creep[0]), vy = py - r * (sy + creep[1]);
+  const double ux = z->a[k], uy = z->a[n + k], along = nx * ux + ny * uy;
+  switch (kind) {
+    case SLIP_RESIDUAL:
+      z->sums[0] += contact[k] ? pow(px - share * zx, 2) + pow(py - share * zy, 2) : 0.0;
+      z->sums[1] += contact[k] ? g * g : 0.0;
+      break;
+    case STEP:
+      z->a[k] = contact[k] ? share_of(x, y, g) * x : 0.0;
+      z->a[n + k] = contact[k] ? share_of(x, y, g) * y : 0.0;
+      break;
+    case LINEARISE:
+      z->a[k] = contact[k] && g > 0.0 ? share : 0.0;
+      z->b[k] = slides ? zx / hypot(zx, zy) : 0.0;
+      z->b[n + k] = slides ? zy / hypot(zx, zy) : 0.0;
+      z->c[k] = contact[k] ? px - share * zx : 0.0;
+      z->c[n + k] = contact[k] ? py - share * zy : 0.0;
+      break;
+    case PROJECT_CHANGE:
+      z->a[k] = w * (ux - nx * along);
+      z->a[n + k] = w * (uy - ny * along);
+      break;
+    case JACOBIAN:
+      z->a[k] = px - w * (vx - nx * (nx * vx + ny * vy));
+      z->a[n + k] = py - w * (vy - ny * (nx * vx + ny * vy));
+      break;
+    default:
+      z->a[k] = w * (ux - nx * along) / r + px - sx;
+      z->a[n + k] = w * (uy - ny * along) / r + py - sy;
+      break;
+  }
+}
+
+static void define(int kind, int n, buffers *z) {
+  double number = 0.0;
+  for (int k = 0; k < n; k++) {
+    if (kind == COLUMN) {
+      const double f = k <= n / 2 ? from[0][k] : factor * from[0][n - k], re = f * from[1][2 * k], im = f * from[1][2 * k + 1];
+      z->a[2 * k] = (contact[1] ? z->a[2 * k] : 0.0) + (contact[0] ? -im : re);
+      z->a[2 * k + 1] = (contact[1] ? z->a[2 * k + 1] : 0.0) + (contact[0] ? re : im);
+    } else if (kind < SLIP_RESIDUAL) {
+      define_pressures(kind, k, z);
+    } else {
+      define_tractions(kind, n, k, z);
+    }
+    number += kind == MEAN_GAP ? from[2][k] > 0.0 : from[3][k];
+  }
+  if ((kind == MEAN || kind == MEAN_GAP) && number > 0.0) z->sums[0] /= number;
+}
+
+static int differences(const buffers *found, const buffers *right) {
+  const double *f = found->a, *g = right->a;
+  int wrong = 0;
+  for (size_t k = 0; k < sizeof *found / sizeof *f; k++) wrong += !(fabs(f[k] - g[k]) <= 1e-13);
+  return wrong;
+}
+
+/* Numbers of both signs, zeros among the pressures and the bounds, and weights that are 0 or 1 */
+static void fill(buffers *start) {
+  double *all = start->a;
+  for (size_t k = 0; k < sizeof *start / sizeof *all; k++) all[k] = any_number();
+  for (int f = 0; f < FIELDS; f++)
+    for (int k = 0; k < ROOM; k++) from[f][k] = any_number();
+  for (int k = 0; k < ROOM; k++) {
+    if (rand() % 3 == 0) from[2][k] = 0.0;
+    from[3][k] = rand() % 2;
+    from[4][k] = rand() % 4 == 0 ? 0.0 : fabs(from[4][k]);
+  }
+  for (int k = 0; k < LONGEST; k++) contact[k] = rand() % 4 != 0;
+  r = any_number() + 2.0;
+  factor = any_number();
+  creep[0] = any_number();
+  creep[1] = any_number();
+  start->sums[0] = start->sums[1] = 0.0;
+}
+
+int main(void) {
+  int wrong = 0, unlike = 0, tried = 0, wide = 0;
+#ifdef __x86_64__
+  wide = __builtin_cpu_supports("avx2");
+#endif
+  for (int repeat = 0; repeat < 20; repeat++)
+    for (int n = 1; n < LONGEST; n++)
+      for (int kind = 0; kind < KINDS; kind++) {
+        buffers start, right, found;
+        int these;
+        fill(&start);
+        right = found = start;
+        define(kind, n, &right);
+        try_anywhere(kind, n, &found);
+        these = differences(&found, &right);
+        if (these > 0) printf("loop %d, %d numbers: %d wrong\n", kind, n, these);
+        wrong += these;
+        tried++;
+#ifdef __x86_64__
+        if (wide) {
+          buffers other = start;
+          try_avx2(kind, n, &other);
+          these = memcmp(&other, &found, sizeof found) != 0;
+          if (these > 0) printf("loop %d, %d numbers: other with AVX2\n", kind, n);
+          unlike += these;
+        }
+#endif
+      }
+  /* what is no number is not overlooked */
+  for (int k = 0; k < LONGEST; k++) {
+    buffers z;
+    memset(&z, 0, sizeof z);
+    memset(from, 0, sizeof from);
+    from[1][k] = NAN;
+    from[2][k] = 1.0;
+    try_anywhere(RESIDUALS, LONGEST, &z);
+    if (z.sums[0] <= 1e300) wrong++;
+  }
+  printf("%d loops, %d wrong numbers, %d other with AVX2%s\n", tried, wrong, unlike, wide ? "" : ", which is not here");
+  return wrong != 0 || unlike != 0;
+}
