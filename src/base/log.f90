@@ -47,9 +47,11 @@ module contact_base_log
       !> The warnings of the present case, so that each one is written once; 1...told are in use
       integer, private :: told = 0
       type(told_warning), private :: said(max_told)
-      !> Warnings that wait for `speak`, one a line; allocated while they are held back
+      !> Are warnings held back until `speak`? Those that are, one a line; unallocated when there is none
+      logical, private :: holds = .false.
       character(len=:), allocatable, private :: held
-      !> Warnings of a solution that may be made anew, one a line; allocated while they are noted in place of being written
+      !> The same for warnings of a solution that may be made anew: they are noted in place of being written
+      logical, private :: notes = .false.
       character(len=:), allocatable, private :: noted
    contains
       !> Write a line to both sinks
@@ -110,10 +112,10 @@ contains
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: told
 
-      if (allocated(self%held)) then
-         self%held = self%held // text // new_line(text)
-      else if (allocated(self%noted)) then
-         self%noted = self%noted // text // new_line(text)
+      if (self%holds) then
+         call append(self%held, text)
+      else if (self%notes) then
+         call append(self%noted, text)
       else if (associated(self%terms)) then
          call self%terms(text, told)
          call write_warning(self, told)
@@ -121,6 +123,16 @@ contains
          call write_warning(self, text)
       end if
    end subroutine log_warning
+
+   !> Add a line
+   pure subroutine append(lines, text)
+      !> Unallocated: none so far
+      character(len=:), allocatable, intent(inout) :: lines
+      character(len=*), intent(in) :: text
+
+      if (.not. allocated(lines)) lines = ""
+      lines = lines // text // new_line(text)
+   end subroutine append
 
    !> Write a warning once in a case
    subroutine write_warning(self, text)
@@ -203,13 +215,15 @@ contains
 
    subroutine log_hold(self)
       class(log_type), intent(inout) :: self
-      self%held = ""
+      self%holds = .true.
+      if (allocated(self%held)) deallocate(self%held)
    end subroutine log_hold
 
    subroutine log_speak(self)
       class(log_type), intent(inout) :: self
       character(len=:), allocatable :: held
 
+      self%holds = .false.
       if (.not. allocated(self%held)) return
       call move_alloc(self%held, held)
       call warn_of_lines(self, held)
@@ -217,13 +231,15 @@ contains
 
    subroutine log_note(self)
       class(log_type), intent(inout) :: self
-      self%noted = ""
+      self%notes = .true.
+      if (allocated(self%noted)) deallocate(self%noted)
    end subroutine log_note
 
    subroutine log_publish(self)
       class(log_type), intent(inout) :: self
       character(len=:), allocatable :: noted
 
+      self%notes = .false.
       if (.not. allocated(self%noted)) return
       call move_alloc(self%noted, noted)
       call self%begin_case()

@@ -19,7 +19,7 @@ module contact_capi_calculate1
    use contact_input_control, only : control_words, refuse_unbuilt_digits
    use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list
-   use contact_output_wheel_rail_files, only : write_wheel_rail_files
+   use contact_output_wheel_rail_files, only : has_files, write_wheel_rail_files
    use contact_output_report_wheel_rail, only : write_wheel_rail
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
@@ -39,7 +39,6 @@ contains
       !> Member of library_code
       integer, intent(out) :: code
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: folder
 
       code = library_code%other
       ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
@@ -56,10 +55,11 @@ contains
       call check_settings(digits, problem%spec, error)
       if (allocated(error)) return
       call dump_wheel_rail_case(this, problem)
-      call find_working_folder(folder)
+      call find_working_folder(problem%work_folder)
       ! callers step through time; programs of cases read each one as if it stood alone
       problem%wheel_rail%problem%in_loop = .true.
-      call solve_wheel_on_rail(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, problem%solved, error)
+      call solve_wheel_on_rail(problem%wheel_rail, problem%spec, problem%work_folder, log, problem%wheel_rail_result, &
+         & problem%solved, error)
    end subroutine solve_wheel_rail
 
    !> What was found becomes what is stored, and goes into print and files
@@ -189,6 +189,7 @@ contains
       !$omp critical (contact_printing)
       call write_wheel_rail(log, spec, problem%wheel_rail_result)
       !$omp end critical (contact_printing)
+      if (.not. has_files(spec)) return
       call find_result_file("caddon", path)
       call write_wheel_rail_files(path, problem%cases, problem%ire, spec, problem%wheel_rail_result, error, &
          & problem%metadata%time)

@@ -14,6 +14,9 @@ module contact_capi_caller
 
    public :: answer_place, caller, integer_list, min_value, real_list
 
+   !> Numbers that stand alone among the arguments of a routine, at most
+   integer, parameter, public :: most_alone = 8
+
    !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
    type :: raised_number
       character(len=6) :: name
@@ -25,12 +28,12 @@ module contact_capi_caller
       & raised_number("K0_MF", 1.0e-6_wp), raised_number("ALFAMF", 1.0e-6_wp), raised_number("BETAMF", 1.0e-6_wp), &
       & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp)]
 
-   !> Numbers of a caller
+   !> Numbers of a caller where he has them: they are not written to
    type :: integer_list
-      integer, allocatable :: v(:)
+      integer, pointer :: v(:) => null()
    end type integer_list
    type :: real_list
-      real(wp), allocatable :: v(:)
+      real(wp), pointer :: v(:) => null()
    end type real_list
 
    !> Where a result goes
@@ -63,6 +66,8 @@ module contact_capi_caller
       !> Lists of integers and of numbers; numbers that stand alone are the first list
       type(integer_list) :: integers(2)
       type(real_list) :: numbers(3)
+      !> Values of the numbers that stand alone
+      real(wp) :: alone(most_alone) = 0.0_wp
       !> Is there a list of integers? Otherwise integers stand among the reals
       logical :: has_integers = .false.
       !> Name of a file

@@ -152,7 +152,7 @@ contains
    subroutine set_creepages(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
-      real(wp) :: creep, spin
+      real(wp) :: creep, spin, values(3)
 
       creep = 1.0_wp
       spin = inward(problem%units, quantity%spin)
@@ -160,8 +160,8 @@ contains
          creep = inward(problem%units, quantity%length)
          spin = inward(problem%units, quantity%angle)
       end if
-      associate (values => a%numbers(1)%v, kinematics => problem%stored%kinematics)
-         values = values*[creep, creep, spin]
+      values = a%numbers(1)%v(:3)*[creep, creep, spin]
+      associate (kinematics => problem%stored%kinematics)
          if (.not. fits(a%call_of, "CKSI CETA CPHI", values)) return
          kinematics%cksi = values(1)
          kinematics%ceta = values(2)

@@ -63,11 +63,14 @@ contains
    !> Folder to which names of files are relative, with a separator at its end, "" for the current one
    subroutine find_working_folder(folder)
       !> As the caller of cntc_initializefirst gave it
-      character(len=:), allocatable, intent(out) :: folder
+      character(len=:), allocatable, intent(inout) :: folder
 
       !$omp critical (contact_registry)
-      folder = ""
-      if (allocated(library%work_folder)) folder = library%work_folder
+      if (allocated(library%work_folder)) then
+         folder = library%work_folder
+      else
+         folder = ""
+      end if
       !$omp end critical (contact_registry)
    end subroutine find_working_folder
 

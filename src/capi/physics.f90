@@ -162,7 +162,7 @@ contains
       type(library_problem), intent(inout), target :: problem
 
       if (problem%module_number == 1) then
-         a%numbers(1)%v = a%numbers(1)%v(2:)
+         a%numbers(1)%v => a%numbers(1)%v(2:)
          associate (search => problem%spec%wheel_rail%search)
             call a%real("DQREL", search%dqrel)
             call a%end_line()
@@ -271,6 +271,7 @@ contains
    subroutine set_tangential_forces(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
+      real(wp) :: shorter
 
       associate (force => a%numbers(1)%v, kinematics => problem%stored%kinematics)
          if (problem%module_number == 1) then
@@ -278,9 +279,9 @@ contains
             call a%end_line()
          ! forces beyond the friction bound are shortened to it, so that the bounds of FX are too narrow here
          else if (fits(a%call_of, "CKSI CETA", force, "FX FY")) then
-            force = force/max(1.0_wp, hypot(force(1), force(2))/largest_force)
-            kinematics%fx = force(1)
-            kinematics%fy = force(2)
+            shorter = max(1.0_wp, hypot(force(1), force(2))/largest_force)
+            kinematics%fx = force(1)/shorter
+            kinematics%fy = force(2)/shorter
          end if
       end associate
    end subroutine set_tangential_forces

@@ -90,6 +90,8 @@ module contact_capi_problem
       type(case_spec), allocatable :: solved
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
+      !> Folder to which names of their files are relative, as it was in the last calculation
+      character(len=:), allocatable :: work_folder
       !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
       type(potential_contact) :: coefficients
       !> Number of cases so far, and whether results are there

@@ -13,7 +13,7 @@ module contact_capi_profile_values
    use contact_control_units, only : outward, quantity
    use contact_output_finished_file, only : finished_file
    use contact_profile_curve, only : profile_curve
-   use contact_profile_request, only : profile_side
+   use contact_profile_request, only : profile_request, profile_side
    use contact_profile_sampling, only : curve_positions, line_point
    use contact_profile_surface, only : profile_surface, surface_cut
    use contact_text_words, only : integer_text
@@ -161,6 +161,7 @@ contains
       type(log_type) :: log
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder
+      type(profile_request) :: wanted
 
       if (allocated(given%surface)) then
          call given%surface%cut(sample%place, section)
@@ -177,7 +178,7 @@ contains
          plain%smoothing = 0.0_wp
          call find_working_folder(folder)
          call load_profile(problem%wheel_rail%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
-            & folder, points%curve, points%surface, log, error)
+            & folder, wanted, points%curve, points%surface, log, error)
          curve = given%curve
          if (.not. allocated(error)) curve = points%curve
       else

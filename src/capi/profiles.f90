@@ -15,7 +15,7 @@ module contact_capi_profiles
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
-   use contact_profile_request, only : profile_side
+   use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : profile_store
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
@@ -144,6 +144,7 @@ contains
       type(given_profile), intent(inout) :: given
       type(error_type), allocatable :: error
       type(log_type) :: log
+      type(profile_request) :: wanted
       character(len=:), allocatable :: folder
 
       !> Details of failures: nothing was given, the file cannot be opened, its content cannot be used
@@ -152,7 +153,7 @@ contains
       log = library_log()
       call find_working_folder(folder)
       profiles%watches_files = .false.
-      call load_profile(profiles, profile, side, folder, given%curve, given%surface, log, error)
+      call load_profile(profiles, profile, side, folder, wanted, given%curve, given%surface, log, error)
       given%detail = 0
       if (allocated(given%written_as)) deallocate(given%written_as)
       if (.not. allocated(error)) return

@@ -45,7 +45,7 @@ contains
       type(c_ptr), intent(in) :: arguments(*)
       type(library_problem), pointer :: problem
       type(result_view) :: view
-      type(caller) :: a
+      type(caller), target :: a
       integer :: k
 
       do k = 1, len(a%call_of%name)
@@ -156,17 +156,18 @@ contains
    subroutine unpack_arguments(kinds, arguments, a)
       character(kind=c_char), intent(in) :: kinds(*)
       type(c_ptr), intent(in) :: arguments(*)
-      type(caller), intent(inout) :: a
+      type(caller), intent(inout), target :: a
       real(c_double), pointer :: list(:)
       integer(c_int), pointer :: integers(:)
       character(kind=c_char), pointer :: letters(:)
-      integer :: k, place, length, answers, singles, integer_lists, real_lists
+      integer :: k, place, length, answers, singles, alone, integer_lists, real_lists
 
       answers = 0
       singles = 0
+      alone = 0
       integer_lists = 0
       real_lists = 0
-      allocate(a%numbers(1)%v(0))
+      a%numbers(1)%v => a%alone(:0)
       k = 2
       place = 1
       do while (kinds(k) /= c_null_char)
@@ -179,18 +180,20 @@ contains
             singles = singles + 1
             a%single(singles) = integer_at(arguments(place))
          case ("r")
-            a%numbers(1)%v = [a%numbers(1)%v, real_at(arguments(place))]
+            alone = alone + 1
+            a%alone(alone) = real_at(arguments(place))
+            a%numbers(1)%v => a%alone(:alone)
          case ("I")
             call take_length()
             integer_lists = integer_lists + 1
             a%has_integers = .true.
             call c_f_pointer(arguments(place), integers, [length])
-            a%integers(integer_lists)%v = integers
+            a%integers(integer_lists)%v => integers
          case ("R", "P")
             call take_length()
             real_lists = real_lists + 1
             call c_f_pointer(arguments(place), list, [length])
-            a%numbers(real_lists)%v = list
+            a%numbers(real_lists)%v => list
          case ("T")
             call take_length()
             call c_f_pointer(arguments(place), letters, [length])

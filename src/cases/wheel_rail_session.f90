@@ -42,6 +42,8 @@ module contact_cases_wheel_rail_session
       type(wheel_rail_memory) :: memory
       !> Profiles that were used so far
       type(profile_store) :: profiles
+      !> What was last asked of the store for rail and wheel
+      type(profile_request) :: wanted(2)
       !> Influence coefficients from a file
       type(kept_table) :: coefficients
    end type wheel_rail_session
@@ -175,24 +177,28 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> A ball ends at its axle, give or take roundings
       real(wp), parameter :: at_axle = 0.999_wp
+      real(wp) :: z(2)
 
       associate (problem => session%problem)
-         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, &
+         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, session%wanted(1), &
             & problem%rail, problem%rail_surface, log, error, spec%limits%confined)
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
-            & folder, problem%wheel, problem%wheel_surface, log, error, spec%limits%confined)
+            & folder, session%wanted(2), problem%wheel, problem%wheel_surface, log, error, spec%limits%confined)
          if (allocated(error)) return
-         associate (height => spec%wheel_rail%track%gaught, z => problem%rail%z%nodes())
-            if (spec%wheel_rail%new_rail_profile .and. height > maxval(z) - minval(z)) call log%warning("GAUGHT = " // &
-               & real_text(height) // " mm, but the profile of the rail is only " // real_text(maxval(z) - minval(z)) // &
+         z = problem%rail%z%node_range()
+         associate (height => spec%wheel_rail%track%gaught)
+            if (spec%wheel_rail%new_rail_profile .and. height > z(2) - z(1)) call log%warning("GAUGHT = " // &
+               & real_text(height) // " mm, but the profile of the rail is only " // real_text(z(2) - z(1)) // &
                & " mm high: its gauge end is taken for the gauge point")
          end associate
-         if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*maxval(problem%rail%z%nodes())) then
+         if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*z(2)) then
             call fatal_error(error, "NOMRADR = " // real_text(spec%wheel_rail%track%nomradr) // " mm is less than the depth of &
-               &the profile, " // real_text(maxval(problem%rail%z%nodes())) // " mm: its sides would lie beyond the axle")
-         else if (spec%wheel_rail%wheelset%nomradw < -at_axle*minval(problem%wheel%z%nodes())) then
+               &the profile, " // real_text(z(2)) // " mm: its sides would lie beyond the axle")
+         end if
+         z = problem%wheel%z%node_range()
+         if (.not. allocated(error) .and. spec%wheel_rail%wheelset%nomradw < -at_axle*z(1)) then
             call fatal_error(error, "NOMRADW = " // real_text(spec%wheel_rail%wheelset%nomradw) // " mm is less than the height &
-               &of the profile, " // real_text(-minval(problem%wheel%z%nodes())) // " mm: it would reach beyond the axle")
+               &of the profile, " // real_text(-z(1)) // " mm: it would reach beyond the axle")
          end if
       end associate
       if (.not. allocated(error)) call update_table(spec, folder, session%coefficients, log, error)
@@ -281,8 +287,35 @@ contains
       end associate
    end subroutine set_wheel_rail
 
+   !> Path of the file of a profile
+   pure subroutine name_file(profile, folder, file)
+      !> Name of the file, or points
+      type(profile_spec), intent(in) :: profile
+      !> To which the name is relative
+      character(len=*), intent(in) :: folder
+      !> Kept when it has the right length
+      character(len=:), allocatable, intent(inout) :: file
+      integer :: i, before
+
+      before = 0
+      if (.not. allocated(profile%points) .and. len(folder) > 0 .and. scan(profile%name(:min(1, len(profile%name))), "/\") == 0) &
+         & before = len(folder) + 1
+      if (allocated(file)) then
+         if (len(file) /= before + len(profile%name)) deallocate(file)
+      end if
+      if (.not. allocated(file)) allocate(character(len=before + len(profile%name)) :: file)
+      if (before > 0) then
+         file(:before - 1) = folder
+         file(before:before) = "/"
+      end if
+      do i = 1, len(profile%name)
+         file(before + i:before + i) = profile%name(i:i)
+         if (profile%name(i:i) == "\") file(before + i:before + i) = "/"
+      end do
+   end subroutine name_file
+
    !> Take a profile from the store, which reads it when it is new or has changed
-   subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error, confined)
+   subroutine load_profile(profiles, profile, side, folder, wanted, curve, surface, log, error, confined)
       !> Profiles of all cases, each read once
       type(profile_store), intent(inout) :: profiles
       !> Name of the file and how it is to be read
@@ -291,6 +324,8 @@ contains
       integer, intent(in) :: side
       !> To which the name is relative
       character(len=*), intent(in) :: folder
+      !> What was asked of the store before; gets what is asked now
+      type(profile_request), intent(inout) :: wanted
       !> Smoothed, in its own axes [mm]
       type(profile_curve), intent(inout) :: curve
       !> Allocated on exit for slices files
@@ -300,21 +335,22 @@ contains
       !> Must the file be below the folder? Default no
       logical, intent(in), optional :: confined
       type(prepared_profile), pointer :: prepared
-      type(profile_request) :: wanted
       character(len=5) :: body
-      integer :: i, before
+      integer :: before
+      logical :: is_confined
 
-      wanted%file = profile%name
-      do i = 1, len(wanted%file)
-         if (wanted%file(i:i) == "\") wanted%file(i:i) = "/"
-      end do
+      call name_file(profile, folder, wanted%file)
       if (allocated(profile%points)) then
          wanted%points = profile%points
-      else if (wanted%file(:1) /= "/" .and. len(folder) > 0) then
-         wanted%file = folder // "/" // wanted%file
+      else if (allocated(wanted%points)) then
+         deallocate(wanted%points)
       end if
-      if (present(confined)) then
-         if (confined) wanted%below = folder
+      is_confined = .false.
+      if (present(confined)) is_confined = confined
+      if (is_confined) then
+         wanted%below = folder
+      else if (allocated(wanted%below)) then
+         deallocate(wanted%below)
       end if
       wanted%side = side
       wanted%mirror_y = profile%mirror_y

@@ -33,7 +33,7 @@ module contact_input_problems
    type :: problem_list
       integer :: count = 0
       type(input_problem), allocatable :: items(:)
-      !> Name of the input file, "" when there is none
+      !> Name of the input file; unallocated when there is none
       character(len=:), allocatable :: file
    contains
       procedure :: start
@@ -53,9 +53,9 @@ contains
       character(len=*), intent(in) :: file
 
       self%count = 0
-      self%file = file
+      if (allocated(self%file)) deallocate(self%file)
+      if (len(file) > 0) self%file = file
       if (allocated(self%items)) deallocate(self%items)
-      allocate(self%items(8))
    end subroutine start
 
    !> Add a problem
@@ -71,6 +71,7 @@ contains
       integer, intent(in), optional :: column
       type(input_problem), allocatable :: longer(:)
 
+      if (.not. allocated(self%items)) allocate(self%items(8))
       if (self%count == size(self%items)) then
          allocate(longer(2*self%count))
          longer(:self%count) = self%items
@@ -82,7 +83,7 @@ contains
          item%what%kind = error_kind%input
          if (kind == severity%unsupported) item%what%kind = error_kind%unsupported
          item%what%message = message
-         if (len(self%file) > 0) item%what%file = self%file
+         if (allocated(self%file)) item%what%file = self%file
          item%what%line = line
          if (present(column)) item%what%column = column
       end associate

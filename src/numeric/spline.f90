@@ -24,8 +24,9 @@ module contact_numeric_spline
       !> Piece and place in it, and value and slope there: one search for several splines with the same pieces
       procedure :: place => place_in_piece
       procedure :: in_piece
-      !> Values at all ends of pieces
+      !> Values at all ends of pieces, and the smallest and the largest one of them
       procedure :: nodes => spline_nodes
+      procedure :: node_range
    end type cubic_spline
 
 contains
@@ -115,6 +116,15 @@ contains
       values(:size(self%s) - 1) = self%c(0, :)
       values(size(self%s)) = self%value(self%s(size(self%s)))
    end function spline_nodes
+
+   pure function node_range(self) result(range)
+      class(cubic_spline), intent(in) :: self
+      real(wp) :: range(2)
+      real(wp) :: last
+
+      last = self%value(self%s(size(self%s)))
+      range = [min(minval(self%c(0, :)), last), max(maxval(self%c(0, :)), last)]
+   end function node_range
 
    !> Piece and place in it, the place kept between the ends of the spline
    pure subroutine place_in_piece(self, s, piece, t)

@@ -14,9 +14,18 @@ module contact_output_wheel_rail_files
    implicit none (type, external)
    private
 
-   public :: write_wheel_rail_files
+   public :: has_files, write_wheel_rail_files
 
 contains
+
+   !> Does a case ask for any of these files?
+   pure logical function has_files(spec)
+      !> Files with all elements, and with stresses
+      type(case_spec), intent(in) :: spec
+
+      has_files = spec%mat_file >= 1
+      if (spec%has_stress) has_files = has_files .or. spec%subsurface%matfil >= 1
+   end function has_files
 
    !> Write the files that the case asks for; the first error ends it
    subroutine write_wheel_rail_files(base, case_number, result_element, spec, result, error, time)

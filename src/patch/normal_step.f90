@@ -175,20 +175,30 @@ contains
       !> Largest change, relative to the approach: pressures are nearly linear over it
       real(wp), parameter :: largest_change = 0.3_wp
       real(wp) :: change
+      integer :: ix, iy
 
       if (.not. problem%couples()) then
-         where (state%now%pn > 0.0_wp)
-            state%now%px = state%now%px/state%now%pn
-            state%now%py = state%now%py/state%now%pn
-         else where
-            state%now%px = 0.0_wp
-            state%now%py = 0.0_wp
-         end where
+         do iy = 1, size(state%now%pn, 2)
+            do ix = 1, size(state%now%pn, 1)
+               if (state%now%pn(ix, iy) > 0.0_wp) then
+                  state%now%px(ix, iy) = state%now%px(ix, iy)/state%now%pn(ix, iy)
+                  state%now%py(ix, iy) = state%now%py(ix, iy)/state%now%pn(ix, iy)
+               else
+                  state%now%px(ix, iy) = 0.0_wp
+                  state%now%py(ix, iy) = 0.0_wp
+               end if
+            end do
+         end do
       end if
       change = problem%pen - state%now%pen
       if (.not. allocated(state%now%rate) .or. problem%force_prescribed) return
       if (.not. abs(change) < largest_change*problem%pen) return
-      where (state%now%pn > 0.0_wp) state%now%pn = max(0.0_wp, state%now%pn + change*state%now%rate)
+      do iy = 1, size(state%now%pn, 2)
+         do ix = 1, size(state%now%pn, 1)
+            if (state%now%pn(ix, iy) > 0.0_wp) &
+               & state%now%pn(ix, iy) = max(0.0_wp, state%now%pn(ix, iy) + change*state%now%rate(ix, iy))
+         end do
+      end do
    end subroutine follow_approach
 
    !> Normal displacements by the present tangential tractions

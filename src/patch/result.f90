@@ -12,7 +12,8 @@ module contact_patch_result
    implicit none (type, external)
    private
 
-   public :: border_contact, error_estimate, mirrored, patch_result, hertz_result, reason_length, subsurface_result, wear_result
+   public :: border_contact, copy_result, error_estimate, mirrored, patch_result, hertz_result, reason_length, &
+      & subsurface_result, wear_result
 
    !> Room for the reason why there is no estimate
    integer, parameter :: reason_length = 96
@@ -167,6 +168,56 @@ module contact_patch_result
    end type patch_result
 
 contains
+
+   !> Copy a result, into the arrays that are there where their shapes are the same
+   subroutine copy_result(from, to)
+      !> As before on exit
+      type(patch_result), intent(inout) :: from
+      !> Names of effects stay what they were: who describes a case names them anew
+      type(patch_result), intent(inout) :: to
+      type(patch_result) :: kept, lent
+
+      call move_alloc(to%effects, kept%effects)
+      call move_fields(to, kept)
+      call move_fields(from, lent)
+      ! numbers, and what is there only when it is asked for
+      to = from
+      call move_fields(kept, to)
+      call move_alloc(kept%effects, to%effects)
+      to%division = lent%division
+      to%h = lent%h
+      to%mu = lent%mu
+      to%pn = lent%pn
+      to%px = lent%px
+      to%py = lent%py
+      to%un = lent%un
+      to%ux = lent%ux
+      to%uy = lent%uy
+      to%sx = lent%sx
+      to%sy = lent%sy
+      to%wx = lent%wx
+      to%wy = lent%wy
+      call move_fields(lent, from)
+   end subroutine copy_result
+
+   !> Move the fields that every result has
+   pure subroutine move_fields(from, to)
+      type(patch_result), intent(inout) :: from, to
+
+      call move_alloc(from%division, to%division)
+      call move_alloc(from%h, to%h)
+      call move_alloc(from%mu, to%mu)
+      call move_alloc(from%pn, to%pn)
+      call move_alloc(from%px, to%px)
+      call move_alloc(from%py, to%py)
+      call move_alloc(from%un, to%un)
+      call move_alloc(from%ux, to%ux)
+      call move_alloc(from%uy, to%uy)
+      call move_alloc(from%sx, to%sx)
+      call move_alloc(from%sy, to%sy)
+      call move_alloc(from%wx, to%wx)
+      call move_alloc(from%wy, to%wy)
+   end subroutine move_fields
 
    pure real(wp) function contact_area(self) result(area)
       class(patch_result), intent(in) :: self

@@ -77,34 +77,50 @@ contains
       type(area_factor), intent(inout) :: factor
       type(patch_state), intent(inout) :: state
       type(patch_result), intent(inout) :: result
-      !> [N/mm3], shape (mx, my)
+      !> [N/mm3], shape (mx, my); unallocated where it is kept in the state and nobody else asks for it
       real(wp), allocatable, intent(out) :: q(:, :)
       !> Relative residual
       real(wp), intent(out) :: reached
-      logical, allocatable :: contact(:, :)
-      logical :: has_estimate, is_found
+      logical :: has_estimate
+
+      if (problem%follows_approach) then
+         has_estimate = allocated(state%now%rate)
+         if (.not. has_estimate) allocate(state%now%rate, mold=result%pn)
+         call find_rate(problem, operator, factor, has_estimate, result, state%now%rate, reached)
+         if (problem%sensitivity >= sensitivity_choice%all) q = state%now%rate
+      else
+         allocate(q, mold=result%pn)
+         call find_rate(problem, operator, factor, .false., result, q, reached)
+      end if
+   end subroutine normal_stiffness
+
+   !> Derivative of the pressures, and dFn/dpen by it
+   subroutine find_rate(problem, operator, factor, has_estimate, result, q, reached)
+      type(patch_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(area_factor), intent(inout) :: factor
+      !> Is q one on entry?
+      logical, intent(in) :: has_estimate
+      type(patch_result), intent(inout) :: result
+      !> [N/mm3], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: q(:, :)
+      !> Relative residual
+      real(wp), intent(out) :: reached
+      logical :: is_found
       !> Where an estimate is improved: the error of the stiffness is the square of it
       real(wp), parameter :: rough = 5.0e-3_wp
       real(wp) :: tolerance
 
-      contact = result%division > element%exterior
-      has_estimate = problem%follows_approach .and. allocated(state%now%rate)
-      if (has_estimate) then
-         call move_alloc(state%now%rate, q)
-      else
-         allocate(q, mold=result%pn)
-      end if
       reached = 0.0_wp
       is_found = .false.
       if (problem%follows_approach .and. .not. allocated(problem%parts)) &
          & call factor%pressure_derivative(operator, result%pn, q, is_found)
       tolerance = problem%epsens
       if (has_estimate) tolerance = max(tolerance, rough)
-      if (.not. is_found) call pressure_derivative(operator, problem%parts, contact, tolerance, problem%mxsens, q, reached, &
-         & has_estimate)
-      if (problem%follows_approach) state%now%rate = q
+      if (.not. is_found) call pressure_derivative(operator, problem%parts, result%division > element%exterior, tolerance, &
+         & problem%mxsens, q, reached, has_estimate)
       result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
-   end subroutine normal_stiffness
+   end subroutine find_rate
 
    !> Changes of the tangential forces by the wanted inputs
    subroutine force_changes(problem, wanted, q, workspace, result, worst)

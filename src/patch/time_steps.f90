@@ -9,7 +9,7 @@ module contact_patch_time_steps
    implicit none (type, external)
    private
 
-   public :: link_time_steps, clear_time_step, elements_left_out
+   public :: link_time_steps, clear_time_step, copy_fields, elements_left_out
 
 contains
 
@@ -265,18 +265,20 @@ contains
       type(traction_fields) :: old
       integer :: ix, iy, jx, jy
 
-      if (kx == 0 .and. ky == 0 .and. all(shape(fields%division) == [grid%mx, grid%my])) then
+      if (all(shape(fields%division) == [grid%mx, grid%my])) then
          fields%grid = grid
+         if (kx /= 0 .or. ky /= 0) call shift_fields(fields, kx, ky)
          return
       end if
-      old = fields
-      deallocate(fields%division, fields%pn, fields%px, fields%py)
+      old%grid = fields%grid
+      call move_alloc(fields%division, old%division)
+      call move_alloc(fields%pn, old%pn)
+      call move_alloc(fields%px, old%px)
+      call move_alloc(fields%py, old%py)
+      call move_alloc(fields%rate, old%rate)
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
-      if (allocated(fields%rate)) then
-         deallocate(fields%rate)
-         allocate(fields%rate(grid%mx, grid%my), source=0.0_wp)
-      end if
+      if (allocated(old%rate)) allocate(fields%rate(grid%mx, grid%my), source=0.0_wp)
       do iy = 1, grid%my
          jy = iy + ky
          if (jy < 1 .or. jy > old%grid%my) cycle
@@ -291,6 +293,38 @@ contains
          end do
       end do
    end subroutine move_window
+
+   !> Values of fields move by some elements where they stand, in an order in which none is overwritten before it has moved
+   pure subroutine shift_fields(fields, kx, ky)
+      type(traction_fields), intent(inout) :: fields
+      !> An element gets what the one so many columns and rows on has; zero where that lies outside
+      integer, intent(in) :: kx, ky
+      integer :: mx, my, i, j, ix, iy, jx, jy
+
+      mx = size(fields%division, 1)
+      my = size(fields%division, 2)
+      do j = 1, my
+         iy = merge(j, my + 1 - j, ky >= 0)
+         jy = iy + ky
+         do i = 1, mx
+            ix = merge(i, mx + 1 - i, kx >= 0)
+            jx = ix + kx
+            if (min(jx, jy) >= 1 .and. jx <= mx .and. jy <= my) then
+               fields%division(ix, iy) = fields%division(jx, jy)
+               fields%pn(ix, iy) = fields%pn(jx, jy)
+               fields%px(ix, iy) = fields%px(jx, jy)
+               fields%py(ix, iy) = fields%py(jx, jy)
+               if (allocated(fields%rate)) fields%rate(ix, iy) = fields%rate(jx, jy)
+            else
+               fields%division(ix, iy) = element%exterior
+               fields%pn(ix, iy) = 0.0_wp
+               fields%px(ix, iy) = 0.0_wp
+               fields%py(ix, iy) = 0.0_wp
+               if (allocated(fields%rate)) fields%rate(ix, iy) = 0.0_wp
+            end if
+         end do
+      end do
+   end subroutine shift_fields
 
    !> No contact
    subroutine clear_time_step(fields, grid)

@@ -12,12 +12,15 @@ module contact_wheelrail_carry_over
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_time_steps, only : clear_time_step
+   use contact_patch_time_steps, only : clear_time_step, copy_fields
    use contact_patch_problem, only : carried, patch_problem, traction_fields
    implicit none (type, external)
    private
 
    public :: carried_step, lattice_box, lattice_window, place_on_lattice
+
+   !> Patches of a pair at most
+   integer, parameter, public :: max_patches = 10
 
    !> Bounds of a patch on the lattice [mm]
    type :: lattice_box
@@ -61,7 +64,7 @@ module contact_wheelrail_carry_over
       !> Give elements to the patches of the present time step
       procedure :: share_out
       !> Patches of that time step which a present one continues
-      procedure :: sources
+      procedure :: find_sources
       !> Window that holds all elements of a present patch
       procedure :: widen
       !> What a present patch continues from
@@ -78,7 +81,7 @@ contains
       if (allocated(self%patch)) deallocate(self%patch)
    end subroutine clear
 
-   !> Make place for the patches of a time step
+   !> Make place for the patches of a time step; arrays are kept when the number is the same
    subroutine start(self, patches, follows_rail, travel)
       class(carried_step), intent(inout) :: self
       !> Their number
@@ -88,8 +91,10 @@ contains
       !> Position of the wheelset along the rail [mm]
       real(wp), intent(in) :: travel
 
-      call self%clear()
-      allocate(self%patch(patches))
+      if (allocated(self%patch)) then
+         if (size(self%patch) /= patches) call self%clear()
+      end if
+      if (.not. allocated(self%patch)) allocate(self%patch(patches))
       self%follows_rail = follows_rail
       self%travel = travel
    end subroutine start
@@ -108,7 +113,10 @@ contains
       !> Bounds of the patch on the lattice [mm], as it was solved
       type(lattice_box), intent(in) :: box
 
-      self%patch(k)%fields = fields
+      associate (kept => self%patch(k)%fields)
+         call copy_fields(fields, kept)
+         kept%memory = fields%memory
+      end associate
       self%patch(k)%window = place_on_lattice(fields%grid, reference)
       self%patch(k)%box = box
    end subroutine add
@@ -182,14 +190,17 @@ contains
    !> Give every element that was in contact to one of the present patches
    subroutine share_out(self, boxes)
       class(carried_step), intent(inout) :: self
-      !> Bounds of the present patches
+      !> Bounds of the present patches, `max_patches` at most
       type(lattice_box), intent(in) :: boxes(:)
-      integer :: j, k, ix, iy, candidates(size(boxes)), n, nearest
+      integer :: j, k, ix, iy, candidates(max_patches), n, nearest
       real(wp) :: place(2), distance, shortest
 
       if (.not. allocated(self%patch)) return
       do j = 1, size(self%patch)
          associate (patch => self%patch(j), grid => self%patch(j)%fields%grid)
+            if (allocated(patch%owner)) then
+               if (any(shape(patch%owner) /= [grid%mx, grid%my])) deallocate(patch%owner)
+            end if
             if (.not. allocated(patch%owner)) allocate(patch%owner(grid%mx, grid%my))
             patch%owner = 0
             n = 0
@@ -235,19 +246,29 @@ contains
    end function squared_distance
 
    !> Patches of that time step which a present one continues, rising
-   pure function sources(self, k) result(list)
+   pure subroutine find_sources(self, k, list)
       class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
-      integer, allocatable :: list(:)
-      integer :: j
+      !> Kept when its size is right
+      integer, allocatable, intent(inout) :: list(:)
+      integer :: found(max_patches)
+      integer :: j, n
 
-      allocate(list(0))
-      if (.not. allocated(self%patch)) return
-      do j = 1, size(self%patch)
-         if (any(self%patch(j)%owner == k)) list = [list, j]
-      end do
-   end function sources
+      n = 0
+      if (allocated(self%patch)) then
+         do j = 1, size(self%patch)
+            if (.not. any(self%patch(j)%owner == k)) cycle
+            n = n + 1
+            found(n) = j
+         end do
+      end if
+      if (allocated(list)) then
+         if (size(list) /= n) deallocate(list)
+      end if
+      if (.not. allocated(list)) allocate(list(n))
+      list(:) = found(:n)
+   end subroutine find_sources
 
    !> Widen a window on the lattice so that it holds all elements given to a patch
    pure subroutine widen(self, k, window, grid)

@@ -11,7 +11,7 @@ module contact_wheelrail_flat_patch
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : wheel_rail_placement
-   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_region, only : contact_region, seeds_of
    use contact_wheelrail_spec, only : search_spec
    use contact_wheelrail_wheel_surface, only : remembered, wheel_row
    implicit none (type, external)
@@ -97,7 +97,7 @@ contains
       type(contact_region), intent(in) :: region
       real(wp), allocatable :: places(:)
 
-      places = rail%s_at([region%y, region%seeds])
+      places = rail%s_at([region%y, seeds_of(region)])
    end function start_places
 
    !> From the distance of the undeformed bodies to h, whose minimum is zero, and the approach

@@ -40,6 +40,8 @@ module contact_wheelrail_gap
       integer :: shows = 0
       !> Is the rail there at a mesh point?
       logical, allocatable, private :: on_rail(:)
+      !> Lateral positions in the track of the nodes of the wheel's profile [mm]
+      real(wp), allocatable, private :: lateral(:)
    end type gap_curve
 
    !> Mesh width relative to the elements
@@ -53,8 +55,13 @@ module contact_wheelrail_gap
    real(wp), parameter :: right_share = 0.01_wp
    !> A closer look shows so many mesh points to either side, with so many times as many points
    integer, parameter :: shown = 6, finer = 8
+   !> Points of a closer look at most
+   integer, parameter, public :: most_finer = 2*shown*finer + 1
    !> It is taken at gaps that are larger than the smallest one by less than this [mm]: deeper contacts are not narrow
    real(wp), parameter :: looked_at = 1.0_wp
+
+   !> Of the mesh width, so that no point is lost between two pieces
+   real(wp), parameter :: tiny_part = 1.0e-9_wp
 
    !> Heights above the axle of a roller are at least this part of its radius: points beside it would have none
    real(wp), parameter :: lowest_on_roller = 0.01_wp
@@ -201,41 +208,87 @@ contains
       type(gap_curve), allocatable, intent(inout), optional :: closer(:)
       !> Are rail and elements those that `gap` was measured for last? Default no
       logical, intent(in), optional :: keeps_rail
-      type(gap_curve) :: probe
       logical :: keeps
-      real(wp), allocatable :: lateral(:)
-      real(wp) :: range(2), dy, y, lowest
-      integer :: i, n, first, last
+      real(wp) :: range(2), dy
+      integer :: n
 
       if (allocated(gap%table)) deallocate(gap%table)
       if (allocated(gap%unweighed)) deallocate(gap%unweighed)
       range = rail%y_range()
       dy = max(mesh_share*ds, min_mesh)
       n = ceiling((range(2) - range(1))/dy) + 1
-      allocate(lateral(size(wheel%y%s)))
-      call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], lateral)
+      if (allocated(gap%lateral)) then
+         if (size(gap%lateral) /= size(wheel%y%s)) deallocate(gap%lateral)
+      end if
+      if (.not. allocated(gap%lateral)) allocate(gap%lateral(size(wheel%y%s)))
+      call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], gap%lateral)
       keeps = .false.
       if (present(keeps_rail)) keeps = keeps_rail
       if (.not. keeps) call lay_mesh(rail, range(1), dy, n, gap)
-      call fill_gap(rail, wheel, placement, lateral, gap)
-      if (.not. present(closer)) return
-      if (allocated(closer)) deallocate(closer)
-      allocate(closer(0))
+      call fill_gap(rail, wheel, placement, gap%lateral, gap)
+      if (present(closer)) call look_closer(rail, wheel, placement, gap, closer)
+   end subroutine measure_gap
+
+   !> Where the parabola through three mesh points misses the gap, show the surroundings on a finer mesh
+   subroutine look_closer(rail, wheel, placement, gap, closer)
+      !> As in `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Measured
+      type(gap_curve), intent(in) :: gap
+      !> Meshes of the last gap on entry: their arrays are kept
+      type(gap_curve), allocatable, intent(inout) :: closer(:)
+      type(gap_curve), allocatable :: fewer(:)
+      real(wp) :: y, lowest
+      integer :: i, n, first, last
+
+      if (.not. allocated(closer)) allocate(closer(0))
+      n = 0
       do i = 2, gap%n - 1
          if (gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
          if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > minval(gap%gap) + looked_at) cycle
          call smallest_in_row(gap%y(i - 1:i + 1), gap%gap(i - 1:i + 1), y, lowest)
-         call lay_mesh(rail, y, dy, 1, probe)
-         call fill_gap(rail, wheel, placement, lateral, probe)
-         if (abs(probe%gap(1) - lowest) <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
+         if (abs(gap_at(rail, wheel, placement, gap, y) - lowest) &
+            & <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
+         n = n + 1
+         if (n > size(closer)) closer = [closer, gap_curve()]
          first = max(1, i - shown)
          last = min(gap%n, i + shown)
-         call lay_mesh(rail, gap%y(first), dy/finer, (last - first)*finer + 1, probe)
-         call fill_gap(rail, wheel, placement, lateral, probe)
-         probe%shows = i
-         closer = [closer, probe]
+         call lay_mesh(rail, gap%y(first), gap%dy/finer, (last - first)*finer + 1, closer(n))
+         call fill_gap(rail, wheel, placement, gap%lateral, closer(n))
+         closer(n)%shows = i
       end do
-   end subroutine measure_gap
+      if (n == size(closer)) return
+      fewer = closer(:n)
+      call move_alloc(fewer, closer)
+   end subroutine look_closer
+
+   !> Gap at one lateral position [mm]
+   real(wp) function gap_at(rail, wheel, placement, gap, y) result(lowest)
+      !> As in `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Measured
+      type(gap_curve), intent(in) :: gap
+      !> In the track [mm]
+      real(wp), intent(in) :: y
+      real(wp) :: point(3), s, z
+      integer :: k
+      logical :: on_rail
+
+      lowest = no_surface
+      call rail%find(y, s, on_rail)
+      if (.not. on_rail) return
+      z = rail%z%value(s)
+      associate (lateral => gap%lateral)
+         do k = 1, size(lateral) - 1
+            if (.not. lateral(k) > lateral(k + 1)) cycle
+            if ((y - lateral(k))/gap%dy > tiny_part .or. (lateral(k + 1) - y)/gap%dy > tiny_part) cycle
+            point = locus_at(wheel, placement, rail, y, k, lateral(k), lateral(k + 1))
+            lowest = min(lowest, z + roller_drop(placement, point(1), z) - point(3))
+         end do
+      end associate
+   end function gap_at
 
    !> Lateral positions at even distances, and the rail there
    subroutine lay_mesh(rail, start, dy, n, gap)
@@ -303,8 +356,6 @@ contains
          integer, intent(in) :: piece
          !> Falling lateral positions of its ends [mm]
          real(wp), intent(in) :: lateral(2)
-         !> Of the mesh width, so that no point is lost between two pieces
-         real(wp), parameter :: tiny_part = 1.0e-9_wp
          real(wp) :: point(3), vertical
          integer :: i
 
@@ -355,29 +406,42 @@ contains
       real(wp), intent(out) :: lateral(:)
       !> The locus is at most this part of the radius above the lowest point of its circle
       real(wp), parameter :: highest = 0.2_wp
-      real(wp) :: margin, point(3), y, z, slope
-      integer :: beside(size(lateral))
-      integer :: i, n
+      real(wp) :: point(3)
+      integer :: i, n, last, here, next
 
       n = size(lateral)
-      associate (axes => placement%wheel%axes)
-         do i = 1, n
-            call wheel%y%in_piece(min(i, n - 1), start_of(i), y, slope)
-            call wheel%z%in_piece(min(i, n - 1), start_of(i), z, slope)
-            lateral(i) = placement%wheel%origin(2) + axes(2, 2)*y + axes(2, 3)*z
-            margin = (placement%wheel_radius + abs(z))*(furthest*abs(axes(2, 1)) + highest*abs(axes(2, 3)))
-            beside(i) = 0
-            if (lateral(i) + margin < range(1)) beside(i) = -1
-            if (lateral(i) - margin > range(2)) beside(i) = 1
-         end do
-      end associate
+      call estimate(1, here)
+      last = here
       do i = 1, n
-         if (beside(i) /= 0 .and. all(beside(max(1, i - 1):min(n, i + 1)) == beside(i))) cycle
-         point = locus_in_piece(wheel, placement, min(i, n - 1), start_of(i), rail)
-         lateral(i) = point(2)
+         next = here
+         if (i < n) call estimate(i + 1, next)
+         if (here == 0 .or. last /= here .or. next /= here) then
+            point = locus_in_piece(wheel, placement, min(i, n - 1), start_of(i), rail)
+            lateral(i) = point(2)
+         end if
+         last = here
+         here = next
       end do
 
    contains
+
+      !> Estimate the lateral position at a node
+      subroutine estimate(node, side)
+         integer, intent(in) :: node
+         !> The node is beside what is near: -1 below, 1 above; 0: near
+         integer, intent(out) :: side
+         real(wp) :: margin, y, z, slope
+
+         associate (axes => placement%wheel%axes)
+            call wheel%y%in_piece(min(node, n - 1), start_of(node), y, slope)
+            call wheel%z%in_piece(min(node, n - 1), start_of(node), z, slope)
+            lateral(node) = placement%wheel%origin(2) + axes(2, 2)*y + axes(2, 3)*z
+            margin = (placement%wheel_radius + abs(z))*(furthest*abs(axes(2, 1)) + highest*abs(axes(2, 3)))
+         end associate
+         side = 0
+         if (lateral(node) + margin < range(1)) side = -1
+         if (lateral(node) - margin > range(2)) side = 1
+      end subroutine estimate
 
       !> Place of a node in its piece: at the beginning, but for the last one [mm]
       pure real(wp) function start_of(node)

@@ -3,6 +3,7 @@ module contact_wheelrail_gather
    use contact_base_choices, only : contact_location, motion
    use contact_base_kinds, only : wp
    use contact_patch_border, only : find_border
+   use contact_patch_result, only : copy_result
    use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
@@ -21,7 +22,7 @@ contains
       !> Placement and what is prescribed
       type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches, and where the bodies are
-      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Gets patches, forces, moments, penetrations and status
       type(wheel_rail_result), intent(inout) :: result
       real(wp) :: force(3), moment(3), axes(3, 3), local(3)
@@ -84,7 +85,7 @@ contains
    !> Place and forces of one patch
    subroutine describe_patch(geometry, slot, patch)
       type(wheel_rail_geometry), intent(in) :: geometry
-      type(patch_slot), intent(in) :: slot
+      type(patch_slot), intent(inout) :: slot
       type(wheel_rail_patch), intent(inout) :: patch
       real(wp) :: local(3)
       type(frame) :: seen
@@ -108,7 +109,7 @@ contains
       patch%x_wheel = local(1)
       patch%y_wheel = local(2)
       patch%z_wheel = local(3)
-      patch%contact = slot%result
+      call copy_result(slot%result, patch%contact)
       patch%force = slot%force
       patch%moment = slot%moment
       patch%tilde_fn = slot%result%fn

@@ -5,7 +5,7 @@ module contact_wheelrail_geometry
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : surface_cut
    use contact_wheelrail_bodies, only : wheel_rail_bodies, place_bodies, rail_section
-   use contact_wheelrail_carry_over, only : carried_step, lattice_box
+   use contact_wheelrail_carry_over, only : carried_step, lattice_box, max_patches
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
    use contact_wheelrail_placement, only : wheel_rail_placement, place_wheel_rail
@@ -16,10 +16,7 @@ module contact_wheelrail_geometry
    implicit none (type, external)
    private
 
-   public :: max_patches, learned_share, wheel_rail_geometry, place, measure, rail_at, lattice_x, box_on_lattice
-
-   !> Most patches of a pair
-   integer, parameter :: max_patches = 10
+   public :: learned_share, wheel_rail_geometry, place, measure, rail_at, lattice_x, box_on_lattice
 
    !> Force of friction relative to the normal force that a tangential solution has found, and where
    type :: learned_share

@@ -14,6 +14,7 @@ module contact_wheelrail_memory
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : found_regions
    implicit none (type, external)
    private
 
@@ -62,6 +63,8 @@ module contact_wheelrail_memory
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
       type(wheel_rail_geometry) :: geometry
+      !> Regions of the last trial
+      type(found_regions) :: found
       !> Tractions of the last solved case
       type(carried_step) :: last
       !> Motion of the last case

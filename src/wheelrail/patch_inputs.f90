@@ -98,7 +98,7 @@ contains
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
       slot%problem%pen = approach
-      if (size(slot%region%part) > 1) call divide_patch(problem, rail, slot)
+      if (allocated(slot%region%part)) call divide_patch(problem, rail, slot)
       slot%problem%n_forces = 0
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
@@ -166,13 +166,13 @@ contains
       most = max_elements(slot%problem%grid)
       do
          if (geometry%searches_table) then
-            call variable_distance(geometry%bodies, slot%plane, size(slot%region%seeds) > 1, slot%problem%grid, h, approach, &
+            call variable_distance(geometry%bodies, slot%plane, allocated(slot%region%seeds), slot%problem%grid, h, approach, &
                & slot%strangers)
          else
             call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, start_places(rail, slot%region), &
                & slot%problem%grid, h, approach, slot%strangers)
          end if
-         call grow(slot, h < approach, most, .true., grown)
+         call grow(slot, h, approach, most, .true., grown)
          if (.not. grown) exit
       end do
    end subroutine cover_overlap
@@ -188,10 +188,10 @@ contains
    end function max_elements
 
    !> Add elements at sides where bodies overlap in the outermost ones
-   subroutine grow(slot, overlap, most, rows_too, grown)
+   subroutine grow(slot, h, approach, most, rows_too, grown)
       type(patch_slot), intent(inout) :: slot
-      !> In the elements of its grid
-      logical, intent(in) :: overlap(:, :)
+      !> Undeformed distance in the elements of its grid, and the approach: the bodies overlap where it is larger [mm]
+      real(wp), intent(in) :: h(:, :), approach
       !> Columns and rows at most
       integer, intent(in) :: most(2)
       !> May rows be added, too?
@@ -202,8 +202,8 @@ contains
       real(wp) :: y(2)
 
       associate (grid => slot%problem%grid, plane => slot%plane, region => slot%region)
-         more(1, :) = merge(1, 0, [any(overlap(1, :)), any(overlap(grid%mx, :))])
-         more(2, :) = merge(1, 0, [any(overlap(:, 1)), any(overlap(:, grid%my))])
+         more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
+         more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
          if (.not. rows_too) more(2, :) = 0
          ! what lies beyond the middle of the outermost elements is that of another patch
          if (plane%origin(1) + grid%x(1) < region%others_x(1)) more(1, 1) = 0
@@ -251,9 +251,9 @@ contains
             end if
             call surface_heights(geometry%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
             h = slot%on_rail - slot%on_wheel
-            call settle_distance(patch%grid, size(slot%region%seeds) > 1, h, approach, slot%strangers)
+            call settle_distance(patch%grid, allocated(slot%region%seeds), h, approach, slot%strangers)
             ! rows of a curved reference are chosen with room to spare
-            call grow(slot, h < approach, most, .not. conformal, grown)
+            call grow(slot, h, approach, most, .not. conformal, grown)
             if (.not. grown) exit
          end do
          if (allocated(patch%model%inclination)) then

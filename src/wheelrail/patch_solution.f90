@@ -7,9 +7,9 @@ module contact_wheelrail_patch_solution
    use contact_patch_time_steps, only : link_time_steps
    use contact_patch_problem, only : traction_fields
    use contact_patch_solve, only : solve_patch
-   use contact_wheelrail_carry_over, only : carried_step
+   use contact_wheelrail_carry_over, only : carried_step, max_patches
    use contact_wheelrail_curved_patch, only : curved_forces
-   use contact_wheelrail_geometry, only : learned_share, max_patches, wheel_rail_geometry
+   use contact_wheelrail_geometry, only : learned_share, wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_patch_inputs, only : set_up_patch
    use contact_wheelrail_problem, only : wheel_rail_problem

@@ -85,20 +85,35 @@ contains
       type(wheel_rail_memory), intent(in) :: memory
       !> Ends of the lower and the higher y
       type(buried_end), intent(out) :: buried(2)
+
+      if (has_own_section(problem)) then
+         call look_for_ends(problem, memory, section_at(problem, memory%geometry, 0.0_wp), buried)
+      else
+         call look_for_ends(problem, memory, memory%geometry%rail_in_track, buried)
+      end if
+   end subroutine find_buried_ends
+
+   !> The same with the section of the rail at the axle
+   subroutine look_for_ends(problem, memory, rail, buried)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> In track coordinates
+      type(profile_curve), intent(in) :: rail
+      type(buried_end), intent(inout) :: buried(2)
       !> Angle to both sides [rad], steps on a prismatic rail and on one that varies [mm], points to refine, and how often
       real(wp), parameter :: furthest = pi/6.0_wp, fine = 1.0_wp, coarse = 5.0_wp
       integer, parameter :: parts = 10, rounds = 3
       !> Less depth is rounding [mm]
       real(wp), parameter :: least = 1.0e-5_wp
-      type(profile_curve) :: rail
+      type(profile_curve) :: section
       type(slice_pair) :: slices
       real(wp) :: end(2), middle, half, step, top, y_range(2), angle, reach
       integer :: i, k, n, round
 
       associate (geometry => memory%geometry, wheel => memory%geometry%placement%wheel, &
          & r0 => memory%geometry%placement%wheel_radius)
-         rail = section_at(problem, geometry, 0.0_wp)
-         top = minval(rail%z%nodes())
+         y_range = rail%z%node_range()
+         top = y_range(1)
          y_range = rail%y_range()
          step = fine
          if (allocated(geometry%bodies%rail_strip)) then
@@ -159,11 +174,15 @@ contains
 
          do m = -count, count
             call find_on_circle(problem, memory%geometry, k, middle + m*step, end, place)
-            if (allocated(problem%rail_surface)) rail = section_at(problem, memory%geometry, place(1))
-            depth = depth_within(rail, in_rail_section(memory%geometry, place))
+            if (allocated(problem%rail_surface)) then
+               section = section_at(problem, memory%geometry, place(1))
+               depth = depth_within(section, in_rail_section(memory%geometry, place))
+            else
+               depth = depth_within(rail, in_rail_section(memory%geometry, place))
+            end if
             if (depth <= buried(k)%depth) cycle
             if (depth > 0.0_wp .and. allocated(memory%geometry%bodies%rail_strip)) then
-               associate (z => rail%height(place(2)))
+               associate (z => section%height(place(2)))
                   if (place(3) - z < slices%swing(memory%geometry%bodies%rail_strip, place(1), place(2), z)) cycle
                end associate
             end if
@@ -171,7 +190,7 @@ contains
             angle = middle + m*step
          end do
       end subroutine look_around
-   end subroutine find_buried_ends
+   end subroutine look_for_ends
 
    !> Point on the circle of an end of the wheel's profile, in track coordinates [mm]
    subroutine find_on_circle(problem, geometry, k, angle, end, place)
@@ -318,6 +337,12 @@ contains
       end do
    end subroutine find_ends
 
+   !> Is the section of the rail another one than that in which the gap was measured?
+   pure logical function has_own_section(problem)
+      type(wheel_rail_problem), intent(in) :: problem
+      has_own_section = allocated(problem%rail_surface) .or. problem%force == force_control%massless_rail
+   end function has_own_section
+
    !> The section of the rail where it is now, in track coordinates: springs have lowered it since the gap was measured
    function section_at(problem, geometry, x) result(rail)
       type(wheel_rail_problem), intent(in) :: problem
@@ -326,7 +351,7 @@ contains
       real(wp), intent(in) :: x
       type(profile_curve) :: rail
 
-      if (allocated(problem%rail_surface) .or. problem%force == force_control%massless_rail) then
+      if (has_own_section(problem)) then
          rail = rail_at(problem, geometry%placement, x)
       else
          rail = geometry%rail_in_track

@@ -12,7 +12,7 @@ module contact_wheelrail_reference_motion
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : wheel_rail_problem
-   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_region, only : contact_region, parts_of
    use contact_wheelrail_regions, only : find_regions
    implicit none (type, external)
    private
@@ -23,7 +23,7 @@ module contact_wheelrail_reference_motion
    type :: reference_motion
       !> Of its origin in the track [mm], and of the contact angle [rad]
       real(wp) :: origin(3) = 0.0_wp, angle = 0.0_wp
-      !> Changes of the factors between the parts of a blended patch, shape (parts, parts)
+      !> Changes of the factors between the parts of a blended patch, shape (parts, parts); otherwise unallocated
       real(wp), allocatable :: interaction(:, :)
    end type reference_motion
 
@@ -135,7 +135,7 @@ contains
       alike = size(a) == size(b)
       if (.not. alike) return
       do k = 1, size(a)
-         alike = alike .and. size(a(k)%part) == size(b(k)%part)
+         alike = alike .and. size(parts_of(a(k))) == size(parts_of(b(k)))
       end do
    end function alike
 
@@ -152,7 +152,7 @@ contains
       to = patch_frame(geometry%rail_in_track, geometry%placement, high)
       motion%origin = (to%origin - from%origin)/step
       motion%angle = (high%alpha - low%alpha)/step
-      motion%interaction = (high%interaction - low%interaction)/step
+      if (allocated(high%interaction)) motion%interaction = (high%interaction - low%interaction)/step
    end subroutine difference
 
    !> Derivatives of the gap at the places of a mesh, where it is small

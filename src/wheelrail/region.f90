@@ -9,7 +9,7 @@ module contact_wheelrail_region
    private
 
    public :: contact_region, region_box, far_away
-   public :: describe, describe_miss, describe_small, find_deepest
+   public :: describe, describe_miss, describe_small, find_deepest, parts_of, seeds_of
 
    !> Bounds in track coordinates [mm]
    type :: region_box
@@ -27,15 +27,17 @@ module contact_wheelrail_region
       real(wp) :: weight = 0.0_wp
       !> Smallest gap [mm], negative for interpenetration
       real(wp) :: gap = 0.0_wp
-      !> Lateral positions of the deepest points of the stretches of interpenetration that it was joined of [mm]
+      !> Lateral position of the deepest point of a single stretch of interpenetration [mm]
+      real(wp) :: seed = 0.0_wp
+      !> Those of the stretches that it was joined of; unallocated for a single one, see `seeds_of`
       real(wp), allocatable :: seeds(:)
       !> Where the overlap of other regions begins, x and y in track coordinates [mm]: a grid does not grow beyond it
       real(wp) :: others_x(2) = [-huge(1.0_wp), huge(1.0_wp)], others_y(2) = [-huge(1.0_wp), huge(1.0_wp)]
       !> Do the bodies interpenetrate?
       logical :: touches = .false.
-      !> Parts of a blended patch with their bounds; of size 1 otherwise
+      !> Parts of a blended patch with their bounds; unallocated otherwise, see `parts_of`
       type(region_box), allocatable :: part(:)
-      !> How much pressures of one part act on another, 0...1, shape (parts, parts)
+      !> How much pressures of one part act on another, 0...1, shape (parts, parts); allocated with the parts
       real(wp), allocatable :: interaction(:, :)
    end type contact_region
 
@@ -94,10 +96,34 @@ contains
       if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
       if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
       call find_deepest(gap, g, first, last, region%gap, region%deepest)
-      allocate(region%seeds(1), source=region%deepest(2))
-      allocate(region%part(1), source=region%box)
-      allocate(region%interaction(1, 1), source=1.0_wp)
+      region%seed = region%deepest(2)
    end subroutine describe
+
+   !> Lateral positions of the deepest points of all stretches of interpenetration of a region [mm]
+   pure function seeds_of(region) result(seeds)
+      !> Of one stretch, or joined of several
+      type(contact_region), intent(in) :: region
+      real(wp), allocatable :: seeds(:)
+
+      if (allocated(region%seeds)) then
+         seeds = region%seeds
+      else
+         seeds = [region%seed]
+      end if
+   end function seeds_of
+
+   !> Parts of a region with their bounds: itself where it is not blended
+   pure function parts_of(region) result(parts)
+      !> Blended or not
+      type(contact_region), intent(in) :: region
+      type(region_box), allocatable :: parts(:)
+
+      if (allocated(region%part)) then
+         parts = region%part
+      else
+         parts = [region%box]
+      end if
+   end function parts_of
 
    !> Reference, weight and bounds of a contact that is small compared with the mesh, from the parabola through three points
    !>
@@ -136,13 +162,12 @@ contains
       region%alpha = place(3)
       region%gap = lowest
       region%deepest = place
-      region%seeds = [place(2)]
+      region%seed = place(2)
       ! the weights of all lateral positions, integrated: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
       region%weight = max(min_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
       region%box%x = extent
       region%box%y = place(2) + [-half, half]
       region%box%z = gap%z(i) + (region%box%y - gap%y(i))*(gap%z(i + 1) - gap%z(i - 1))/(2.0_wp*gap%dy)
-      region%part = [region%box]
    end subroutine describe_small
 
    !> Weight of the interpenetration along the track at one lateral position, round wheel: c - kappa (x - x_locus)**2
@@ -326,11 +351,9 @@ contains
       region%weight = min_weight
       call find_deepest(gap, g, i, i, region%gap, region%deepest)
       region%gap = max(open_gap, region%gap)
-      allocate(region%seeds(1), source=region%y)
+      region%seed = region%y
       region%box%x = gap%x(i)
       region%box%y = gap%y(i)
       region%box%z = gap%z(i)
-      allocate(region%part(1), source=region%box)
-      allocate(region%interaction(1, 1), source=1.0_wp)
    end subroutine describe_miss
 end module contact_wheelrail_region

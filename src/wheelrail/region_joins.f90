@@ -3,7 +3,7 @@
 module contact_wheelrail_region_joins
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_wheelrail_region, only : contact_region, region_box
+   use contact_wheelrail_region, only : contact_region, parts_of, region_box, seeds_of
    use contact_wheelrail_spec, only : search_spec
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
    !> Field side (large y) first
    subroutine sort_regions(regions)
       !> Brought into the order of falling y of their references, field side first
-      type(contact_region), allocatable, intent(inout) :: regions(:)
+      type(contact_region), intent(inout) :: regions(:)
       type(contact_region) :: moved
       integer :: i, j
 
@@ -60,11 +60,13 @@ contains
    end function side_by_side
 
    !> First combine what is near, then blend what is not far
-   subroutine join_regions(search, regions)
+   subroutine join_regions(search, regions, n)
       !> Distances and angles at which regions are joined
       type(search_spec), intent(in) :: search
-      !> Those that are close enough become one
-      type(contact_region), allocatable, intent(inout) :: regions(:)
+      !> The first n; those that are close enough become one
+      type(contact_region), intent(inout) :: regions(:)
+      !> Their number
+      integer, intent(inout) :: n
 
       call join_within(search%d_comb, .false.)
       call join_within(search%d_sep, .true.)
@@ -80,18 +82,18 @@ contains
          integer :: i, j
 
          i = 1
-         do while (i < size(regions))
-            do j = i + 1, size(regions)
+         do while (i < n)
+            do j = i + 1, n
                if (j > i + 1 .and. .not. side_by_side(regions(i)%box, regions(j)%box)) cycle
                if (distance(regions(i)%box, regions(j)%box, .true.) > furthest) cycle
                if (abs(regions(i)%alpha - regions(j)%alpha) > search%a_sep) cycle
                exit
             end do
-            if (j > size(regions)) then
+            if (j > n) then
                i = i + 1
             else
                call join(i, j, blend)
-               call sort_regions(regions)
+               call sort_regions(regions(:n))
                i = 1
             end if
          end do
@@ -115,21 +117,20 @@ contains
             both%weight = a%weight + b%weight
             both%gap = min(a%gap, b%gap)
             if (b%gap < a%gap) both%deepest = b%deepest
-            both%seeds = [a%seeds, b%seeds]
+            both%seeds = [seeds_of(a), seeds_of(b)]
             both%box%x = [min(a%box%x(1), b%box%x(1)), max(a%box%x(2), b%box%x(2))]
             both%box%y = [min(a%box%y(1), b%box%y(1)), max(a%box%y(2), b%box%y(2))]
             both%box%z = [merge(a%box%z(1), b%box%z(1), a%box%y(1) < b%box%y(1)), &
                & merge(b%box%z(2), a%box%z(2), b%box%y(2) > a%box%y(2))]
-            deallocate(both%part, both%interaction)
+            if (allocated(both%part)) deallocate(both%part, both%interaction)
             if (blend) then
-               both%part = [a%part, b%part]
+               both%part = [parts_of(a), parts_of(b)]
                both%interaction = interactions(both%part, search)
-            else
-               allocate(both%part(1), source=both%box)
-               allocate(both%interaction(1, 1), source=1.0_wp)
             end if
          end associate
-         regions = [regions(:i - 1), both, regions(i + 1:j - 1), regions(j + 1:)]
+         regions(i) = both
+         regions(j:n - 1) = regions(j + 1:n)
+         n = n - 1
       end subroutine join
    end subroutine join_regions
 

@@ -7,7 +7,7 @@
 module contact_wheelrail_regions
    use contact_base_choices, only : contact_location
    use contact_base_kinds, only : wp
-   use contact_wheelrail_gap, only : gap_curve, no_surface
+   use contact_wheelrail_gap, only : gap_curve, most_finer, no_surface
    use contact_wheelrail_region, only : contact_region, describe, describe_miss, describe_small, far_away, find_deepest
    use contact_wheelrail_region_joins, only : avoid_vertical, join_regions, refer_to_deepest, shift_near_misses, side_by_side, &
       & sort_regions, turn_regions
@@ -16,12 +16,21 @@ module contact_wheelrail_regions
    implicit none (type, external)
    private
 
-   public :: find_regions, smallest_gap
+   public :: collect_regions, find_regions, found_regions, remove_region, smallest_gap
+
+   !> What a search for regions finds; its arrays are kept from one search to the next
+   type :: found_regions
+      !> The regions 1...n, field side first, and near misses 1...n_misses by rising gap; there may be room for more
+      integer :: n = 0, n_misses = 0
+      type(contact_region), allocatable :: region(:), miss(:)
+      !> Gap at the present height [mm]
+      real(wp), allocatable, private :: lowered(:)
+   end type found_regions
 
    !> A contact of so few mesh points is described by the parabola through the gap around its deepest point
    integer, parameter :: few_points = 4
-   !> Near misses that are kept
-   integer, parameter :: max_misses = 2
+   !> Near misses that are kept, and regions that there is room for at first
+   integer, parameter :: max_misses = 2, few_regions = 4
 
 contains
 
@@ -49,8 +58,28 @@ contains
       end do
    end function smallest_gap
 
-   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
+   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first, as arrays of their own
    subroutine find_regions(gap, dz, search, weight_power, regions, misses, closer)
+      !> As for `collect_regions`
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: dz
+      type(search_spec), intent(in) :: search
+      integer, intent(in) :: weight_power
+      !> One per patch
+      type(contact_region), allocatable, intent(out) :: regions(:)
+      !> Near misses by rising gap
+      type(contact_region), allocatable, intent(out) :: misses(:)
+      type(gap_curve), intent(in), optional :: closer(:)
+      type(found_regions) :: found
+
+      call collect_regions(gap, dz, search, weight_power, found, closer)
+      allocate(regions(found%n), misses(found%n_misses))
+      regions(:) = found%region(:found%n)
+      misses(:) = found%miss(:found%n_misses)
+   end subroutine find_regions
+
+   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
+   subroutine collect_regions(gap, dz, search, weight_power, found, closer)
       !> Mesh, gaps, and the table of bodies that vary
       type(gap_curve), intent(in) :: gap
       !> [mm]
@@ -59,28 +88,65 @@ contains
       type(search_spec), intent(in) :: search
       !> Weights by the square (2) or the first power (1) of the interpenetration
       integer, intent(in) :: weight_power
-      !> One per patch
-      type(contact_region), allocatable, intent(out) :: regions(:)
-      !> Near misses by rising gap
-      type(contact_region), allocatable, intent(out) :: misses(:)
+      !> Gets one region per patch, and near misses
+      type(found_regions), intent(inout) :: found
       !> Smallest gaps that need a finer mesh, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
-      real(wp), allocatable :: g(:)
+      integer :: i
 
-      g = gap%gap - dz
-      where (gap%gap > far_away) g = no_surface
-      call preliminary_regions(gap, g, weight_power, regions, misses, closer)
-      call sort_regions(regions)
-      call join_regions(search, regions)
-      call shift_near_misses(search, misses, regions)
-      if (search%location == contact_location%first_contact) then
-         call refer_to_deepest(regions)
-      else
-         call turn_regions(search, regions)
+      if (.not. allocated(found%region)) allocate(found%region(few_regions), found%miss(max_misses))
+      if (allocated(found%lowered)) then
+         if (size(found%lowered) /= gap%n) deallocate(found%lowered)
       end if
-      call avoid_vertical(regions)
-      call leave_room(regions)
-   end subroutine find_regions
+      if (.not. allocated(found%lowered)) allocate(found%lowered(gap%n))
+      do i = 1, gap%n
+         found%lowered(i) = merge(no_surface, gap%gap(i) - dz, gap%gap(i) > far_away)
+      end do
+      found%n = 0
+      found%n_misses = 0
+      call preliminary_regions(gap, found%lowered, weight_power, found, closer)
+      call sort_regions(found%region(:found%n))
+      call join_regions(search, found%region, found%n)
+      associate (regions => found%region(:found%n))
+         call shift_near_misses(search, found%miss(:found%n_misses), regions)
+         if (search%location == contact_location%first_contact) then
+            call refer_to_deepest(regions)
+         else
+            call turn_regions(search, regions)
+         end if
+         call avoid_vertical(regions)
+         call leave_room(regions)
+      end associate
+   end subroutine collect_regions
+
+   !> Add a region to those that were found
+   subroutine add_region(found, region)
+      type(found_regions), intent(inout) :: found
+      type(contact_region), intent(in) :: region
+      type(contact_region), allocatable :: longer(:)
+
+      if (found%n == size(found%region)) then
+         allocate(longer(2*found%n))
+         longer(:found%n) = found%region
+         call move_alloc(longer, found%region)
+      end if
+      found%n = found%n + 1
+      found%region(found%n) = region
+   end subroutine add_region
+
+   !> Leave a region out
+   subroutine remove_region(found, k)
+      !> Has one region less afterwards
+      type(found_regions), intent(inout) :: found
+      !> Its number
+      integer, intent(in) :: k
+      integer :: i
+
+      found%n = found%n - 1
+      do i = k, found%n
+         found%region(i) = found%region(i + 1)
+      end do
+   end subroutine remove_region
 
    !> Tell every region where others begin: overlap that belongs to two patches would carry its load twice
    pure subroutine leave_room(regions)
@@ -104,21 +170,21 @@ contains
    end subroutine leave_room
 
    !> One region per stretch of interpenetration, or per spot where it falls apart along the track; the nearest misses
-   recursive subroutine preliminary_regions(gap, g, weight_power, regions, misses, closer)
+   recursive subroutine preliminary_regions(gap, g, weight_power, found, closer)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
       integer, intent(in) :: weight_power
-      type(contact_region), allocatable, intent(out) :: regions(:), misses(:)
+      !> Regions and misses are added
+      type(found_regions), intent(inout) :: found
       !> Smallest gaps that need a finer mesh
       type(gap_curve), intent(in), optional :: closer(:)
       type(contact_region) :: region
       type(spot), allocatable :: spots(:)
-      integer :: i, k, first, last, n
-      logical :: found
+      integer :: i, k, first, last, n, n_spots
+      logical :: is_shown_closer
 
       n = size(g)
-      allocate(regions(0), misses(0))
       i = 1
       do while (i <= n)
          if (g(i) < 0.0_wp) then
@@ -128,31 +194,33 @@ contains
                if (.not. g(last + 1) < 0.0_wp) exit
                last = last + 1
             end do
-            allocate(spots(0))
-            if (allocated(gap%table)) call separate_spots(gap, g, first, last, spots)
-            found = .false.
-            if (last - first < few_points) call look_closer(gap, g, first, last, weight_power, regions, misses, found, closer)
-            if (size(spots) == 0 .and. .not. found) then
+            n_spots = 0
+            if (allocated(gap%table)) then
+               call separate_spots(gap, g, first, last, spots)
+               n_spots = size(spots)
+            end if
+            is_shown_closer = .false.
+            if (last - first < few_points) call look_closer(gap, g, first, last, weight_power, found, is_shown_closer, closer)
+            if (n_spots == 0 .and. .not. is_shown_closer) then
                call describe(gap, g, first, last, weight_power, region)
                if (last - first < few_points) call describe_small(gap, g, first, last, weight_power, region)
-               regions = [regions, region]
+               call add_region(found, region)
             end if
-            do k = 1, size(spots)
+            do k = 1, n_spots
                call describe(spots(k)%gap, spots(k)%g, spots(k)%first, spots(k)%last, weight_power, region)
-               regions = [regions, region]
+               call add_region(found, region)
             end do
-            deallocate(spots)
             i = last + 1
          else
             if (is_minimum(g, i)) then
-               call look_closer(gap, g, i, i, weight_power, regions, misses, found, closer)
-               if (.not. found) then
+               call look_closer(gap, g, i, i, weight_power, found, is_shown_closer, closer)
+               if (.not. is_shown_closer) then
                   call describe_miss(gap, g, i, region)
                   call describe_small(gap, g, i, i, weight_power, region)
                   if (region%touches) then
-                     regions = [regions, region]
+                     call add_region(found, region)
                   else
-                     call keep_miss(region, misses)
+                     call keep_miss(found, region)
                   end if
                end if
             end if
@@ -162,7 +230,7 @@ contains
    end subroutine preliminary_regions
 
    !> What a finer mesh shows between two points of this one, where there is one
-   recursive subroutine look_closer(gap, g, first, last, weight_power, regions, misses, found, closer)
+   recursive subroutine look_closer(gap, g, first, last, weight_power, found, is_closer, closer)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
@@ -170,38 +238,36 @@ contains
       integer, intent(in) :: first, last
       integer, intent(in) :: weight_power
       !> Those of the finer mesh are added
-      type(contact_region), allocatable, intent(inout) :: regions(:), misses(:)
+      type(found_regions), intent(inout) :: found
       !> Is there a finer mesh?
-      logical, intent(out) :: found
+      logical, intent(out) :: is_closer
       type(gap_curve), intent(in), optional :: closer(:)
-      type(contact_region), allocatable :: here(:), nearly(:)
-      real(wp), allocatable :: fine(:)
       integer :: i, k
 
-      found = .false.
       i = first - 1 + minloc(g(first:last), dim=1)
-      if (first == 1 .or. last == gap%n .or. .not. is_shown(i, closer)) return
-      found = .true.
-      associate (near => closer(findloc(closer%shows, i, dim=1)))
-         fine = near%gap + (g(i) - gap%gap(i))
-         where (near%gap > far_away .or. near%y < gap%y(first - 1) - 0.5_wp*near%dy &
-            & .or. near%y > gap%y(last + 1) + 0.5_wp*near%dy) fine = no_surface
-         call preliminary_regions(near, fine, weight_power, here, nearly)
-      end associate
-      regions = [regions, here]
-      do k = 1, size(nearly)
-         call keep_miss(nearly(k), misses)
-      end do
+      k = 0
+      if (present(closer) .and. first > 1 .and. last < gap%n) k = findloc(closer%shows, i, dim=1)
+      is_closer = k > 0
+      if (is_closer) call add_finer(closer(k), g(i) - gap%gap(i), gap%y(first - 1), gap%y(last + 1), weight_power, found)
    end subroutine look_closer
 
-   !> Are the surroundings of a mesh point shown on a finer mesh?
-   pure logical function is_shown(i, closer)
-      integer, intent(in) :: i
-      type(gap_curve), intent(in), optional :: closer(:)
+   !> Regions and misses that a finer mesh shows between two points of a coarse one
+   recursive subroutine add_finer(near, lower, low, high, weight_power, found)
+      type(gap_curve), intent(in) :: near
+      !> Added to its gaps; lateral positions of the two points [mm]
+      real(wp), intent(in) :: lower, low, high
+      integer, intent(in) :: weight_power
+      type(found_regions), intent(inout) :: found
+      real(wp) :: fine(most_finer)
+      integer :: i
 
-      is_shown = .false.
-      if (present(closer)) is_shown = any(closer%shows == i)
-   end function is_shown
+      do i = 1, near%n
+         fine(i) = near%gap(i) + lower
+         if (near%gap(i) > far_away .or. near%y(i) < low - 0.5_wp*near%dy .or. near%y(i) > high + 0.5_wp*near%dy) &
+            & fine(i) = no_surface
+      end do
+      call preliminary_regions(near, fine(:near%n), weight_power, found)
+   end subroutine add_finer
 
    !> Is the gap lower here than on both sides?
    pure logical function is_minimum(g, i)
@@ -214,15 +280,18 @@ contains
    end function is_minimum
 
    !> Keep the nearest ones, by rising gap
-   subroutine keep_miss(region, misses)
+   subroutine keep_miss(found, region)
+      type(found_regions), intent(inout) :: found
       type(contact_region), intent(in) :: region
-      type(contact_region), allocatable, intent(inout) :: misses(:)
-      integer :: place
+      integer :: place, i
 
-      place = count(misses%gap <= region%gap) + 1
+      place = count(found%miss(:found%n_misses)%gap <= region%gap) + 1
       if (place > max_misses) return
-      misses = [misses(:place - 1), region, misses(place:)]
-      if (size(misses) > max_misses) misses = misses(:max_misses)
+      found%n_misses = min(found%n_misses + 1, max_misses)
+      do i = found%n_misses, place + 1, -1
+         found%miss(i) = found%miss(i - 1)
+      end do
+      found%miss(place) = region
    end subroutine keep_miss
 
 end module contact_wheelrail_regions

@@ -8,10 +8,11 @@ module contact_wheelrail_solve
    use contact_patch_derived, only : complete
    use contact_patch_problem, only : patch_problem
    use contact_text_words, only : real_text
+   use contact_wheelrail_carry_over, only : max_patches
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
    use contact_wheelrail_gather, only : gather
-   use contact_wheelrail_geometry, only : box_on_lattice, max_patches, place, wheel_rail_geometry
+   use contact_wheelrail_geometry, only : box_on_lattice, place, wheel_rail_geometry
    use contact_wheelrail_height, only : settle
    use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_pitch_rate, only : search_pitch_rate

@@ -4,13 +4,13 @@ module contact_wheelrail_trial
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_patch_problem, only : patch_state
-   use contact_wheelrail_carry_over, only : lattice_box, lattice_window
-   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, max_patches, wheel_rail_geometry, place
+   use contact_wheelrail_carry_over, only : lattice_box, lattice_window, max_patches
+   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, wheel_rail_geometry, place
    use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
    use contact_wheelrail_patch_solution, only : solve_slot
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_region, only : contact_region
-   use contact_wheelrail_regions, only : find_regions
+   use contact_wheelrail_regions, only : collect_regions, remove_region
    use contact_wheelrail_variable, only : turn_of_rail
    implicit none (type, external)
    private
@@ -33,10 +33,9 @@ contains
       type(log_type), intent(inout) :: log
       !> Allocated when a patch has no result
       type(error_type), allocatable, intent(out) :: error
-      type(contact_region), allocatable :: regions(:), misses(:)
-      type(lattice_box), allocatable :: boxes(:)
+      type(lattice_box) :: boxes(max_patches)
       character(len=15) :: name
-      integer :: k, n
+      integer :: k
 
       call problem%limits%deadline%watch("in the search for contact", error)
       if (allocated(error)) return
@@ -45,28 +44,24 @@ contains
          & call measure(problem, memory%geometry, memory%geometry%gap_height, 1.5_wp*(z - memory%geometry%touch))
       call place(problem, memory%geometry, z)
       memory%geometry%bodies%placement = memory%geometry%placement
-      call find_regions(memory%geometry%gap, max(z, memory%geometry%lowest_for_regions) - memory%geometry%gap_height, &
-         & problem%spec%search, problem%weight_power, regions, misses, memory%geometry%closer)
-      n = size(regions)
-      if (n > max_patches) then
+      call collect_regions(memory%geometry%gap, max(z, memory%geometry%lowest_for_regions) - memory%geometry%gap_height, &
+         & problem%spec%search, problem%weight_power, memory%found, memory%geometry%closer)
+      if (memory%found%n > max_patches) then
          call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")
-         do while (n > max_patches)
-            k = minloc(regions%weight, dim=1)
-            regions = [regions(:k - 1), regions(k + 1:)]
-            n = n - 1
+         do while (memory%found%n > max_patches)
+            call remove_region(memory%found, minloc(memory%found%region(:memory%found%n)%weight, dim=1))
          end do
       end if
-      call match_slots(memory, regions)
-      memory%used = n
-      allocate(boxes(n))
-      do k = 1, n
-         boxes(k) = box_on_lattice(problem, memory%geometry, regions(k))
+      call match_slots(memory, memory%found%region(:memory%found%n))
+      memory%used = memory%found%n
+      do k = 1, memory%used
+         boxes(k) = box_on_lattice(problem, memory%geometry, memory%found%region(k))
       end do
-      call memory%geometry%before%share_out(boxes)
+      call memory%geometry%before%share_out(boxes(:memory%used))
       memory%geometry%learned%is_taken = .false.
-      do k = 1, n
-         memory%slot(k)%region = regions(k)
-         memory%slot(k)%previous = memory%geometry%before%sources(k)
+      do k = 1, memory%used
+         memory%slot(k)%region = memory%found%region(k)
+         call memory%geometry%before%find_sources(k, memory%slot(k)%previous)
          call solve_slot(problem, memory%geometry, k, memory%slot(k), with_friction, log, error)
          name = "contact patch " // achar(iachar("0") + mod(k, 10))
          if (allocated(error)) then
@@ -74,7 +69,7 @@ contains
             return
          end if
          call warn_beyond_slices(problem, memory%slot(k), name, log)
-         call warn_of_angle(problem, memory%geometry, regions(k), name, log)
+         call warn_of_angle(problem, memory%geometry, memory%slot(k)%region, name, log)
          if (memory%slot(k)%strangers > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
             &to the next; what lies beyond belongs to another part of rail or wheel and is left out.")
       end do

@@ -130,7 +130,7 @@ contains
       call add_patch(moment, 1, [3.13_wp, -0.42_wp], 9, 7)
       place = [3.57_wp, -0.29_wp]
       call receive(moment, reshape(place, [2, 1]), 9, 7, "moved patch", fields, problems)
-      call suite%check(all(moment%sources(1) == [1]) .and. size(moment%sources(1)) == 1, "it continues the only patch")
+      call suite%check(all(sources_of(moment, 1) == [1]) .and. size(sources_of(moment, 1)) == 1, "it continues the only patch")
       ! where is the element with the largest pressure of the old patch, (8, 6) of it?
       associate (where => maxloc(fields(1)%pn), old => moment%patch(1)%fields%grid)
          x = problems(1)%grid%x(where(1)) + place(1)
@@ -154,7 +154,7 @@ contains
       places(:, 1) = [0.1_wp, 0.72_wp]
       places(:, 2) = [-0.1_wp, -0.66_wp]
       call receive(moment, places, 9, 15, "separation", fields, problems)
-      call suite%check(size(moment%sources(1)) == 1 .and. size(moment%sources(2)) == 1, "both continue the old patch")
+      call suite%check(size(sources_of(moment, 1)) == 1 .and. size(sources_of(moment, 2)) == 1, "both continue the old patch")
       call suite%check(sum(fields(1)%pn) > 0.0_wp .and. sum(fields(2)%pn) > 0.0_wp, "both get a part")
    end subroutine separate
 
@@ -168,7 +168,7 @@ contains
       call add_patch(moment, 1, [0.1_wp, 0.72_wp], 9, 13)
       call add_patch(moment, 2, [-0.1_wp, -0.66_wp], 7, 13)
       call receive(moment, reshape([0.0_wp, 0.0_wp], [2, 1]), 5, 9, "joining", fields, problems)
-      call suite%check(all(moment%sources(1) == [1, 2]), "the new patch continues both")
+      call suite%check(all(sources_of(moment, 1) == [1, 2]), "the new patch continues both")
       call suite%check(problems(1)%grid%my >= 25, "its window holds them both")
    end subroutine join
 
@@ -180,7 +180,7 @@ contains
       type(lattice_window) :: window
 
       call moment%share_out([box_around([0.0_wp, 0.0_wp], 5, 5)])
-      call suite%check(size(moment%sources(1)) == 0, "nothing comes before the first case")
+      call suite%check(size(sources_of(moment, 1)) == 0, "nothing comes before the first case")
       call moment%start(1, .true., 0.0_wp)
       call add_patch(moment, 1, [0.0_wp, 0.0_wp], 9, 7)
       call moment%share_out([box_around([0.0_wp, 5.0_wp], 9, 7)])
@@ -189,7 +189,7 @@ contains
       call moment%widen(1, window, problem%grid)
       call suite%check(problem%grid%my == 7, "the window of a new patch stays")
       call moment%hand_over(1, problem, window, fields)
-      call suite%check(size(moment%sources(1)) == 0 .and. .not. any(abs(fields%pn) > 0.0_wp) .and. .not. fields%is_solved, &
+      call suite%check(size(sources_of(moment, 1)) == 0 .and. .not. any(abs(fields%pn) > 0.0_wp) .and. .not. fields%is_solved, &
          & "a new patch begins without tractions")
       call moment%drop_tangential()
       call suite%check(all(abs(moment%patch(1)%fields%px) <= 0.0_wp) .and. any(moment%patch(1)%fields%pn > 0.0_wp), &
@@ -233,6 +233,15 @@ contains
       call suite%check(dropped == 0, "the same elements")
       call moment%drop_other_elements(2.0_wp*dx, ds, dropped)
       call moment%share_out([box_around([0.0_wp, 0.0_wp], 9, 7)])
-      call suite%check(dropped == 1 .and. size(moment%sources(1)) == 0, "larger elements")
+      call suite%check(dropped == 1 .and. size(sources_of(moment, 1)) == 0, "larger elements")
    end subroutine other_elements
+
+   !> Patches of the time step before that a present one continues
+   function sources_of(moment, k) result(list)
+      type(carried_step), intent(in) :: moment
+      integer, intent(in) :: k
+      integer, allocatable :: list(:)
+
+      call moment%find_sources(k, list)
+   end function sources_of
 end program test_carry_over
