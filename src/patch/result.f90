@@ -182,25 +182,28 @@ contains
       call move_fields(from, lent)
       ! numbers, and what is there only when it is asked for
       to = from
-      call move_fields(kept, to)
       call move_alloc(kept%effects, to%effects)
-      to%division = lent%division
-      to%h = lent%h
-      to%mu = lent%mu
-      to%pn = lent%pn
-      to%px = lent%px
-      to%py = lent%py
-      to%un = lent%un
-      to%ux = lent%ux
-      to%uy = lent%uy
-      to%sx = lent%sx
-      to%sy = lent%sy
-      to%wx = lent%wx
-      to%wy = lent%wy
+      ! a case that is only searched for contact has no fields
+      if (allocated(lent%division)) then
+         call move_fields(kept, to)
+         to%division = lent%division
+         to%h = lent%h
+         to%mu = lent%mu
+         to%pn = lent%pn
+         to%px = lent%px
+         to%py = lent%py
+         to%un = lent%un
+         to%ux = lent%ux
+         to%uy = lent%uy
+         to%sx = lent%sx
+         to%sy = lent%sy
+         to%wx = lent%wx
+         to%wy = lent%wy
+      end if
       call move_fields(lent, from)
    end subroutine copy_result
 
-   !> Move the fields that every result has
+   !> Move the fields that every solution has
    pure subroutine move_fields(from, to)
       type(patch_result), intent(inout) :: from, to
 

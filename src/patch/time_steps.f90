@@ -347,7 +347,9 @@ contains
 
    !> Copy of the fields of a time step
    subroutine copy_fields(from, to)
+      !> Solved tractions
       type(traction_fields), intent(in) :: from
+      !> Gets them, without their derivative and what particles carry along; arrays are kept when the size is the same
       type(traction_fields), intent(inout) :: to
 
       call fit_fields(to, from%grid%mx, from%grid%my)

@@ -60,15 +60,19 @@ contains
 
    !> Patches for a wheel that is lower by dz than where the gap was measured, field side first, as arrays of their own
    subroutine find_regions(gap, dz, search, weight_power, regions, misses, closer)
-      !> As for `collect_regions`
+      !> Mesh, gaps, and the table of bodies that vary
       type(gap_curve), intent(in) :: gap
+      !> [mm]
       real(wp), intent(in) :: dz
+      !> Distances and angles at which regions are joined or separated
       type(search_spec), intent(in) :: search
+      !> Weights by the square (2) or the first power (1) of the interpenetration
       integer, intent(in) :: weight_power
       !> One per patch
       type(contact_region), allocatable, intent(out) :: regions(:)
       !> Near misses by rising gap
       type(contact_region), allocatable, intent(out) :: misses(:)
+      !> Smallest gaps that need a finer mesh, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
       type(found_regions) :: found
 

@@ -17,7 +17,7 @@ program test_search
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
    use contact_wheelrail_placement, only : gauge_point, wheel_rail_placement, place_wheel_rail
    use contact_wheelrail_profile_ends, only : depth_within
-   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_region, only : contact_region, parts_of
    use contact_wheelrail_regions, only : find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
@@ -345,8 +345,8 @@ contains
          call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, &
             & approach, strangers)
          call suite%close_to(approach, cases(9, k), 2.5e-4_wp, trim(what) // ": approach")
-         call suite%check(size(regions(1)%part) == merge(2, 1, k == 5), trim(what) // ": blended parts")
-         if (k == 5 .and. size(regions(1)%part) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &
+         call suite%check(size(parts_of(regions(1))) == merge(2, 1, k == 5), trim(what) // ": blended parts")
+         if (k == 5 .and. size(parts_of(regions(1))) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &
             & "interaction of blended parts")
       end do
    end subroutine benchmark
