@@ -51,8 +51,8 @@ module contact_wheelrail_geometry
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
-      !> Does the case follow the last one in a loop over time?
-      logical :: follows = .false.
+      !> Do trials of the height follow each other as in a loop over time, and does the first one follow the last case?
+      logical :: follows = .false., follows_last = .false.
       !> Part of EPS that the pressures of the present trial are solved to
       real(wp) :: pressure_eps = 1.0_wp
       !> The same for tangential tractions

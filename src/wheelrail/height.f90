@@ -12,6 +12,7 @@ module contact_wheelrail_height
    use contact_base_log, only : log_type
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
+   use contact_wheelrail_gap, only : gap_curve
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_height_search, only : height_search, mostly_friction, sum_of_normal_forces
    use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force
@@ -50,6 +51,9 @@ module contact_wheelrail_height
    real(wp), parameter :: bend_reach = 2.0_wp, max_bend = 10.0_wp
    !> Least mean curvature [1/mm] of flat bodies, whose penetration by Hertz would be none
    real(wp), parameter :: min_curvature = 1.0e-8_wp
+
+   !> Corrections of a guess by the width of the contact that it leads to
+   integer, parameter :: rounds_of_width = 3
 
    !> Heights and deflections this far away are out of reach [mm]
    real(wp), parameter :: out_of_sight = 500.0_wp
@@ -160,7 +164,8 @@ contains
       end if
       is_settled = .false.
       if (memory%geometry%follows) then
-         search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
+         if (memory%geometry%follows_last) &
+            & search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
          call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)
          if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
       end if
@@ -315,7 +320,7 @@ contains
       type(wheel_rail_memory), intent(in) :: memory
       real(wp), intent(in) :: force
       real(wp) :: a, b, bend, modulus
-      integer :: i, k
+      integer :: i, k, round
 
       associate (gap => memory%geometry%gap)
          i = minloc(gap%gap, dim=1)
@@ -328,10 +333,48 @@ contains
          end if
       end associate
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
-      ! a sphere with the mean of the curvatures
-      pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
-      pen = max(pen, min_penetration)
+      pen = sphere(b)
+      if (.not. problem%in_loop) return
+      ! the curvature is that over the width of the contact
+      do round = 1, rounds_of_width
+         pen = sphere(bend_over(memory%geometry%gap, i, 0.5_wp*pen))
+      end do
+
+   contains
+
+      !> Penetration of a sphere with the mean of the curvatures [mm]
+      pure real(wp) function sphere(b)
+         !> Half the second derivative of the gap across the track [1/mm]
+         real(wp), intent(in) :: b
+
+         sphere = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
+         sphere = max(sphere, min_penetration)
+      end function sphere
    end function penetration_guess
+
+   !> Half the second derivative of a parabola that opens by as much over the same width as the gap [1/mm]
+   pure real(wp) function bend_over(gap, lowest, opening) result(bend)
+      type(gap_curve), intent(in) :: gap
+      !> Mesh point with the smallest gap
+      integer, intent(in) :: lowest
+      !> [mm]
+      real(wp), intent(in) :: opening
+      integer :: i, side
+      real(wp) :: width, level
+
+      level = gap%gap(lowest) + opening
+      width = 0.0_wp
+      do side = -1, 1, 2
+         i = lowest
+         do while (i > 1 .and. i < gap%n)
+            if (gap%gap(i + side) > level) exit
+            i = i + side
+         end do
+         width = width + abs(gap%y(i) - gap%y(lowest))
+         if (i > 1 .and. i < gap%n) width = width + gap%dy*(level - gap%gap(i))/(gap%gap(i + side) - gap%gap(i))
+      end do
+      bend = min(max_bend, opening/(0.5_wp*width)**2)
+   end function bend_over
 
    !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel
    subroutine refuse_soft_bodies(radius, force, penetration, error)

@@ -42,8 +42,9 @@ contains
       integer :: k
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
-      memory%geometry%follows = follows_last(problem, memory)
-      if (.not. (problem%use_previous .or. memory%geometry%follows)) then
+      memory%geometry%follows = seeks_height_alone(problem)
+      memory%geometry%follows_last = memory%geometry%follows .and. follows_last(problem, memory)
+      if (.not. (problem%use_previous .or. memory%geometry%follows_last)) then
          memory%slot%state%started = .false.
          memory%used = 0
          memory%geometry%shares = 0
@@ -132,14 +133,21 @@ contains
       end associate
    end subroutine find_gauge_point
 
-   !> Is the last case near enough for starting values, and what is sought the height alone?
+   !> Is the case one of a loop, and what is sought the height alone?
+   pure logical function seeks_height_alone(problem) result(alone)
+      type(wheel_rail_problem), intent(in) :: problem
+
+      alone = problem%in_loop .and. problem%force_prescribed .and. .not. problem%geometry_only &
+         & .and. problem%force == force_control%creepages
+      if (alone) alone = has_one_height(problem%template)
+   end function seeks_height_alone
+
+   !> Is the last case near enough for starting values?
    pure logical function follows_last(problem, memory) result(follows)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
 
-      follows = problem%in_loop .and. memory%started .and. problem%force_prescribed .and. .not. problem%geometry_only &
-         & .and. problem%force == force_control%creepages .and. problem%template%motion == memory%motion
-      if (follows) follows = has_one_height(problem%template)
+      follows = memory%started .and. problem%template%motion == memory%motion
       if (follows) follows = memory%course%is_near(problem%spec%wheelset)
    end function follows_last
 
