@@ -171,7 +171,7 @@ static void compare_with_fresh(int wheel, double side, int from, int steps, int 
   i = 1;
   cntc_finalize(&i);
   printf("M = %d, B = %d, DX = %.1f, P = %d: forces with and without a past differ by %.1e FZ\n", theory, pressures, side, p, worst);
-  check(worst <= 2.0 * eps, "forces depend on the past", worst);
+  check(worst <= 0.5 * eps, "forces depend on the past", worst);
 }
 
 /* Requests to the heap per call on a way along which nothing new happens: half a second there and back on the same places */
