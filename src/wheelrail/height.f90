@@ -373,7 +373,9 @@ contains
          width = width + abs(gap%y(i) - gap%y(lowest))
          if (i > 1 .and. i < gap%n) width = width + gap%dy*(level - gap%gap(i))/(gap%gap(i + side) - gap%gap(i))
       end do
-      bend = min(max_bend, opening/(0.5_wp*width)**2)
+      ! a gap that is smallest at its end has no width
+      bend = max_bend
+      if (width > 0.0_wp) bend = min(max_bend, opening/(0.5_wp*width)**2)
    end function bend_over
 
    !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel
