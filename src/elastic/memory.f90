@@ -7,7 +7,9 @@
 !>     M(X) = int_0^inf exp(-s) C(X + v s) ds,  C those of the late response.
 !>
 !> They obey M(X) = exp(-dx/v) M(X + dx) + int_0^{dx/v} exp(-s) C(X + v s) ds: one short
-!> quadrature per element, marching from the largest offset to the smallest.
+!> quadrature per element, marching from the largest offset to the smallest. C is a mixed
+!> difference of functions of the corners, and so are these integrals: they are found once for each
+!> corner, by as many points of Gauss' rule as its distance from the load asks for.
 module contact_elastic_memory
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : combine_corners, corner_functions, fill_table, kernel_table
@@ -23,8 +25,12 @@ module contact_elastic_memory
    real(wp), parameter :: forgotten = 45.0_wp
    !> Longest piece of quadrature in relaxation times
    real(wp), parameter :: longest = 5.0_wp
-   !> Points per piece: of smooth integrands, and next to an edge of the loaded element
-   integer, parameter :: n_smooth = 12, n_edge = 20
+   !> Points per piece: behind the window, next to an edge of the loaded element, and most and least elsewhere
+   integer, parameter :: n_distant = 12, n_edge = 20, n_most = 16, n_least = 4
+   !> Natural logarithm of what errors of quadrature are smaller by than the integral
+   real(wp), parameter :: exactness = 37.0_wp
+   !> Corner functions that change sign with y
+   real(wp), parameter :: mirrored(5) = [-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
    !> Points next to an edge crowd towards it like this power
    integer, parameter :: crowding = 4
 
@@ -34,12 +40,17 @@ module contact_elastic_memory
    end type edge_list
    type(edge_list), parameter :: edge = edge_list()
 
+   !> Abscissae and weights of Gauss' rule
+   type :: gauss_rule
+      integer :: n = 0
+      real(wp) :: x(n_edge) = 0.0_wp, w(n_edge) = 0.0_wp
+   end type gauss_rule
+
    !> Quadrature rules and the fading response that is summed up
    type :: march
       type(combined_material) :: late
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp, length = 1.0_wp
-      real(wp) :: smooth_x(n_smooth) = 0.0_wp, smooth_w(n_smooth) = 0.0_wp
-      real(wp) :: edge_x(n_edge) = 0.0_wp, edge_w(n_edge) = 0.0_wp
+      type(gauss_rule) :: distant, edge
    end type march
 
 contains
@@ -106,25 +117,68 @@ contains
       !> Distance travelled within the relaxation time [mm]
       real(wp), intent(in) :: length
       type(march) :: steps
-      real(wp) :: m(6)
+      type(gauss_rule), allocatable :: rules(:)
+      !> Integrals across an element from each corner on; and differences along x of those from the end of the window on
+      real(wp), allocatable :: corner(:, :, :), behind(:, :)
+      real(wp) :: m(6), y
       integer :: k, l
 
       steps%late = late
       steps%dx = table%dx
       steps%dy = table%dy
       steps%length = length
-      call gauss_legendre(steps%smooth_x, steps%smooth_w)
-      call gauss_legendre(steps%edge_x, steps%edge_w)
-      !$omp parallel do private(k, m) schedule(dynamic) if (table%nx*(table%ny + 1) > 2000)
+      steps%distant = rule_of(n_distant)
+      steps%edge = rule_of(n_edge)
+      allocate(rules(-table%nx - 1:table%nx), corner(5, -table%nx - 1:table%nx, -1:table%ny), behind(5, -1:table%ny))
+      do k = -table%nx - 1, table%nx
+         rules(k) = rule_of(enough_points(2.0_wp*max(1, abs(k + 1)), min(longest, table%dx/length)))
+      end do
+      !$omp parallel do private(k, y) schedule(dynamic) if (table%nx*(table%ny + 1) > 2000)
       do l = 0, table%ny
-         m = distant(steps, table%nx*table%dx, l*table%dy)
+         y = (l + 0.5_wp)*table%dy
+         behind(:, l) = distant(steps, table%nx*table%dx, y)
+         do k = -table%nx - 1, table%nx - 1
+            corner(:, k, l) = over_element(steps, rules(k), k, y)
+         end do
+      end do
+      corner(:, :table%nx - 1, -1) = spread(mirrored, 2, 2*table%nx + 1)*corner(:, :table%nx - 1, 0)
+      behind(:, -1) = mirrored*behind(:, 0)
+      do l = 0, table%ny
+         m = combine_corners(behind(:, l) - behind(:, l - 1), late)
          call add_both(table, table%nx, l, m)
          do k = table%nx - 1, -table%nx, -1
-            m = exp(-table%dx/length)*m + over_element(steps, k, l*table%dy)
+            m = exp(-table%dx/length)*m + combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) &
+               & + corner(:, k - 1, l - 1), late)
             call add_both(table, k, l, m)
          end do
       end do
    end subroutine add_memory
+
+   !> Gauss' rule of so many points
+   pure type(gauss_rule) function rule_of(n) result(rule)
+      !> Not more than there is place for
+      integer, intent(in) :: n
+
+      rule%n = n
+      call gauss_legendre(rule%x(:n), rule%w(:n))
+   end function rule_of
+
+   !> Points of Gauss' rule for exp(-s) times a function with its nearest singularity on the axis
+   !>
+   !> With n points the error is about that of the best polynomial of degree 2n: rho^-2n times the largest value on the ellipse
+   !> around the piece whose semi-axes have the sum rho, for any ellipse without the singularity.
+   pure integer function enough_points(distance, h) result(n)
+      !> Of the singularity from the middle of the piece, in half lengths of it; at least 1
+      real(wp), intent(in) :: distance
+      !> Length of the piece in relaxation times
+      real(wp), intent(in) :: h
+      real(wp) :: rho
+
+      do n = n_least, n_most - 1
+         rho = max(1.0_wp, min(distance + sqrt(distance**2 - 1.0_wp), 8*n/h))
+         if (2*n*log(rho) - 0.25_wp*h*rho >= exactness) return
+      end do
+   end function enough_points
 
    !> Add coefficients at an offset and at its mirror image in y
    subroutine add_both(table, k, l, m)
@@ -151,69 +205,63 @@ contains
       end subroutine add
    end subroutine add_both
 
-   !> Coefficients of the late response at any point
-   pure function late_response(steps, x, y) result(c)
-      type(march), intent(in) :: steps
-      !> Position relative to the centre of the loaded element [mm]
-      real(wp), intent(in) :: x, y
-      real(wp) :: c(6)
-      real(wp) :: x0, x1, y0, y1
-      logical :: coupled
-
-      x0 = x - 0.5_wp*steps%dx
-      x1 = x + 0.5_wp*steps%dx
-      y0 = y - 0.5_wp*steps%dy
-      y1 = y + 0.5_wp*steps%dy
-      coupled = steps%late%coupled()
-      c = combine_corners(corner_functions(x1, y1, coupled) - corner_functions(x0, y1, coupled) &
-         & - corner_functions(x1, y0, coupled) + corner_functions(x0, y0, coupled), steps%late)
-   end function late_response
-
-   !> The whole integral from a distant offset on; pieces grow with the distance to the load
+   !> Differences along x of the integrals from a distant offset on; pieces grow with the distance to the load
+   !>
+   !> Far from the window corner functions are so much larger than their differences that these are taken first.
    pure function distant(steps, x, y) result(m)
       type(march), intent(in) :: steps
+      !> Centre of an element; the row of corners [mm]
       real(wp), intent(in) :: x, y
-      real(wp) :: m(6)
-      real(wp) :: s, h, clearance
+      real(wp) :: m(5)
+      real(wp) :: s, h, at, clearance
+      integer :: i
+      logical :: coupled
 
+      coupled = steps%late%coupled()
       m = 0.0_wp
       s = 0.0_wp
       clearance = (x - 0.5_wp*steps%dx)/steps%length
       do while (s < forgotten)
          h = min(longest, clearance + s)
-         m = m + piece(steps, x, s, h, y, edge%none)
+         do i = 1, steps%distant%n
+            at = s + h*steps%distant%x(i)
+            m = m + h*steps%distant%w(i)*exp(-at)*(corner_functions(x + steps%length*at + 0.5_wp*steps%dx, y, coupled) &
+               & - corner_functions(x + steps%length*at - 0.5_wp*steps%dx, y, coupled))
+         end do
          s = s + h
       end do
    end function distant
 
-   !> The integral across one element; the integrand has corners at its middle for the two central ones
-   pure function over_element(steps, k, y) result(m)
+   !> The integral across one element from a corner on; the integrand of the corner behind the load has an edge in its middle
+   pure function over_element(steps, rule, k, y) result(m)
       type(march), intent(in) :: steps
+      !> For pieces without an edge
+      type(gauss_rule), intent(in) :: rule
+      !> The corner is half an element before the centre of this one
       integer, intent(in) :: k
+      !> The row of corners [mm]
       real(wp), intent(in) :: y
-      real(wp) :: m(6)
+      real(wp) :: m(5)
       real(wp) :: x, half
 
-      x = k*steps%dx
+      x = (k + 0.5_wp)*steps%dx
       half = 0.5_wp*steps%dx/steps%length
-      select case (k)
-      case (-1, 0)
-         m = stretch(steps, x, 0.0_wp, half, y, edge%last) + stretch(steps, x, half, half, y, edge%first)
-      case (-2, 1)
-         m = stretch(steps, x, 0.0_wp, half, y, edge%none) + stretch(steps, x, half, half, y, edge%none)
-      case default
-         m = stretch(steps, x, 0.0_wp, 2.0_wp*half, y, edge%none)
-      end select
+      if (k == -1) then
+         m = stretch(steps, rule, x, 0.0_wp, half, y, edge%last) + stretch(steps, rule, x, half, half, y, edge%first)
+      else
+         m = stretch(steps, rule, x, 0.0_wp, 2.0_wp*half, y, edge%none)
+      end if
    end function over_element
 
    !> Cut a stretch into pieces, and forget what is older than anything that counts
-   pure function stretch(steps, x, s, h, y, sharp) result(m)
+   pure function stretch(steps, rule, x, s, h, y, sharp) result(m)
       type(march), intent(in) :: steps
+      type(gauss_rule), intent(in) :: rule
       !> Where the integral begins [mm]; start and length of the stretch in relaxation times
       real(wp), intent(in) :: x, s, h, y
       !> End at which the integrand is not smooth
       integer, intent(in) :: sharp
-      real(wp) :: m(6)
+      real(wp) :: m(5)
       real(wp) :: part
       integer :: i, n, end_
 
@@ -228,32 +276,35 @@ contains
          end_ = edge%none
          if (sharp == edge%first .and. i == 1) end_ = sharp
          if (sharp == edge%last .and. i == n) end_ = sharp
-         m = m + piece(steps, x, s + (i - 1)*part, part, y, end_)
+         m = m + piece(steps, rule, x, s + (i - 1)*part, part, y, end_)
       end do
    end function stretch
 
    !> One piece by Gauss' rule
-   pure function piece(steps, x, s, h, y, sharp) result(m)
+   pure function piece(steps, rule, x, s, h, y, sharp) result(m)
       type(march), intent(in) :: steps
+      type(gauss_rule), intent(in) :: rule
       real(wp), intent(in) :: x, s, h, y
       integer, intent(in) :: sharp
-      real(wp) :: m(6)
+      real(wp) :: m(5)
       real(wp) :: t, at, weight
       integer :: i
+      logical :: coupled
 
+      coupled = steps%late%coupled()
       m = 0.0_wp
       if (sharp == edge%none) then
-         do i = 1, n_smooth
-            at = s + h*steps%smooth_x(i)
-            m = m + h*steps%smooth_w(i)*exp(-at)*late_response(steps, x + steps%length*at, y)
+         do i = 1, rule%n
+            at = s + h*rule%x(i)
+            m = m + h*rule%w(i)*exp(-at)*corner_functions(x + steps%length*at, y, coupled)
          end do
          return
       end if
-      do i = 1, n_edge
-         t = steps%edge_x(i)**crowding
-         weight = crowding*steps%edge_x(i)**(crowding - 1)
+      do i = 1, steps%edge%n
+         t = steps%edge%x(i)**crowding
+         weight = crowding*steps%edge%x(i)**(crowding - 1)
          at = s + h*merge(t, 1.0_wp - t, sharp == edge%first)
-         m = m + h*weight*steps%edge_w(i)*exp(-at)*late_response(steps, x + steps%length*at, y)
+         m = m + h*weight*steps%edge%w(i)*exp(-at)*corner_functions(x + steps%length*at, y, coupled)
       end do
    end function piece
 end module contact_elastic_memory

@@ -6,6 +6,7 @@ module contact_elastic_shelf
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
+   use contact_elastic_one_sided, only : one_sided_operator
    use contact_elastic_operator, only : elastic_operator
    implicit none (type, external)
    private
@@ -73,15 +74,16 @@ contains
       self%place(found)%since = self%clock
    end subroutine fetch
 
-   !> Is it the plain operator of half-spaces, on a window of a size that is kept? The others belong to one patch
+   !> Is it that of plain half-spaces or of bodies that remember, on a window of a size that is kept? The others belong to one patch
    pure logical function keeps(operator)
       class(compliance), intent(in) :: operator
 
+      keeps = .false.
       select type (operator)
       type is (elastic_operator)
          keeps = operator%mx*operator%my <= largest_kept .and. .not. allocated(operator%model%inclination)
-      class default
-         keeps = .false.
+      type is (one_sided_operator)
+         keeps = operator%mx*operator%my <= largest_kept
       end select
    end function keeps
 

@@ -145,7 +145,8 @@ contains
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: length(5) = [0.003_wp, 0.05_wp, 0.4_wp, 3.0_wp, 200.0_wp]
       real(wp), parameter :: side(2) = [0.25_wp, 1000.0_wp]
-      integer, parameter :: place(2, 7) = reshape([-9, 0, -2, 0, -1, 0, 0, 0, 1, 0, -1, 1, 4, -1], [2, 7])
+      integer, parameter :: place(2, 13) = reshape([-9, 0, -2, 0, -1, 0, 0, 0, 1, 0, -1, 1, 4, -1, 2, 2, -4, 3, 8, -3, &
+         & 27, 0, 59, 4, -60, -2], [2, 13])
       type(kernel_table) :: table, elastic
       type(fading_memory) :: memory
       type(elastic_model) :: model
@@ -157,8 +158,8 @@ contains
          do i = 1, size(length)
             call model%set_viscoelastic([0.4_wp, 0.2_wp], [1143.0_wp, 3000.0_wp], [1.5_wp, 0.0_wp], [length(i), 0.0_wp], 1)
             memory = model%memory
-            call fill_with_memory(table, model%material, memory, .true., dx, side(j), 10, 1)
-            call fill_table(elastic, model%material, dx, side(j), 10, 1)
+            call fill_with_memory(table, model%material, memory, .true., dx, side(j), 60, 4)
+            call fill_table(elastic, model%material, dx, side(j), 60, 4)
             do k = 1, size(place, 2)
                past = memory_of(memory%late(1), length(i), dx, side(j), place(1, k)*dx, place(2, k)*side(j))
                if (place(2, k) == 0) past([4, 6]) = 0.0_wp
