@@ -177,7 +177,7 @@ contains
       type(level_grid) :: grid, next
       real(wp) :: expected
       integer :: fixed(2), acting, cases
-      logical :: is_solved, is_lost, tightened
+      logical :: is_solved, is_lost, near, tightened
 
       report%asked = spec%iteration%accuracy
       report%method = method
@@ -207,13 +207,14 @@ contains
          if (is_solved) report%estimated = error_of_forces(session%problem, result)
          if (result%ncon == 0 .and. report%levels > 1) report%estimated = 0.0_wp
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
-         if (is_near_enough(report%estimated, expected, report%asked)) exit
+         next = grid
+         call tighten(result, report, next%eps, tightened)
+         near = is_near_enough(report%estimated, expected, report%asked)
+         if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          acting = result%tangential%order
          if (spec%motion == motion%steady_rolling) law%order = min(law%order, merge(law%order, 1.0_wp, acting == 2))
-         next = grid
-         call tighten(result, report, next%eps, tightened)
-         call next_counts(result, report, law%order, fixed, next%counts)
+         if (.not. near) call next_counts(result, report, law%order, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
             report%reason = "more than " // integer_text(product(next%counts)) // " elements are not allowed"
@@ -236,7 +237,7 @@ contains
       call tell_report(session, spec, result, report, solved, log)
    end subroutine refine
 
-   !> A smaller tolerance for the next grid, where iterations stopped too early for what is asked
+   !> A smaller tolerance for the next grid, or for the same one, where iterations stopped too early for what is asked
    subroutine tighten(result, report, eps, tightened)
       !> Of the present grid, with its errors
       type(patch_result), intent(in) :: result

@@ -51,9 +51,9 @@ module contact_cases_accuracy_plan
    !> elements across time does not depend on their number
    real(wp), parameter :: first_share = 0.6_wp, quick_across = 24.0_wp
    !> Part of the accuracy that the next grid aims at; and the part at which it is taken as reached: estimates may be too small
-   real(wp), parameter :: aim = 0.5_wp, enough = 0.65_wp
+   real(wp), parameter :: aim = 0.6_wp, enough = 0.75_wp
    !> Least and largest factor of the number of elements across from one grid to the next; chosen
-   real(wp), parameter :: least_factor = 1.25_wp, largest_factor = 5.0_wp
+   real(wp), parameter :: least_factor = 1.2_wp, largest_factor = 5.0_wp
    !> The error that the grid before lets expect counts with this part: differences of levels may be small by accident
    real(wp), parameter :: share_before = 0.4_wp
    !> Tolerance of the solvers relative to the accuracy, of which 0.3 shows in forces; its bounds
@@ -227,7 +227,7 @@ contains
       !> A number of the series, and how many of them lie between it and its double
       real(wp), parameter :: first = 10.0_wp, in_octave = 4.0_wp
       !> What counts as equal
-      real(wp), parameter :: slack = 0.02_wp
+      real(wp), parameter :: slack = 0.1_wp
 
       usual = anint(first*2.0_wp**(ceiling(in_octave*log(number/first)/log(2.0_wp) - slack)/in_octave))
    end function usual_number

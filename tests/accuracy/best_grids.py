@@ -4,13 +4,15 @@ The contacts of asked.py with the same seed. Each is solved with --accuracy, and
 order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked.
 Times are user and system time of a process with one contact, the least of some, without that of a process that solves nothing: from
 scratch, with influence coefficients and plans of transforms. With --further they are those of one more contact in the same file,
-which finds plans, and on a fixed grid coefficients, too. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM
-names the program.
+which finds plans, and on a fixed grid coefficients, too. With --instructions counts of valgrind take the place of times, which
+other work on the machine does not change. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM names the program.
 """
 import math
 import os
 import random
+import re
 import resource
+import subprocess
 import tempfile
 from pathlib import Path
 
@@ -21,8 +23,10 @@ from errors import run
 
 #: How often a contact is solved more, and repeated
 COPIES, RUNS = 4, 3
-#: Time of a process that solves nothing [s], and whether further contacts are measured
-START = {"seconds": 0.0, "further": False}
+#: Time of a process that solves nothing [s], whether further contacts are measured, and whether instructions are counted
+START = {"seconds": 0.0, "further": False, "instructions": False}
+#: Instructions that count as a second
+PER_SECOND = 1e9
 #: Finer grids than those of asked.py, for kinds of first order
 FINEST = (190, 226, 270, 320)
 
@@ -38,8 +42,22 @@ def cpu_of(*what):
     return records, used() - before
 
 
+def counted(program, folder, name, options=()):
+    """Instructions of a run of a file that is there, as seconds."""
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, *options, "--quiet", "--json", "2", name]
+    done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
+    return int(re.search(r"refs: +([0-9,]+)", done.stderr).group(1).replace(",", "")) / PER_SECOND
+
+
 def seconds_of(program, folder, text, options):
     """Records of one contact, and what it, or one more of them, takes [s]."""
+    if START["instructions"]:
+        records = run(program, folder, "one", [text], False, options)
+        one = counted(program, folder, "one", options)
+        if not START["further"]:
+            return records, one - START["seconds"]
+        run(program, folder, "more", [text] * (1 + COPIES), False, options)
+        return records, (counted(program, folder, "more", options) - one) / COPIES
     if not START["further"]:
         runs = [cpu_of(program, folder, "one", [text], False, options) for _ in range(RUNS)]
         return runs[0][0], max(0.0, min(seconds for _, seconds in runs) - START["seconds"])
@@ -106,15 +124,19 @@ def main():
     parser = parser_of(__doc__)
     parser.add_argument("--list", action="store_true", help="a line for each contact")
     parser.add_argument("--further", action="store_true", help="times of one more contact instead of those from scratch")
+    parser.add_argument("--instructions", action="store_true", help="instructions [1e6] instead of times [ms]")
     asked = parser.parse_args()
     asked.kinds = asked.kinds.split(",")
     asked.asked = [float(word) for word in asked.asked.split(",")]
     program = os.environ["CONTACT_PROGRAM"]
     rows = []
-    START["further"] = asked.further
+    START.update(further=asked.further, instructions=asked.instructions)
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "empty.inp").write_text(" 0 MODULE\n")
-        START["seconds"] = min(processor_time([program, "--json", "2", "empty"], name)[0] for _ in range(3 * RUNS))
+        if asked.instructions:
+            START["seconds"] = counted(program, name, "empty")
+        else:
+            START["seconds"] = min(processor_time([program, "--json", "2", "empty"], name)[0] for _ in range(3 * RUNS))
         for compared in (contacts_compared, wheels_compared):
             for row in compared(program, asked, Path(name)):
                 rows.append(row)

@@ -72,7 +72,7 @@ class Accuracy(Runs):
             1 1 IBASE IPLAN
             0.02 0 0 0 0 0 B
             """
-        for asked in (3e-2, 1e-2, 3e-3, 1e-3):
+        for asked in (3e-2, 1.2e-2, 1e-2, 9e-3, 3e-3, 1e-3):
             with self.subTest(asked):
                 _, record = self.solve("a.inp", case.format(eps=1e-6, n=216, dx=0.001), "--accuracy", str(asked))
                 patch = record["patches"][0]

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
 
 from error_cases import contact, curvatures, elliptic
 
-SIZES = (12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32, 40, 48, 56, 60, 64, 80, 112, 160)
+SIZES = (12, 14, 16, 18, 20, 22, 24, 25, 26, 28, 30, 32, 40, 48, 56, 60, 64, 80, 112, 160)
 REFERENCE, REFERENCE_EPS = (120, 240), 1e-7
 #: Largest error, and what it may cost [ms]
 GOALS = {"rolling": ((1e-3, 0.8), (1e-4, 10.0), (3e-5, 50.0)), "normal": ((1e-4, 1.5),)}
@@ -91,7 +91,8 @@ def rows_of(samples, exact, motion, order, sizes, with_half=False):
     for n in sizes:
         errors, seconds, firsts = [], [], []
         for (m, size, number, place, scheme), (time, first, values) in samples.items():
-            if (m, size, scheme) != (motion, n, order) or (with_half and (m, n // 2, number, place, scheme) not in samples):
+            if (m, size, scheme) != (motion, n, order) or (
+                    with_half and (n % 2 or (m, n // 2, number, place, scheme) not in samples)):
                 continue
             if with_half:
                 half = samples[m, n // 2, number, place, scheme]
