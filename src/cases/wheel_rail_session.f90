@@ -18,6 +18,7 @@ module contact_cases_wheel_rail_session
    use contact_cases_stress_errors, only : estimate_stress_errors
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_elastic_model, only : influence_table
+   use contact_fft_plan, only : start_planner
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
    use contact_patch_wear, only : derive_wear
@@ -34,7 +35,7 @@ module contact_cases_wheel_rail_session
    implicit none (type, external)
    private
 
-   public :: wheel_rail_session, check_files, load_profile, release_wheel_rail_session, solve_wheel_rail_case
+   public :: wheel_rail_session, check_files, load_profile, prepare_first_case, release_wheel_rail_session, solve_wheel_rail_case
 
    !> Memory of one wheel on one rail
    type :: wheel_rail_session
@@ -157,6 +158,11 @@ contains
          end do
       end associate
    end subroutine keep_profiles
+
+   !> Do what the first case of a process would have to wait for, and that does not depend on the case
+   subroutine prepare_first_case()
+      call start_planner()
+   end subroutine prepare_first_case
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
    subroutine release_wheel_rail_session(session)

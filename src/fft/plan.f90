@@ -5,16 +5,16 @@
 !> goes through the spectrum column by column: there, times the kernel, and back, so that no whole spectrum is ever in memory.
 !> Every row and every column is a transform by itself, so that results do not depend on the number of threads.
 module contact_fft_plan
-   use, intrinsic :: iso_c_binding, only : c_associated
+   use, intrinsic :: iso_c_binding, only : c_associated, c_ptr
    use contact_base_kinds, only : wp
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
-   use contact_fft_library, only : backwards, execute_complex, fast_lengths, forwards, lanes, plan_complex
+   use contact_fft_library, only : backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
    use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_two
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
 
-   public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size
+   public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size, start_planner
 
    !> Windows whose padded sides are not longer are small
    integer, parameter :: largest_fast_size = 128
@@ -87,6 +87,17 @@ contains
          fast_size = minval(fast_lengths, fast_lengths >= n)
       end if
    end function fast_size
+
+   !> Start the planner of the library, which takes FFTW some tenths of a millisecond: for who prepares a loop over time
+   subroutine start_planner()
+      complex(wp) :: from(2), to(2)
+      type(c_ptr) :: plan
+
+      !$omp critical (contact_fft_planner)
+      plan = plan_complex(2, 1, from, 1, 2, to, 1, 2, forwards)
+      call destroy(plan)
+      !$omp end critical (contact_fft_planner)
+   end subroutine start_planner
 
    subroutine prepare_plan(self, mx, my, px, py)
       class(fft_plan), intent(inout) :: self
