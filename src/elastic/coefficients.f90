@@ -3,19 +3,21 @@ module contact_elastic_coefficients
    use contact_base_choices, only : kernel_model
    use contact_base_kinds, only : wp
    use contact_elastic_bilinear, only : fill_bilinear, fill_shifted_bilinear
-   use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
+   use contact_elastic_halfspace, only : complete_table, fill_normal, fill_shifted_table, fill_table, kernel_table
    use contact_elastic_inclination, only : rotate_table
    use contact_elastic_memory, only : fill_with_memory
    use contact_elastic_model, only : elastic_model
    implicit none (type, external)
    private
 
-   public :: fill_coefficients, fill_shifted_coefficients
+   public :: complete_coefficients, fill_coefficients, fill_shifted_coefficients
 
 contains
 
    !> Coefficients without shift; for a curved surface whose correction depends on rows those of flat bodies
-   subroutine fill_coefficients(table, model, dx, dy, nx, ny)
+   !>
+   !> Where that is possible, those that are not normal may be left to `complete_coefficients`.
+   subroutine fill_coefficients(table, model, dx, dy, nx, ny, normal_first)
       !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
       !> The bodies: half-spaces, layer, memory, or a table from a file
@@ -24,7 +26,15 @@ contains
       real(wp), intent(in) :: dx, dy
       !> Largest offsets in elements
       integer, intent(in) :: nx, ny
+      !> Are only normal ones wanted now?
+      logical, intent(in) :: normal_first
 
+      if (normal_first .and. .not. allocated(model%memory) .and. model%kernel /= kernel_model%bilinear &
+         & .and. .not. model%rotates_by_offset()) then
+         call fill_normal(table, model%material, dx, dy, nx, ny)
+         table%nn(0, 0) = table%nn(0, 0) + model%sheet
+         return
+      end if
       if (allocated(model%memory)) then
          call fill_with_memory(table, model%material, model%memory, model%coupled(), dx, dy, nx, ny)
       else if (model%kernel == kernel_model%bilinear) then
@@ -37,6 +47,19 @@ contains
       table%xx(0, 0) = table%xx(0, 0) + model%layer
       table%yy(0, 0) = table%yy(0, 0) + model%layer
    end subroutine fill_coefficients
+
+   !> What `fill_coefficients` left out; nothing where all are there
+   subroutine complete_coefficients(table, model)
+      !> That of the bodies
+      type(kernel_table), intent(inout) :: table
+      !> The bodies
+      type(elastic_model), intent(in) :: model
+
+      if (allocated(table%xx) .or. .not. allocated(table%nn)) return
+      call complete_table(table)
+      table%xx(0, 0) = table%xx(0, 0) + model%layer
+      table%yy(0, 0) = table%yy(0, 0) + model%layer
+   end subroutine complete_coefficients
 
    !> Coefficients with the observation points moved by (shift_x, shift_y); flat bodies without memory
    !>

@@ -6,6 +6,7 @@
 !> children alone.
 module contact_elastic_compliance
    use contact_base_kinds, only : wp
+   use contact_elastic_coefficients, only : complete_coefficients
    use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_model, only : elastic_model
    implicit none (type, external)
@@ -28,7 +29,7 @@ module contact_elastic_compliance
       integer :: transforms = 0
       !> Diagonal coefficients at zero offset: nn, xx, yy [mm/(N/mm2)]
       real(wp) :: diagonal(3) = 0.0_wp
-      !> Coefficients in space, at least for all offsets that occur in the window
+      !> Coefficients in space, at least for all offsets that occur in the window; those that are not normal after `complete`
       type(kernel_table) :: table
    contains
       !> Set window, model and rolling direction; everything is kept when nothing changed
@@ -56,6 +57,8 @@ module contact_elastic_compliance
       procedure :: can_coarsen
       !> Does the table hold all there is, the same for all loaded elements?
       procedure :: has_table
+      !> See to it that the table has all coefficients, not only normal ones
+      procedure :: complete
       !> Was the operator prepared for this window and model?
       procedure :: is_for
       !> Pairs of forward and backward transforms so far
@@ -163,6 +166,11 @@ contains
       class(compliance), intent(in) :: self
       has_table = self%mx > 0
    end function has_table
+
+   subroutine complete(self)
+      class(compliance), intent(inout) :: self
+      call complete_coefficients(self%table, self%model)
+   end subroutine complete
 
    pure logical function is_for(self, model, dx, dy, mx, my)
       class(compliance), intent(in) :: self

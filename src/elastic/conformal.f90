@@ -71,6 +71,8 @@ contains
          if (allocated(self%source)) deallocate(self%source, self%response, self%field, self%weight)
       end if
       call self%elastic_operator%prepare(model, dx, dy, mx, my, direction, y_first)
+      ! terms need all of them, and ask which there are
+      call self%complete()
       self%small = .false.
       if (.not. allocated(self%source)) then
          allocate(self%source(self%plan%py, self%plan%kx, 5, 3), self%response(self%plan%py, self%plan%kx, 5, 3))

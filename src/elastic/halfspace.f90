@@ -11,7 +11,7 @@ module contact_elastic_halfspace
    implicit none (type, external)
    private
 
-   public :: kernel_table, fill_table, fill_shifted_table
+   public :: kernel_table, fill_normal, complete_table, own_coefficients, fill_table, fill_shifted_table
    public :: shape_table, set_mirrored, set_entry, corner_functions, combine_corners
 
    !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
@@ -26,7 +26,9 @@ module contact_elastic_halfspace
       !> Offset of the observation point from the element centre [mm]
       real(wp) :: shift_x = 0.0_wp, shift_y = 0.0_wp
       type(combined_material) :: material
-      real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :)
+      real(wp), allocatable :: nn(:, :)
+      !> Unallocated until they are asked for, where only nn was wanted
+      real(wp), allocatable :: xx(:, :), yy(:, :), xy(:, :)
       !> Tangential displacements by pressures; unallocated when uncoupled
       real(wp), allocatable :: xn(:, :), yn(:, :)
       !> Corner functions of the last table without shift, for tables of other sizes, shape (5, -1:..., -1:...); what they are for
@@ -43,7 +45,7 @@ module contact_elastic_halfspace
 
 contains
 
-   !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
+   !> All coefficients without shift
    subroutine fill_table(table, material, dx, dy, nx, ny)
       !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
@@ -53,37 +55,99 @@ contains
       real(wp), intent(in) :: dx, dy
       !> Largest offsets in elements
       integer, intent(in) :: nx, ny
-      integer :: k, l
-      real(wp) :: v(6), d(5)
 
-      call shape_table(table, material, dx, dy, nx, ny)
+      call fill_normal(table, material, dx, dy, nx, ny)
+      call complete_table(table)
+   end subroutine fill_table
+
+   !> Coefficients nn alone, without shift: one quadrant is computed, the rest follows by symmetry
+   subroutine fill_normal(table, material, dx, dy, nx, ny)
+      !> Gets offsets, sides and nn; has no others on exit
+      type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
+      type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
+      integer, intent(in) :: nx, ny
+      integer :: k, l
+
+      if (allocated(table%nn)) then
+         if (table%nx /= nx .or. table%ny /= ny) deallocate(table%nn)
+      end if
+      if (.not. allocated(table%nn)) allocate(table%nn(-nx:nx, -ny:ny))
+      if (allocated(table%xx)) deallocate(table%xx, table%yy, table%xy)
+      if (allocated(table%xn)) deallocate(table%xn, table%yn)
+      call name_table(table, material, dx, dy, nx, ny)
       table%shift_x = 0.0_wp
       table%shift_y = 0.0_wp
       call find_corners(table, dx, dy, nx, ny, material%coupled())
       do l = 0, ny
          do k = 0, nx
-            d = table%corner(:, k, l) - table%corner(:, k - 1, l) - table%corner(:, k, l - 1) + table%corner(:, k - 1, l - 1)
-            v = combine_corners(d, material)
-            ! a coefficient that is odd in an offset vanishes exactly at offset 0
-            if (k == 0 .or. l == 0) v(4) = 0.0_wp
-            table%nn(k, l) = v(1)
-            table%xx(k, l) = v(2)
-            table%yy(k, l) = v(3)
-            table%xy(k, l) = v(4)
-            if (.not. allocated(table%xn)) cycle
-            table%xn(k, l) = merge(0.0_wp, v(5), k == 0)
-            table%yn(k, l) = merge(0.0_wp, v(6), l == 0)
+            table%nn(k, l) = normal_coefficient(difference_of_corners(table, k, l), material)
          end do
       end do
       call mirror(table%nn, nx, ny, 1, 1)
-      call mirror(table%xx, nx, ny, 1, 1)
-      call mirror(table%yy, nx, ny, 1, 1)
-      call mirror(table%xy, nx, ny, -1, -1)
-      if (nx*ny > largest_kept) deallocate(table%corner)
-      if (.not. allocated(table%xn)) return
-      call mirror(table%xn, nx, ny, -1, 1)
-      call mirror(table%yn, nx, ny, 1, -1)
-   end subroutine fill_table
+   end subroutine fill_normal
+
+   !> The coefficients that `fill_normal` leaves out; nothing where they are there
+   subroutine complete_table(table)
+      !> Without shift
+      type(kernel_table), intent(inout) :: table
+      integer :: k, l
+      real(wp) :: v(6)
+
+      if (allocated(table%xx) .or. .not. allocated(table%nn)) return
+      associate (nx => table%nx, ny => table%ny)
+         allocate(table%xx(-nx:nx, -ny:ny), table%yy(-nx:nx, -ny:ny), table%xy(-nx:nx, -ny:ny))
+         if (table%material%coupled()) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
+         do l = 0, ny
+            do k = 0, nx
+               v = combine_corners(difference_of_corners(table, k, l), table%material)
+               ! a coefficient that is odd in an offset vanishes exactly at offset 0
+               if (k == 0 .or. l == 0) v(4) = 0.0_wp
+               table%xx(k, l) = v(2)
+               table%yy(k, l) = v(3)
+               table%xy(k, l) = v(4)
+               if (.not. allocated(table%xn)) cycle
+               table%xn(k, l) = merge(0.0_wp, v(5), k == 0)
+               table%yn(k, l) = merge(0.0_wp, v(6), l == 0)
+            end do
+         end do
+         call mirror(table%xx, nx, ny, 1, 1)
+         call mirror(table%yy, nx, ny, 1, 1)
+         call mirror(table%xy, nx, ny, -1, -1)
+         if (nx*ny > largest_kept) deallocate(table%corner)
+         if (.not. allocated(table%xn)) return
+         call mirror(table%xn, nx, ny, -1, 1)
+         call mirror(table%yn, nx, ny, 1, -1)
+      end associate
+   end subroutine complete_table
+
+   !> Coefficients nn, xx, yy of an element on itself, of a table that is complete or not
+   pure function own_coefficients(table) result(own)
+      !> Without shift
+      type(kernel_table), intent(in) :: table
+      real(wp) :: own(3), v(6)
+
+      if (allocated(table%xx)) then
+         own = [table%nn(0, 0), table%xx(0, 0), table%yy(0, 0)]
+      else
+         v = combine_corners(difference_of_corners(table, 0, 0), table%material)
+         own = [table%nn(0, 0), v(2:3)]
+      end if
+   end function own_coefficients
+
+   !> Corner functions at the corners of an element, with their signs
+   pure function difference_of_corners(table, k, l) result(d)
+      !> Has corner functions
+      type(kernel_table), intent(in) :: table
+      !> Offset, not negative
+      integer, intent(in) :: k, l
+      real(wp) :: d(5)
+
+      d = table%corner(:, k, l) - table%corner(:, k - 1, l) - table%corner(:, k, l - 1) + table%corner(:, k - 1, l - 1)
+   end function difference_of_corners
 
    !> Corner functions up to the largest offsets; those that are known from other sizes are kept
    subroutine find_corners(table, dx, dy, nx, ny, coupled)
@@ -97,6 +161,7 @@ contains
       logical, intent(in) :: coupled
       real(wp), allocatable :: wider(:, :, :)
       integer :: k, l, known(2), wanted(2)
+      logical :: is_square
 
       known = -2
       if (allocated(table%corner)) then
@@ -106,19 +171,34 @@ contains
       if (all(known >= [nx, ny])) return
       wanted = max(known, [nx, ny])
       allocate(wider(5, -1:wanted(1), -1:wanted(2)))
+      is_square = abs(dx - dy) <= 0.0_wp
       !$omp parallel do private(k) if (nx*ny > largest_kept)
       do l = -1, wanted(2)
          do k = -1, wanted(1)
             if (k <= known(1) .and. l <= known(2)) then
                wider(:, k, l) = table%corner(:, k, l)
-            else
+            else if (.not. is_mirrored(k, l)) then
                wider(:, k, l) = corner_functions((k + 0.5_wp)*dx, (l + 0.5_wp)*dy, coupled)
             end if
+         end do
+      end do
+      do l = -1, wanted(2)
+         do k = -1, wanted(1)
+            if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = wider([2, 1, 3, 5, 4], l, k)
          end do
       end do
       call move_alloc(wider, table%corner)
       table%corner_sides = [dx, dy]
       table%corner_coupled = coupled
+
+   contains
+
+      !> Are the functions those of the corner with x and y exchanged, which square elements have?
+      pure logical function is_mirrored(k, l)
+         integer, intent(in) :: k, l
+
+         is_mirrored = is_square .and. l > k .and. l <= wanted(1) .and. k <= wanted(2)
+      end function is_mirrored
    end subroutine find_corners
 
    !> The other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
@@ -233,19 +313,34 @@ contains
 
       with_coupling = material%coupled()
       if (present(coupled)) with_coupling = coupled
-      if (table%nx /= nx .or. table%ny /= ny .or. (with_coupling .neqv. allocated(table%xn))) then
-         if (allocated(table%nn)) deallocate(table%nn, table%xx, table%yy, table%xy)
+      if (table%nx /= nx .or. table%ny /= ny .or. (with_coupling .neqv. allocated(table%xn)) .or. .not. allocated(table%xx)) then
+         if (allocated(table%nn)) deallocate(table%nn)
+         if (allocated(table%xx)) deallocate(table%xx, table%yy, table%xy)
          if (allocated(table%xn)) deallocate(table%xn, table%yn)
          allocate(table%nn(-nx:nx, -ny:ny), table%xx(-nx:nx, -ny:ny), table%yy(-nx:nx, -ny:ny), &
             & table%xy(-nx:nx, -ny:ny))
          if (with_coupling) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
       end if
+      call name_table(table, material, dx, dy, nx, ny)
+   end subroutine shape_table
+
+   !> What a table is for
+   pure subroutine name_table(table, material, dx, dy, nx, ny)
+      !> Gets all but arrays and shift
+      type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
+      type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
+      integer, intent(in) :: nx, ny
+
       table%nx = nx
       table%ny = ny
       table%dx = dx
       table%dy = dy
       table%material = material
-   end subroutine shape_table
+   end subroutine name_table
 
    !> The functions whose mixed difference over the corners gives the coefficients
    !>
@@ -279,11 +374,19 @@ contains
       real(wp) :: v(6), factor
 
       factor = 1.0_wp/(pi*material%gg)
-      v(1) = factor*(1.0_wp - material%nu)*(d(1) + d(2))
+      v(1) = normal_coefficient(d, material)
       v(2) = factor*((1.0_wp - material%nu)*d(1) + d(2))
       v(3) = factor*(d(1) + (1.0_wp - material%nu)*d(2))
       v(4) = -factor*material%nu*d(3)
       v(5) = -factor*material%ak*d(4)
       v(6) = -factor*material%ak*d(5)
    end function combine_corners
+
+   !> The first of them alone
+   pure real(wp) function normal_coefficient(d, material)
+      real(wp), intent(in) :: d(5)
+      type(combined_material), intent(in) :: material
+
+      normal_coefficient = 1.0_wp/(pi*material%gg)*(1.0_wp - material%nu)*(d(1) + d(2))
+   end function normal_coefficient
 end module contact_elastic_halfspace

@@ -16,6 +16,7 @@ module contact_elastic_operator
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : fill_coefficients
    use contact_elastic_compliance, only : compliance
+   use contact_elastic_halfspace, only : own_coefficients
    use contact_elastic_model, only : elastic_model
    use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
    use contact_fft_paired, only : paired_plan
@@ -88,8 +89,9 @@ contains
          ! one element more than a plain product needs: the shifted kernel of steady rolling
          px = fast_size(2*mx + 1)
          py = merge(1, fast_size(2*my), my == 1)
-         call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
-         self%diagonal = [self%table%nn(0, 0), self%table%xx(0, 0), self%table%yy(0, 0)]
+         call fill_coefficients(self%table, model, dx, dy, px/2, py/2, normal_first=.true.)
+         self%diagonal = own_coefficients(self%table)
+         if (.not. allocated(self%table%xx)) self%diagonal(2:3) = self%diagonal(2:3) + model%layer
          call self%plan%prepare(mx, my, px, py)
          self%small = my > 1 .and. max(px, py) <= largest_fast_size
          self%has_normal = .false.
@@ -154,6 +156,7 @@ contains
       integer :: py
 
       if (self%has_tangential) return
+      call self%complete()
       py = self%plan%py
       if (self%my > 1) py = min(py, fast_size(padded_a_little(self%my)))
       call tangential_spectra(self, self%plan%py, self%xx, self%yy, self%xy)
@@ -194,6 +197,7 @@ contains
       class(elastic_operator), intent(inout) :: self
 
       if (self%has_coupling) return
+      call self%complete()
       associate (t => self%table, px => self%plan%px, py => self%plan%py)
          call make_spectrum(t%nx, t%ny, t%xn, .true., .false., px, py, self%xn)
          call make_spectrum(t%nx, t%ny, t%yn, .false., .true., px, py, self%yn)

@@ -52,9 +52,9 @@ contains
       self%model = model
       if (same) then
          call fill_coefficients(self%table, model, dx, dy, max(self%table%nx, ceiling(room*mx)), &
-            & max(self%table%ny, ceiling(room*my)))
+            & max(self%table%ny, ceiling(room*my)), normal_first=.true.)
       else
-         call fill_coefficients(self%table, model, dx, dy, mx, my)
+         call fill_coefficients(self%table, model, dx, dy, mx, my, normal_first=.true.)
       end if
    end subroutine prepare
 

@@ -5,7 +5,7 @@
 module contact_elastic_spectra
    use contact_base_kinds, only : wp
    use contact_fft_lines, only : multiply_opposites, turn_one
-   use contact_fft_plan, only : kernel_spectrum
+   use contact_fft_plan, only : fft_plan
    implicit none (type, external)
    private
 
@@ -17,13 +17,14 @@ module contact_elastic_spectra
 
 contains
 
-   !> Spectrum of one kernel on a period, scaled for the back transform
+   !> Spectrum of one kernel on a period, scaled for the back transform: real if the kernel is even or odd in both coordinates,
+   !> else the imaginary part
    !>
-   !> Real if the kernel is even or odd in both coordinates, else the imaginary part.
+   !> A quarter of the period is transformed, zero-padded; its mirror images have the same spectrum with opposite frequencies.
    subroutine make_spectrum(nx, ny, kernel, odd_x, odd_y, px, py, spectrum)
       !> Coefficients, offsets -nx:nx, -ny:ny
       integer, intent(in) :: nx, ny
-      !> At these offsets, receiving minus loaded element [mm/(N/mm2)]
+      !> At these offsets, receiving minus loaded element [mm/(N/mm2)]; with a memory the part counts that is even or odd in x
       real(wp), intent(in) :: kernel(-nx:, -ny:)
       !> Coordinates in which the kernel is odd, else even
       logical, intent(in) :: odd_x, odd_y
@@ -31,39 +32,45 @@ contains
       integer, intent(in) :: px, py
       !> Shape (py, px/2 + 1)
       real(wp), allocatable, intent(inout) :: spectrum(:, :)
-      real(wp), allocatable :: period(:, :)
+      type(fft_plan) :: plan
+      real(wp), allocatable :: quarter(:, :), part(:)
       complex(wp), allocatable :: transform(:, :)
       integer :: k, l
-      real(wp) :: scale
+      real(wp) :: scale, sign_x, sign_y
 
-      allocate(period(px, py), transform(py, px/2 + 1))
-      do l = 1, py
-         do k = 1, px
-            period(k, l) = kernel(wrapped(k, px), wrapped(l, py))
+      sign_x = merge(-1.0_wp, 1.0_wp, odd_x)
+      sign_y = merge(-1.0_wp, 1.0_wp, odd_y)
+      scale = 2.0_wp/(real(px, wp)*real(py, wp))
+      allocate(quarter(0:px/2, 0:py/2), transform(py, px/2 + 1), part(py))
+      do l = 0, py/2
+         do k = 0, px/2
+            quarter(k, l) = 0.5_wp*scale*(kernel(k, l) + sign_x*kernel(-k, l))
          end do
       end do
-      ! an odd kernel vanishes at half the period, where offsets +n and -n coincide
-      if (odd_x .and. px > 1) period(px/2 + 1, :) = 0.0_wp
-      if (odd_y .and. py > 1) period(:, py/2 + 1) = 0.0_wp
-      call kernel_spectrum(period, transform)
-      scale = 1.0_wp/(real(px, wp)*real(py, wp))
+      ! what is its own mirror image counts half; an odd kernel vanishes there
+      do k = 0, px/2, max(1, px/2)
+         quarter(k, :) = merge(0.0_wp, 0.5_wp, odd_x)*quarter(k, :)
+      end do
+      do l = 0, py/2, max(1, py/2)
+         quarter(:, l) = merge(0.0_wp, 0.5_wp, odd_y)*quarter(:, l)
+      end do
+      call plan%prepare(px/2 + 1, py/2 + 1, px, py)
+      call plan%forward(quarter, transform)
+      call plan%release()
       if (allocated(spectrum)) then
          if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
       end if
       if (.not. allocated(spectrum)) allocate(spectrum(py, px/2 + 1))
-      if (odd_x .eqv. odd_y) then
-         spectrum = scale*real(transform)
-      else
-         spectrum = scale*aimag(transform)
-      end if
+      do l = 1, px/2 + 1
+         if (odd_x .eqv. odd_y) then
+            part = real(transform(:, l))
+         else
+            part = aimag(transform(:, l))
+         end if
+         spectrum(1, l) = (1.0_wp + sign_y)*part(1)
+         spectrum(2:, l) = part(2:) + sign_y*part(py:2:-1)
+      end do
    end subroutine make_spectrum
-
-   !> Offset that belongs to position k of a period of length n
-   pure integer function wrapped(k, n) result(offset)
-      integer, intent(in) :: k, n
-      offset = k - 1
-      if (offset > n/2) offset = offset - n
-   end function wrapped
 
    !> Spectra of the inverse block
    pure subroutine invert_block(elements, xx, yy, xy)

@@ -50,7 +50,7 @@ module contact_normal_conjugate_gradient
    !> Smaller windows are solved directly
    integer, parameter :: smallest = 1500
    !> Residual of the coarse levels; a better estimate than the second is not replaced by one from coarse grids
-   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp, good_estimate = 3.0e-2_wp
+   real(wp), parameter :: coarse_tolerance = 5.0e-3_wp, good_estimate = 3.0e-2_wp
    !> Iterations without a violation below this part of the least one count as stagnation; chosen
    real(wp), parameter :: is_smaller = 0.9_wp
    integer, parameter :: patience = 60

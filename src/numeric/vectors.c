@@ -3,7 +3,6 @@
 
 double contact_vectors_inner(int n, const double *a, const double *b);
 void contact_vectors_add(int n, double factor, const double *a, double *b);
-double contact_vectors_add_and_multiply(int n, double factor, const double *a, double *b, const double *c);
 
 #define OF(name) name##_anywhere
 #define TARGET
@@ -18,7 +17,3 @@ double contact_vectors_add_and_multiply(int n, double factor, const double *a, d
 double contact_vectors_inner(int n, const double *a, const double *b) { return CALL(inner, n, a, b); }
 
 void contact_vectors_add(int n, double factor, const double *a, double *b) { CALL(add, n, factor, a, b); }
-
-double contact_vectors_add_and_multiply(int n, double factor, const double *a, double *b, const double *c) {
-  return CALL(add_and_multiply, n, factor, a, b, c);
-}

@@ -1,13 +1,13 @@
 !> Sums and inner products of long vectors
 !>
-!> Four sums in turn, which a processor adds at once: one after the other each addition waits for the one before. The loops are
+!> Several sums in turn, which a processor adds at once: one after the other each addition waits for the one before. The loops are
 !> in vectors.c.
 module contact_numeric_vectors
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    implicit none (type, external)
    private
 
-   public :: add, add_and_multiply, inner
+   public :: add, inner
 
    interface
       !> Inner product, of vectors whose squares neither overflow nor vanish
@@ -31,20 +31,5 @@ module contact_numeric_vectors
          !> What it is added to
          real(c_double), intent(inout) :: b(n)
       end subroutine add
-
-      !> The same, and then the inner product of b with another one
-      real(c_double) function add_and_multiply(n, factor, a, b, c) bind(c, name="contact_vectors_add_and_multiply")
-         import :: c_double, c_int
-         !> Length
-         integer(c_int), value :: n
-         !> What a is multiplied with
-         real(c_double), value :: factor
-         !> What is added
-         real(c_double), intent(in) :: a(n)
-         !> What it is added to
-         real(c_double), intent(inout) :: b(n)
-         !> What the sum is multiplied with; not b
-         real(c_double), intent(in) :: c(n)
-      end function add_and_multiply
    end interface
 end module contact_numeric_vectors

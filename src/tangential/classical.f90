@@ -132,6 +132,7 @@ contains
 
       self%with_rows = self%method /= classical_method%tang_cg
       if (self%with_rows) then
+         call operator%complete()
          if (self%general) then
             call self%rows%prepare(problem, operator, shifted)
          else

@@ -17,18 +17,21 @@ module contact_tangential_newton_jacobian
    private
 
    public :: apply_d, apply_jacobian, add_radial, differentiate_return_map, fit_workspace, linear_system, linearise, &
-      & new_system, newton_workspace, restart
+      & most_pieces, new_system, newton_workspace, restart
 
    !> Largest Krylov space between restarts; chosen
    integer, parameter :: restart = 40
+   !> Pieces of vectors in orthogonalisation at most; chosen
+   integer, parameter :: most_pieces = 64
 
    !> Scratch of one window size; no meaning between calls
    type :: newton_workspace
       integer :: mx = 0, my = 0
       !> Krylov basis and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
       real(wp), allocatable :: basis(:, :), preconditioned(:, :)
-      !> The Jacobian in that basis, shape (restart + 1, restart): stacks may be small
-      real(wp), allocatable :: hessenberg(:, :)
+      !> The Jacobian in that basis, shape (restart + 1, restart), and sums over pieces of vectors, shape (restart + 1,
+      !> most_pieces): stacks may be small
+      real(wp), allocatable :: hessenberg(:, :), part(:, :)
       !> Solution, right-hand side and scratch of the linear system, shape (2 mx my + 2)
       real(wp), allocatable :: x(:), b(:), work(:)
       !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
@@ -87,7 +90,8 @@ contains
       end if
       ! memory is touched when a vector is first used
       allocate(workspace%basis(2*mx*my + 2, restart + 1), workspace%preconditioned(2*mx*my + 2, restart))
-      if (.not. allocated(workspace%hessenberg)) allocate(workspace%hessenberg(restart + 1, restart))
+      if (.not. allocated(workspace%hessenberg)) &
+         & allocate(workspace%hessenberg(restart + 1, restart), workspace%part(restart + 1, most_pieces))
       allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
       allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
       allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)

@@ -5,8 +5,9 @@
 module contact_tangential_newton_linear
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
-   use contact_numeric_vectors, only : add, add_and_multiply, inner
-   use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, newton_workspace, restart
+   use contact_numeric_vectors, only : add, inner
+   use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, most_pieces, &
+      & newton_workspace, restart
    use contact_tangential_problem, only : add_creepages, tangential_problem
    use contact_tangential_slip_loops, only : join_parts
    implicit none (type, external)
@@ -18,6 +19,8 @@ module contact_tangential_newton_linear
    integer, parameter :: max_cycles = 4
    !> A vector that orthogonalisation shortens to less than this part is orthogonalised again; chosen
    real(wp), parameter :: shortened = 0.1_wp
+   !> Length of a piece of a vector in orthogonalisation at least, and of vectors that are worth threads; chosen
+   integer, parameter :: least_piece = 1024, worth_threads = 40000
    !> Schur complements count as singular below this, absolute for one force, relative for two; round-off
    real(wp), parameter :: singular_one = 1.0e-12_wp, singular_two = 1.0e-14_wp
 
@@ -70,8 +73,8 @@ contains
                call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
                before = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
                h(:j, j) = 0.0_wp
-               after = take_away(n, j, v, h(:j, j))
-               if (after < shortened*before) after = take_away(n, j, v, h(:j, j))
+               after = take_away(n, j, v, workspace%part, h(:j, j))
+               if (after < shortened*before) after = take_away(n, j, v, workspace%part, h(:j, j))
                h(j + 1, j) = after
                if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
                do k = 1, j - 1
@@ -112,25 +115,92 @@ contains
       end associate
    end subroutine solve_linear
 
-   !> Take the parts along the first j vectors away from the next one, one after the other; the length that is left
-   real(wp) function take_away(n, j, v, h) result(length)
+   !> Take the parts along the first j vectors away from the next one; the length that is left
+   !>
+   !> Piece by piece, so that a piece of that vector stays near the processor while those of the others pass. Pieces and the order
+   !> of their sums do not depend on the number of threads.
+   real(wp) function take_away(n, j, v, part, h) result(length)
       !> Length of the vectors that counts, and their number
       integer, intent(in) :: n, j
       !> The vectors
       real(wp), contiguous, intent(inout) :: v(:, :)
+      !> Scratch, see newton_workspace
+      real(wp), contiguous, intent(inout) :: part(:, :)
       !> Lengths of the parts are added here
       real(wp), intent(inout) :: h(:)
-      real(wp) :: part
-      integer :: k
+      real(wp) :: now(restart)
+      integer :: k, one, piece, pieces
 
-      part = inner(n, v(:, 1), v(:, j + 1))
+      one = max(least_piece, 4*((n + 4*most_pieces - 1)/(4*most_pieces)))
+      pieces = (n + one - 1)/one
+      ! a parallel region asks for memory, even one of a single thread
+      if (n <= worth_threads) then
+         do piece = 1, pieces
+            call find_parts(n, j, v, one, piece, part(:, piece))
+         end do
+      else
+         !$omp parallel do
+         do piece = 1, pieces
+            call find_parts(n, j, v, one, piece, part(:, piece))
+         end do
+         !$omp end parallel do
+      end if
       do k = 1, j
-         h(k) = h(k) + part
-         if (k < j) part = add_and_multiply(n, -part, v(:, k), v(:, j + 1), v(:, k + 1))
+         now(k) = sum(part(k, :pieces))
+         h(k) = h(k) + now(k)
       end do
-      call add(n, -part, v(:, j), v(:, j + 1))
-      length = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
+      if (n <= worth_threads) then
+         do piece = 1, pieces
+            call remove_parts(n, j, v, one, piece, now, part(restart + 1, piece))
+         end do
+      else
+         !$omp parallel do
+         do piece = 1, pieces
+            call remove_parts(n, j, v, one, piece, now, part(restart + 1, piece))
+         end do
+         !$omp end parallel do
+      end if
+      length = sqrt(sum(part(restart + 1, :pieces)))
    end function take_away
+
+   !> Inner products of a piece of the next vector with those before it
+   subroutine find_parts(n, j, v, one, piece, part)
+      !> Length of the vectors that counts, and their number
+      integer, intent(in) :: n, j
+      !> The vectors
+      real(wp), contiguous, intent(in) :: v(:, :)
+      !> Length of a piece, and its number
+      integer, intent(in) :: one, piece
+      !> The products
+      real(wp), intent(inout) :: part(:)
+      integer :: first, k
+
+      first = one*(piece - 1) + 1
+      do k = 1, j
+         part(k) = inner(min(one, n + 1 - first), v(first:, k), v(first:, j + 1))
+      end do
+   end subroutine find_parts
+
+   !> Take the others away from a piece of the next vector
+   subroutine remove_parts(n, j, v, one, piece, part, left)
+      !> Length of the vectors that counts, and their number
+      integer, intent(in) :: n, j
+      !> The vectors
+      real(wp), contiguous, intent(inout) :: v(:, :)
+      !> Length of a piece, and its number
+      integer, intent(in) :: one, piece
+      !> How much of each is taken away
+      real(wp), intent(in) :: part(:)
+      !> The square of what is left
+      real(wp), intent(out) :: left
+      integer :: first, k
+
+      first = one*(piece - 1) + 1
+      do k = 1, j
+         call add(min(one, n + 1 - first), -part(k), v(first:, k), v(first:, j + 1))
+      end do
+      left = inner(min(one, n + 1 - first), v(first:, j + 1), v(first:, j + 1))
+   end subroutine remove_parts
 
    !> out := M^-1 v, bordered
    subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)

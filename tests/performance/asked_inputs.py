@@ -70,8 +70,8 @@ ROWS = [("normal problem, 3,000 elements", ball(68), 1, "ms", 8.0),
 
 
 #: What is run, and how many millions of instructions it took besides the start of the program
-COUNTED = [("normal problem, 3,000 elements", ball(68), 36),
-           ("steady rolling with G = 5, 3,000 elements", ball(68, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 162),
+COUNTED = [("normal problem, 3,000 elements", ball(68), 25),
+           ("steady rolling with G = 5, 3,000 elements", ball(68, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 110),
            ("wheel on rail, KPEC, 0.2 mm, 5 places", wheel("1250100", 0.2, 5), 163),
            ("wheel on rail, ANALYN, 0.2 mm, 5 places", wheel("1260100", 0.2, 5), 153),
            ("wheel on rail, KPEC, 1.0 mm, 41 places", wheel("1250100", 1.0, 41), 150),

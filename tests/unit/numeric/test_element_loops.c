@@ -20,7 +20,7 @@ typedef struct {
 static double from[FIELDS][ROOM], creep[2], r, factor;
 static int contact[LONGEST];
 
-enum { INNER, ADD, ADD_AND_MULTIPLY, MEAN_GAP, RESIDUALS, CHOOSE_FREE, MEAN, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
+enum { INNER, ADD, MEAN_GAP, RESIDUALS, CHOOSE_FREE, MEAN, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
        PROJECT_CHANGE, JACOBIAN, JOIN, COLUMN, KINDS };
 
 static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
@@ -31,7 +31,6 @@ static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
     switch (kind) { \
       case INNER: z->sums[0] = inner_##processor(n, f[0], f[1]); break; \
       case ADD: add_##processor(n, factor, f[0], z->a); break; \
-      case ADD_AND_MULTIPLY: z->sums[0] = add_and_multiply_##processor(n, factor, f[0], z->a, f[1]); break; \
       case MEAN_GAP: z->sums[0] = mean_gap_##processor(n, f[0], f[1], f[2]); break; \
       case RESIDUALS: z->sums[0] = residuals_##processor(n, r, f[0], f[1], f[2], z->a); break; \
       case CHOOSE_FREE: choose_free_##processor(n, f[2], f[0], 0.5, z->a, z->b); break; \
@@ -66,10 +65,6 @@ static void define_pressures(int kind, int k, buffers *z) {
   switch (kind) {
     case INNER: z->sums[0] += h * u; break;
     case ADD: z->a[k] += factor * h; break;
-    case ADD_AND_MULTIPLY:
-      z->a[k] += factor * h;
-      z->sums[0] += z->a[k] * u;
-      break;
     case MEAN_GAP: z->sums[0] += p > 0.0 ? h + u : 0.0; break;
     case RESIDUALS:
       z->a[k] = p > 0.0 || gap > 0.0 ? gap : 0.0;
