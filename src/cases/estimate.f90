@@ -8,7 +8,7 @@ module contact_cases_estimate
    use contact_base_choices, only : force_control, material_model, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
-   use contact_cases_accuracy_plan, only : expected_across, expected_law, most_elements
+   use contact_cases_accuracy_plan, only : accuracy_law, expected_across, expected_law, most_elements
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_distance, only : distance_form
    use contact_cases_spec, only : case_spec
@@ -45,15 +45,18 @@ module contact_cases_estimate
    !> Times NPOT_MAX that are refused where elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
    !> All grids of a case with an accuracy, per element of the usual last one [s]: pressures; with tractions of shifts; of rolling;
-   !> of a wheel, whose height is sought. Each case, and files of profiles [s]. Elements of that grid over those of the first one,
-   !> since some contacts need a second
+   !> of a wheel, whose height is sought. Each case, files of profiles, and each value of a profile [s]. Elements of that grid over
+   !> those of the first one, since some contacts need a second
    real(wp), parameter :: accurate_pressures = 2.0e-6_wp, accurate_shift = 3.5e-6_wp, accurate_rolling = 4.2e-6_wp, &
-      & accurate_wheel = 1.0e-5_wp, accurate_case = 2.0e-3_wp, accurate_profiles = 4.0e-3_wp, more_elements = 1.4_wp
+      & accurate_wheel = 8.0e-6_wp, accurate_case = 1.7e-3_wp, accurate_profiles = 4.0e-3_wp, accurate_value = 2.0e-6_wp, &
+      & more_elements = 1.05_wp
    !> Simplified methods that were allowed, per element [s]: one march; and marches that find creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
    !> Factors: turns of pressures and tractions; bodies that remember; trials for prescribed forces; elements of profiles, which are
    !> bumpy or touch in two places, and of bodies that remember; friction that changes with slip
-   real(wp), parameter :: accurate_turns = 2.0_wp, remembering = 4.0_wp, accurate_trials = 1.4_wp, uneven = 1.8_wp, falling = 2.0_wp
+   real(wp), parameter :: accurate_turns = 2.0_wp, remembering = 2.4_wp, accurate_trials = 1.4_wp, uneven = 2.0_wp, falling = 2.0_wp
+   !> Factor and order of the estimates of unlike bodies in steady rolling, which fall slower than those that a search expects
+   real(wp), parameter :: unlike_factor = 0.37_wp, unlike_order = 1.45_wp
    !> Part of a window along each side that contact takes
    real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
@@ -123,6 +126,7 @@ contains
       type(case_cost), intent(inout) :: cost
       type(potential_contact) :: grid
       type(approximate_method) :: chosen
+      type(accuracy_law) :: law
       real(wp) :: n, most, rate
       logical :: remembers
 
@@ -135,7 +139,12 @@ contains
             & marches*simplified*real(cost%elements, wp)
          return
       end if
-      n = (expected_across(expected_law(spec), spec%iteration%accuracy)/usual_share)**2*more_elements
+      law = expected_law(spec)
+      if (law%bound > 0.0_wp .and. law%order > unlike_order) then
+         law%factor = unlike_factor
+         law%order = unlike_order
+      end if
+      n = (expected_across(law, spec%iteration%accuracy)/usual_share)**2*more_elements
       remembers = spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none
       if (remembers .or. (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile)) n = uneven*n
       most = most_elements(spec%limits)
@@ -157,6 +166,7 @@ contains
          & rate = accurate_trials*rate
       cost%seconds = accurate_case + rate*n
       if (allocated(spec%wheel_rail)) cost%seconds = cost%seconds + accurate_profiles
+      if (allocated(spec%geometry%profile)) cost%seconds = cost%seconds + accurate_value*size(spec%geometry%profile)
    end subroutine estimate_accurate
 
    !> Does the outer iteration turn?
