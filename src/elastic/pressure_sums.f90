@@ -81,15 +81,15 @@ contains
             if (.not. weight(ix, iy) > 0.0_wp) cycle
             here = 0.0_wp
             do l = 1, size(p, 2)
-               ! four sums at once do not wait for each other
+               ! four sums at once do not wait for each other; coefficients are even in both directions
                row = 0.0_wp
                do k = first(l), last(l) - 3, 4
                   do m = 0, 3
-                     row(m + 1) = row(m + 1) + self%table%nn(ix - k - m, iy - l)*p(k + m, l)
+                     row(m + 1) = row(m + 1) + self%table%nn(k + m - ix, l - iy)*p(k + m, l)
                   end do
                end do
                do m = k, last(l)
-                  row(1) = row(1) + self%table%nn(ix - m, iy - l)*p(m, l)
+                  row(1) = row(1) + self%table%nn(m - ix, l - iy)*p(m, l)
                end do
                here = here + sum(row)
             end do

@@ -87,8 +87,7 @@ contains
                if (result%normal%ended == ending%stagnated .and. allocated(problem%model%memory)) &
                   & call solve_by_active_sets(normal, workspace%window, state%now%pn, result%pen, result%normal)
             else
-               ! overlap of the surfaces instead of their distance; excluded elements stay excluded
-               where (normal%h < excluded_threshold) normal%h = normal%h - problem%pen
+               call subtract_approach(normal%h, problem%pen)
                associate (material => problem%model%material)
                   call prepare_sums(problem, workspace)
                   call approximate_pressure(problem%pressure, problem%grid, normal%h, material%gg/(1.0_wp - material%nu), &
@@ -110,10 +109,35 @@ contains
       ! the total is that of the pressures; a prescribed force that they carry keeps its last figure
       result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
       if (problem%force_prescribed .and. abs(result%fn - problem%fn) <= round_off*problem%fn) result%fn = problem%fn
-      if (problem%motion == motion%none) then
-         where (state%now%division > element%exterior) state%now%division = element%adhesion
-      end if
+      if (problem%motion == motion%none) call all_adhere(state%now%division)
    end subroutine normal_step
+
+   !> Overlap of the surfaces instead of their distance; excluded elements stay excluded
+   pure subroutine subtract_approach(h, pen)
+      !> Distance of the surfaces [mm]; negative on exit where they overlap
+      real(wp), intent(inout) :: h(:, :)
+      !> [mm]
+      real(wp), intent(in) :: pen
+      integer :: ix, iy
+
+      do iy = 1, size(h, 2)
+         do ix = 1, size(h, 1)
+            h(ix, iy) = h(ix, iy) - merge(pen, 0.0_wp, h(ix, iy) < excluded_threshold)
+         end do
+      end do
+   end subroutine subtract_approach
+
+   !> Without motion all elements in contact adhere
+   pure subroutine all_adhere(division)
+      integer, intent(inout) :: division(:, :)
+      integer :: ix, iy
+
+      do iy = 1, size(division, 2)
+         do ix = 1, size(division, 1)
+            division(ix, iy) = merge(element%adhesion, element%exterior, division(ix, iy) > element%exterior)
+         end do
+      end do
+   end subroutine all_adhere
 
    !> Can displacements that approximate pressures need be summed directly?
    pure logical function suits_sums(problem)

@@ -112,6 +112,8 @@ module contact_patch_problem
    contains
       !> Do the pressures fulfil the contact conditions, or are they given or approximate?
       procedure :: solves_for_pressure
+      !> Are pressures or tractions found step by step from an estimate? Otherwise all follows from formulas
+      procedure :: iterates
       !> Do pressures depend on the tangential tractions?
       procedure :: couples
       !> Do particles carry a quantity along, and which value have those without history?
@@ -175,6 +177,11 @@ contains
       class(patch_problem), intent(in) :: self
       solves = self%pressure == pressure_model%full .and. .not. allocated(self%given_pressure)
    end function solves_for_pressure
+
+   pure logical function iterates(self)
+      class(patch_problem), intent(in) :: self
+      iterates = self%solves_for_pressure() .or. (self%motion /= motion%none .and. .not. allocated(self%simplified))
+   end function iterates
 
    pure logical function couples(self)
       class(patch_problem), intent(in) :: self

@@ -77,6 +77,7 @@ contains
       type(patch_workspace), intent(inout) :: workspace
       integer :: mx, my
 
+      if (.not. (problem%iterates() .or. problem%model%coupled())) return
       mx = problem%grid%mx
       my = problem%grid%my
       if (allocated(workspace%un)) then

@@ -422,7 +422,7 @@ contains
             around = (k(1)*q(3) - k(3)*q(1))/rho
             correction = (radius + z - rho)/((k(1)*q(1) + k(3)*q(3))/rho - z_y*k(2) - z_around*around/rho)
             n = n + correction
-            if (abs(correction)*hypot(k(2), around) <= short_way) return
+            if (correction**2*(k(2)**2 + around**2) <= short_way**2) return
          end do
          found = .false.
       end associate

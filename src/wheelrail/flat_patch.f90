@@ -12,8 +12,7 @@ module contact_wheelrail_flat_patch
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_region, only : contact_region, seeds_of
-   use contact_wheelrail_spec, only : search_spec
-   use contact_wheelrail_wheel_surface, only : remembered, wheel_row
+   use contact_wheelrail_wheel_rows, only : wheel_rows
    implicit none (type, external)
    private
 
@@ -44,11 +43,11 @@ contains
    end function patch_frame
 
    !> Elements that cover a region, with one more on each side
-   subroutine patch_grid(rail, search, region, plane, reference, max_elements, grid)
+   subroutine patch_grid(rail, sides, region, plane, reference, max_elements, grid)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
-      !> Sizes of the elements [mm]
-      type(search_spec), intent(in) :: search
+      !> Sides of the elements along the track and across [mm]
+      real(wp), intent(in) :: sides(2)
       !> Extent of the interpenetration
       type(contact_region), intent(in) :: region
       !> Contact reference and its axes
@@ -68,8 +67,8 @@ contains
       ! beyond the ends of the profile the surface is taken to go on straight
       s(1) = min(s(1), region%box%y(1) - plane%origin(2))
       s(2) = max(s(2), region%box%y(2) - plane%origin(2))
-      dx = search%dx
-      ds = search%ds
+      dx = sides(1)
+      ds = sides(2)
       do doubling = 1, 40
          ! the reference as seen from the centre of its element, which may be many elements from the origin
          lead = reference - anint(reference/[dx, ds])*[dx, ds]
@@ -121,7 +120,7 @@ contains
       logical :: beyond
 
       strangers = 0
-      if (.not. joined) then
+      if (.not. joined .and. .not. falls_slowly(h, max(largest_fall, steepest_fall*grid%dy))) then
          centre = min(max(nint(0.5_wp - grid%yl/grid%dy), 1), grid%my)
          do step = -1, 1, 2
             do ix = 1, grid%mx
@@ -142,6 +141,28 @@ contains
       approach = -minval(h)
       h = h + approach
    end subroutine settle_distance
+
+   !> Are both bodies there in all elements, and does the gap fall by less than a limit from each row to the next?
+   pure logical function falls_slowly(h, limit)
+      !> See `settle_distance`
+      real(wp), intent(in) :: h(:, :)
+      !> [mm]
+      real(wp), intent(in) :: limit
+      integer :: ix, iy, others
+
+      others = 0
+      do iy = 1, size(h, 2)
+         do ix = 1, size(h, 1)
+            if (h(ix, iy) >= 0.5_wp*nothing_there) others = others + 1
+         end do
+      end do
+      do iy = 2, size(h, 2)
+         do ix = 1, size(h, 1)
+            if (abs(h(ix, iy) - h(ix, iy - 1)) > limit) others = others + 1
+         end do
+      end do
+      falls_slowly = others == 0
+   end function falls_slowly
 
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach
    subroutine undeformed_distance(rail, wheel, placement, plane, places, grid, h, approach, strangers)
@@ -166,10 +187,9 @@ contains
       integer, intent(out) :: strangers
       type(profile_curve) :: section
       type(frame) :: seen
-      real(wp) :: x(grid%mx), n_wheel(grid%mx), place(grid%mx), start(2), rows(grid%mx, 2, remembered)
+      type(wheel_rows) :: rows
       real(wp) :: delta, s, n_rail
-      logical :: found(grid%mx)
-      integer :: ix, iy, known
+      integer :: ix, iy
 
       if (allocated(h)) then
          if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
@@ -181,18 +201,18 @@ contains
       end associate
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
-      start = [wheel%s_at(seen%origin(2)), 0.0_wp]
-      x = [(grid%x(ix), ix=1, grid%mx)]
-      known = 0
-      rows = 0.0_wp
+      call rows%begin([grid%x(1), grid%x(grid%mx)], grid%mx, [wheel%s_at(seen%origin(2)), 0.0_wp])
       do iy = 1, grid%my
          s = grid%y(iy)
-         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, place, n_wheel, found, rows, known)
-         n_rail = rail_height(0.0_wp, s)
-         do ix = 1, grid%mx
-            if (placement%roller_radius > 0.0_wp) n_rail = rail_height(x(ix), s)
-            h(ix, iy) = n_rail - merge(n_wheel(ix), -nothing_there, found(ix))
-         end do
+         call rows%find(wheel, placement%wheel_radius, seen, s, -nothing_there, h(:, iy))
+         if (placement%roller_radius > 0.0_wp) then
+            do ix = 1, grid%mx
+               h(ix, iy) = rail_height(grid%x(ix), s) - h(ix, iy)
+            end do
+         else
+            n_rail = rail_height(0.0_wp, s)
+            h(:, iy) = n_rail - h(:, iy)
+         end if
       end do
       call settle_distance(grid, size(places) > 2, h, approach, strangers)
 

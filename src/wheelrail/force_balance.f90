@@ -184,11 +184,12 @@ contains
       end if
    end function next_trial
 
-   !> Is the last trial near the target, and nearer by far than the one before it, if there was one? Then the next step is believed
+   !> Is the last trial near the target, and nearer by far than the one before it, if there was one? Then the next step is believed.
+   !> A first one without slope has to be nearer: the step takes the power of the penetration for granted
    pure logical function leads_on(self)
       class(force_balance), intent(in) :: self
       !> Missed force relative to the target, and to what the trial before missed
-      real(wp), parameter :: near_target = 0.05_wp, nearer = 0.2_wp
+      real(wp), parameter :: near_target = 0.05_wp, very_near = 0.02_wp, nearer = 0.2_wp
       real(wp) :: miss
 
       associate (last => self%last, before => self%before)
@@ -199,7 +200,7 @@ contains
             leads_on = miss <= nearer*abs(before%force - self%target) .and. before%force > 0.0_wp &
                & .and. (last%force - before%force)*(last%z - before%z) > 0.0_wp
          else
-            leads_on = last%slope > 0.0_wp
+            leads_on = last%slope > 0.0_wp .or. miss <= very_near*self%target
          end if
       end associate
    end function leads_on

@@ -57,6 +57,8 @@ module contact_wheelrail_geometry
       real(wp) :: pressure_eps = 1.0_wp
       !> The same for tangential tractions
       real(wp) :: traction_eps = 1.0_wp
+      !> Sides of elements in the present trial over those that are asked for
+      integer :: coarser = 1
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
       real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
       !> Top of the canted rail and its gauge point [mm], and what they were found for: cant [rad], height of the gauge point [mm]

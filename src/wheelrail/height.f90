@@ -16,7 +16,7 @@ module contact_wheelrail_height
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_height_search, only : height_search, mostly_friction, sum_of_normal_forces
    use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force
-   use contact_wheelrail_problem, only : wheel_rail_problem
+   use contact_wheelrail_problem, only : follows_surface, keeps_lattice, wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares
    implicit none (type, external)
@@ -147,6 +147,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(height_search) :: search
       logical :: is_settled
+      integer :: coarser
 
       call search%begin(memory, target, spring, result%force_evaluations)
       search%guess = penetration_guess(problem, memory, target)
@@ -169,6 +170,8 @@ contains
          call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)
          if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
       end if
+      coarser = coarsening(problem, memory, search%guess - search%touch)
+      if (.not. (is_settled .or. allocated(error)) .and. coarser > 1) call search%approach(problem, memory, coarser, log)
       if (.not. (is_settled .or. allocated(error))) call search_apart(problem, memory, search, is_settled, log, error)
       if (.not. allocated(error) .and. .not. is_settled) call search_together(problem, memory, search, log, error)
       z = search%z
@@ -319,25 +322,16 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
       real(wp), intent(in) :: force
-      real(wp) :: a, b, bend, modulus
-      integer :: i, k, round
+      real(wp) :: curvature(2), modulus
+      integer :: round
 
-      associate (gap => memory%geometry%gap)
-         i = minloc(gap%gap, dim=1)
-         a = gap%kappa
-         b = a
-         k = max(1, nint(bend_reach/gap%dy))
-         if (i - k >= 1 .and. i + k <= gap%n) then
-            bend = (gap%gap(i - k) - 2.0_wp*gap%gap(i) + gap%gap(i + k))/(k*gap%dy)**2
-            if (bend > 0.0_wp .and. bend < max_bend) b = 0.5_wp*bend
-         end if
-      end associate
+      curvature = curvatures(memory%geometry%gap)
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
-      pen = sphere(b)
+      pen = sphere(curvature(2))
       if (.not. problem%in_loop) return
       ! the curvature is that over the width of the contact
       do round = 1, rounds_of_width
-         pen = sphere(bend_over(memory%geometry%gap, i, 0.5_wp*pen))
+         pen = sphere(bend_over(memory%geometry%gap, minloc(memory%geometry%gap%gap, dim=1), 0.5_wp*pen))
       end do
 
    contains
@@ -347,7 +341,7 @@ contains
          !> Half the second derivative of the gap across the track [1/mm]
          real(wp), intent(in) :: b
 
-         sphere = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
+         sphere = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(curvature(1)*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
          sphere = max(sphere, min_penetration)
       end function sphere
    end function penetration_guess
@@ -377,6 +371,40 @@ contains
       bend = max_bend
       if (width > 0.0_wp) bend = min(max_bend, opening/(0.5_wp*width)**2)
    end function bend_over
+
+   !> How much larger elements may be in a search for a guess
+   !>
+   !> A search that knows the last case, or the last solution of this one, needs none.
+   integer function coarsening(problem, memory, penetration) result(coarser)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Guess [mm]
+      real(wp), intent(in) :: penetration
+      !> Elements across the overlap of the bodies
+      real(wp), parameter :: enough = 14.0_wp
+      real(wp), parameter :: largest = 6.0_wp
+
+      coarser = 1
+      if (memory%geometry%follows .or. memory%geometry%penetration > 0.0_wp .or. problem%use_previous) return
+      if (keeps_lattice(problem) .or. follows_surface(problem) .or. .not. problem%template%model%is_flat()) return
+      associate (search => problem%spec%search, half => sqrt(penetration/max(curvatures(memory%geometry%gap), min_curvature)))
+         coarser = int(max(1.0_wp, min(largest, 2.0_wp*minval(half/[search%dx, search%ds])/enough)))
+      end associate
+   end function coarsening
+
+   !> Half the second derivatives of the gap at its smallest place, along the track and across [1/mm]
+   pure function curvatures(gap) result(curvature)
+      type(gap_curve), intent(in) :: gap
+      real(wp) :: curvature(2), bend
+      integer :: i, k
+
+      i = minloc(gap%gap, dim=1)
+      curvature = gap%kappa
+      k = max(1, nint(bend_reach/gap%dy))
+      if (i - k < 1 .or. i + k > gap%n) return
+      bend = (gap%gap(i - k) - 2.0_wp*gap%gap(i) + gap%gap(i + k))/(k*gap%dy)**2
+      if (bend > 0.0_wp .and. bend < max_bend) curvature(2) = 0.5_wp*bend
+   end function curvatures
 
    !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel
    subroutine refuse_soft_bodies(radius, force, penetration, error)

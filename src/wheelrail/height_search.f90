@@ -42,6 +42,7 @@ module contact_wheelrail_height_search
       logical, private :: is_rough = .false.
    contains
       procedure :: begin
+      procedure :: approach
       procedure :: run
       procedure :: follow
       procedure :: try
@@ -51,6 +52,9 @@ module contact_wheelrail_height_search
 
    !> A trial after one that missed the force by less than so many times EPS solves pressures to that part of EPS
    real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
+   !> Force that a search with coarser elements misses at most, relative to it, and trials for that
+   real(wp), parameter :: close_enough = 3.0e-2_wp
+   integer, parameter :: few_trials = 5
    !> Least part of the normal forces that pressures are made sharper for
    real(wp), parameter :: smallest = 1.0e-4_wp
    !> A search that follows the last case: trials at most, part of EPS that it goes on to, parts of the missed force that a trial
@@ -94,6 +98,31 @@ contains
       self%bottom = self%touch
       self%trials_before = trials_before
    end subroutine begin
+
+   !> A better guess, from a search of its own with coarser elements; nothing else of it stays
+   subroutine approach(self, problem, memory, coarser, log)
+      class(height_search), intent(inout) :: self
+      !> What is asked for wheel and rail
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Patches of the trials; those of the next trial start anew
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Sides of its elements over those that are asked for
+      integer, intent(in) :: coarser
+      !> Takes the trace of the solvers
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable :: error
+      type(height_search) :: coarse
+
+      call coarse%begin(memory, self%target, self%spring, self%trials_before)
+      coarse%guess = self%guess
+      memory%geometry%coarser = coarser
+      call coarse%bracket(problem, memory, .false., close_enough, few_trials, log, error)
+      memory%geometry%coarser = 1
+      ! an error would be that of the first trial, too
+      if (allocated(error)) return
+      if (coarse%balance%ended == balance_ending%reached .and. coarse%stiffness > 0.0_wp) &
+         & self%guess = coarse%z + newton_step(coarse, coarse%stiffness)
+   end subroutine approach
 
    !> A search from a bracket of its own, from `guess` on; its best height is z
    subroutine run(self, problem, memory, with_friction, eps, max_trials, log, error)
@@ -193,7 +222,7 @@ contains
          last_miss = miss
          last_z = z
          last_force = self%force
-         z = z + self%force/(power*stiffer*self%stiffness)*((self%target/self%force)**power - 1.0_wp)
+         z = z + newton_step(self, stiffer*self%stiffness)
          ! between heights with less and with more force a chord leads on
          if (max(low(1), high(1)) < huge(low) .and. .not. (z > low(1) .and. z < high(1))) &
             & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
@@ -204,6 +233,15 @@ contains
       self%balance%force = self%force
       self%guess = self%z
    end subroutine follow
+
+   !> Newton's step for F**(2/3) [mm]
+   pure real(wp) function newton_step(self, derivative)
+      !> With a positive force of the last trial
+      class(height_search), intent(in) :: self
+      !> Of the force to the height [N/mm]
+      real(wp), intent(in) :: derivative
+      newton_step = self%force/(power*derivative)*((self%target/self%force)**power - 1.0_wp)
+   end function newton_step
 
    !> What two trials tell of the true derivative of the force
    pure subroutine compare_stiffness(self, z, last_z, last_force, stiffer)
@@ -346,7 +384,7 @@ contains
       memory%geometry%pressure_eps = 1.0_wp
       memory%geometry%traction_eps = 1.0_wp
       if (allocated(error)) then
-         call log%speak()
+         if (memory%geometry%coarser == 1) call log%speak()
          return
       end if
       self%force = vertical_force(memory) + self%spring*(z - self%touch)
@@ -357,7 +395,7 @@ contains
          & self%small = max(smallest, self%target/sum_of_normal_forces(memory))
       self%slope = vertical_slope(memory, estimated=.false.) + self%spring
       self%stiffness = vertical_slope(memory, estimated=.true.) + self%spring
-      call trace_trial(self, z, log)
+      if (memory%geometry%coarser == 1) call trace_trial(self, z, log)
    end subroutine try
 
    !> Line of the flow trace

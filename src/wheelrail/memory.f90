@@ -25,6 +25,8 @@ module contact_wheelrail_memory
       type(patch_problem) :: problem
       type(patch_state) :: state
       type(patch_workspace) :: workspace
+      !> That of trials on coarser elements; unallocated before there are any
+      type(patch_workspace), allocatable :: coarse_workspace
       type(patch_result) :: result
       !> The level that errors are estimated from; unallocated before they are asked for
       type(coarse_level), allocatable :: coarse
@@ -84,6 +86,7 @@ contains
       if (.not. allocated(memory%slot)) return
       do k = 1, size(memory%slot)
          call release_workspace(memory%slot(k)%workspace)
+         if (allocated(memory%slot(k)%coarse_workspace)) call release_workspace(memory%slot(k)%coarse_workspace)
          if (allocated(memory%slot(k)%coarse)) call release_coarse_level(memory%slot(k)%coarse)
       end do
    end subroutine release_wheel_rail

@@ -62,8 +62,9 @@ contains
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: h(:, :)
-      real(wp) :: approach
+      real(wp) :: approach, sides(2)
 
+      sides = [problem%spec%search%dx, problem%spec%search%ds]
       slot%plane = patch_frame(rail, geometry%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
@@ -73,10 +74,10 @@ contains
       if (allocated(slot%curve)) deallocate(slot%curve)
       slot%reference = [lattice_x(problem, geometry, slot%region%x), rail%s_at(slot%region%y) - geometry%profile_origin]
       if (keeps_lattice(problem)) then
-         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
+         call patch_grid(rail, sides, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
       else
          ! the reference is the centre of an element
-         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%max_elements, &
+         call patch_grid(rail, geometry%coarser*sides, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%max_elements, &
             & slot%problem%grid)
       end if
       if (problem%spec%search%location == contact_location%conformal) &

@@ -52,7 +52,12 @@ contains
 
       call link_slot(geometry%before, number, slot, error)
       if (allocated(error)) return
-      call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
+      if (geometry%coarser > 1) then
+         if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
+         call solve_patch(slot%problem, slot%state, slot%coarse_workspace, log, slot%result, error)
+      else
+         call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
+      end if
       if (allocated(error)) return
       call find_forces(slot)
       if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
@@ -138,7 +143,8 @@ contains
 
       associate (problem => slot%problem, state => slot%state)
          transient = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
-         continues = state%started .and. same_elements(slot)
+         ! what follows from formulas does not start from anything
+         continues = state%started .and. problem%iterates() .and. same_elements(slot)
          if (continues) then
             ! the window of the last solution, seen from the reference of this one
             state%now%grid%xl = problem%grid%xl + (slot%solved_window%first(1) - slot%window%first(1))*problem%grid%dx

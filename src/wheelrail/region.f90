@@ -205,35 +205,41 @@ contains
       real(wp), intent(out) :: weight, x, extent(2)
       !> Stretches with fewer points of the table are refined, and how much
       integer, parameter :: few = 16, parts = 16
-      real(wp) :: moment, step, before, now, depth, place
-      integer :: i, k, n, first, last
+      real(wp) :: moment, step, before, now, depth, place, rise, bend(2)
+      integer :: i, k, n, first, last, inside
+      logical :: missing
 
       weight = 0.0_wp
       moment = 0.0_wp
       x = locus
       extent = locus
-      n = 1
-      if (count(g < 0.0_wp) < few) n = parts
-      step = (places(2) - places(1))/n
-      ! the smallest value may be positive although the curve dips below zero beside it
-      first = minloc(g, 1)
-      last = first
+      inside = 0
       do i = 1, size(g)
          if (.not. g(i) < 0.0_wp) cycle
-         first = min(first, i)
-         last = max(last, i)
+         inside = inside + 1
+         if (inside == 1) first = i
+         last = i
       end do
+      if (inside == 0) then
+         ! the curve may dip below zero beside the smallest value although that is positive
+         first = minloc(g, 1)
+         last = first
+      end if
+      n = 1
+      if (inside < few) n = parts
+      step = (places(2) - places(1))/n
       first = max(1, first - 1)
       last = min(size(g), last + 1)
       before = g(first)
       do i = first, last
-         do k = 1, n
-            if (i == last .and. k > 1) exit
+         if (n > 1 .and. i < last) call find_shape(g, i, missing, rise, bend)
+         do k = 1, merge(n, 1, i < last)
             place = places(i) + (k - 1)*step
             now = g(i)
-            if (k > 1) now = between(i, real(k - 1, wp)/n)
+            if (k > 1) now = between(g(i), g(i + 1), missing, rise, bend, real(k - 1, wp)/n)
             if (now < 0.0_wp) then
-               depth = abs(now)**power
+               depth = -now
+               if (power > 1) depth = depth**2
                weight = weight + depth*step
                moment = moment + depth*(place - locus)*step
                extent = [min(extent(1), place), max(extent(2), place)]
@@ -247,33 +253,48 @@ contains
          end do
       end do
       if (weight > 0.0_wp) x = locus + moment/weight
-
-   contains
-
-      !> Gap between two points of the table, by the cubic with the slopes of parabolas; straight beside missing surfaces
-      pure real(wp) function between(i, t)
-         integer, intent(in) :: i
-         !> Share of the way to the next point
-         real(wp), intent(in) :: t
-         real(wp) :: rise, bend(2)
-
-         if (max(g(i), g(i + 1)) > far_away) then
-            between = merge(g(i), g(i + 1), t < 0.5_wp)
-            return
-         end if
-         rise = g(i + 1) - g(i)
-         bend = 0.0_wp
-         if (i > 1) then
-            if (g(i - 1) < far_away) bend(1) = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
-         end if
-         if (i + 2 <= size(g)) then
-            if (g(i + 2) < far_away) bend(2) = g(i) - 2.0_wp*g(i + 1) + g(i + 2)
-         end if
-         if (i == 1) bend(1) = bend(2)
-         if (i + 2 > size(g)) bend(2) = bend(1)
-         between = g(i) + t*rise - 0.5_wp*t*(1.0_wp - t)*((1.0_wp - t)*bend(1) + t*bend(2))
-      end function between
    end subroutine weigh_table
+
+   !> The curve between two points of a table: the cubic with the slopes of parabolas, straight where there is no further point
+   pure subroutine find_shape(g, i, missing, rise, bend)
+      !> Gaps [mm]
+      real(wp), intent(in) :: g(:)
+      !> The first of both points
+      integer, intent(in) :: i
+      !> Is a surface missing at one of them?
+      logical, intent(out) :: missing
+      !> Difference of both gaps, and second differences at both [mm]
+      real(wp), intent(out) :: rise, bend(2)
+
+      missing = max(g(i), g(i + 1)) > far_away
+      rise = g(i + 1) - g(i)
+      bend = 0.0_wp
+      if (i > 1) then
+         if (g(i - 1) < far_away) bend(1) = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+      end if
+      if (i + 2 <= size(g)) then
+         if (g(i + 2) < far_away) bend(2) = g(i) - 2.0_wp*g(i + 1) + g(i + 2)
+      end if
+      if (i == 1) bend(1) = bend(2)
+      if (i + 2 > size(g)) bend(2) = bend(1)
+   end subroutine find_shape
+
+   !> Gap between two points of a table; beside a missing surface that of the nearer one
+   pure real(wp) function between(start, end_, missing, rise, bend, t)
+      !> Gaps at both points [mm]
+      real(wp), intent(in) :: start, end_
+      !> From `find_shape`
+      logical, intent(in) :: missing
+      real(wp), intent(in) :: rise, bend(2)
+      !> Share of the way from one to the other
+      real(wp), intent(in) :: t
+
+      if (missing) then
+         between = merge(start, end_, t < 0.5_wp)
+      else
+         between = start + t*rise - 0.5_wp*t*(1.0_wp - t)*((1.0_wp - t)*bend(1) + t*bend(2))
+      end if
+   end function between
 
    !> Lateral position where the gap vanishes between a point inside and its neighbour outside
    pure real(wp) function zero_crossing(gap, g, inside, outside) result(y)

@@ -32,9 +32,14 @@ contains
       integer, intent(in) :: first, last
       !> One part of the gap for each, in the order in which they are met along y
       type(spot), allocatable, intent(out) :: spots(:)
-      integer :: label(size(gap%x_table), first:last)
+      integer, allocatable :: label(:, :)
       integer :: i, k, n
 
+      if (is_one_spot(gap, g, first, last)) then
+         allocate(spots(0))
+         return
+      end if
+      allocate(label(size(gap%x_table), first:last))
       do i = first, last
          label(:, i) = merge(-1, 0, gap%table(:, i) + (g(i) - gap%gap(i)) < 0.0_wp)
          ! a stretch too short for the table is at the place of the smallest gap
@@ -52,6 +57,35 @@ contains
          call take_spot(gap, g, label, first, k, spots(k))
       end do
    end subroutine separate_spots
+
+   !> Does every lateral position have one run of interpenetration, which touches that of its neighbour? Other spots are numbered
+   pure logical function is_one_spot(gap, g, first, last)
+      !> As for `separate_spots`
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: first, last
+      integer :: i, k, low, high, inside, before(2)
+
+      is_one_spot = .false.
+      before = [1, size(gap%x_table)]
+      do i = first, last
+         low = 0
+         high = 0
+         inside = 0
+         associate (change => g(i) - gap%gap(i))
+            do k = 1, size(gap%x_table)
+               if (.not. gap%table(k, i) + change < 0.0_wp) cycle
+               if (low == 0) low = k
+               high = k
+               inside = inside + 1
+            end do
+         end associate
+         if (inside == 0 .or. inside /= high - low + 1) return
+         if (low > before(2) + 1 .or. high < before(1) - 1) return
+         before = [low, high]
+      end do
+      is_one_spot = .true.
+   end function is_one_spot
 
    !> Number the points of each spot, 1...n, in place of -1
    pure subroutine number_spots(label, n)

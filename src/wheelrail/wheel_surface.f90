@@ -9,10 +9,7 @@ module contact_wheelrail_wheel_surface
    implicit none (type, external)
    private
 
-   public :: wheel_height, wheel_row
-
-   !> Rows that are remembered at most
-   integer, parameter, public :: remembered = 3
+   public :: row_from_estimates, wheel_height, wheel_row
 
    !> Of a step of Newton's method, relative to the radius: what remains after it is of the order of its square
    real(wp), parameter :: tolerance = 1.0e-8_wp
@@ -24,8 +21,8 @@ contains
    !> Heights n of the wheel's surface over a row of points (x, s) of the plane
    !>
    !> Places and heights follow parabolas closely along the track: each point starts from the three before it, where possible
-   !> together with the next ones. Across it they nearly do: where rows before are known all points start from these.
-   pure subroutine wheel_row(wheel, radius, seen, x, s, start, place, n, found, rows, known)
+   !> together with the next ones.
+   pure subroutine wheel_row(wheel, radius, seen, x, s, start, place, n, found)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
@@ -34,89 +31,11 @@ contains
       type(frame), intent(in) :: seen
       !> At even distances
       real(wp), intent(in) :: x(:), s
-      !> Place on the profile and height: estimates for the first point, on exit the solution there if it has one
-      real(wp), intent(inout) :: start(2)
-      !> Place on the profile, and height over each point [mm]
-      real(wp), intent(out) :: place(:), n(:)
-      !> Does the line along n meet the wheel there?
-      logical, intent(out) :: found(:)
-      !> Places and heights of the rows before [mm], the last one first, over the same x and at even distances: shape
-      !> (points, 2, remembered); on exit with this one
-      real(wp), intent(inout), optional :: rows(:, :, :)
-      !> How many of them there are, 0 for a first row; present together with them
-      integer, intent(inout), optional :: known
-      logical :: goes_on
-
-      goes_on = .false.
-      if (present(known)) goes_on = known > 0
-      if (goes_on) then
-         call estimate(rows, known, place, n)
-         call row_from_estimates(wheel, radius, seen, x, s, place, n, found)
-      else
-         call row_from_start(wheel, radius, seen, x, s, start, place, n, found)
-      end if
-      if (found(1)) start = [place(1), n(1)]
-      if (present(known)) call keep(place, n, all(found), rows, known)
-   end subroutine wheel_row
-
-   !> Places and heights of the next row, from those before
-   pure subroutine estimate(rows, known, place, height)
-      !> See `wheel_row`
-      real(wp), intent(in) :: rows(:, :, :)
-      integer, intent(in) :: known
-      !> [mm], one for each point
-      real(wp), intent(out) :: place(:), height(:)
-
-      associate (p => rows(:, 1, :), h => rows(:, 2, :))
-         select case (known)
-         case (1)
-            place = p(:, 1)
-            height = h(:, 1)
-         case (2)
-            place = 2.0_wp*p(:, 1) - p(:, 2)
-            height = 2.0_wp*h(:, 1) - h(:, 2)
-         case default
-            place = 3.0_wp*(p(:, 1) - p(:, 2)) + p(:, 3)
-            height = 3.0_wp*(h(:, 1) - h(:, 2)) + h(:, 3)
-         end select
-      end associate
-   end subroutine estimate
-
-   !> Remember a row; one with points that were not found begins anew
-   pure subroutine keep(place, height, found, rows, known)
-      !> [mm], one for each point
-      real(wp), intent(in) :: place(:), height(:)
-      !> Were all points found?
-      logical, intent(in) :: found
-      !> See `wheel_row`
-      real(wp), intent(inout) :: rows(:, :, :)
-      integer, intent(inout) :: known
-      integer :: i, j
-
-      known = merge(min(known + 1, remembered), 0, found)
-      if (.not. found) return
-      ! one by one: whole sections that may overlap are copied by way of the heap
-      do j = remembered, 2, -1
-         do i = 1, size(place)
-            rows(i, 1, j) = rows(i, 1, j - 1)
-            rows(i, 2, j) = rows(i, 2, j - 1)
-         end do
-      end do
-      do i = 1, size(place)
-         rows(i, 1, 1) = place(i)
-         rows(i, 2, 1) = height(i)
-      end do
-   end subroutine keep
-
-   !> A row of which the neighbour of the first point is known at most
-   pure subroutine row_from_start(wheel, radius, seen, x, s, start, place, n, found)
-      !> See `wheel_row`
-      type(profile_curve), intent(in) :: wheel
-      real(wp), intent(in) :: radius
-      type(frame), intent(in) :: seen
-      real(wp), intent(in) :: x(:), s, start(2)
+      !> Place on the profile and height: estimates for the first point
+      real(wp), intent(in) :: start(2)
       !> Place on the profile and height of each point [mm], where they are found
       real(wp), intent(out) :: place(:), n(:)
+      !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
       real(wp) :: after, bend(2), change(2)
       integer :: alone, i, k, known, piece
@@ -165,17 +84,21 @@ contains
          known = merge(known + 1, 0, found(i))
          i = i + 1
       end do
-   end subroutine row_from_start
+   end subroutine wheel_row
 
    !> A row with estimates for all of its points
    pure subroutine row_from_estimates(wheel, radius, seen, x, s, place, n, found)
-      !> See `wheel_row`
+      !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
+      !> See `wheel_height`
       real(wp), intent(in) :: radius
+      !> The plane seen from the wheel
       type(frame), intent(in) :: seen
+      !> Positions in the plane [mm]
       real(wp), intent(in) :: x(:), s
       !> Place on the profile and height of each point [mm], estimates on entry
       real(wp), intent(inout) :: place(:), n(:)
+      !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
       real(wp), dimension(together) :: some_x, some_place, some_n
       integer :: i, k, last, piece

@@ -18,6 +18,8 @@ program test_force_balance
       call reaches(suite, hertz, target, 0.1_wp, .true., 5)
       call reaches(suite, hertz, target, 0.1_wp, .false., 14)
       call reaches(suite, hertz, target, 1.0e-6_wp, .false., 25)
+      ! a first trial next to the height tells where it is
+      call reaches(suite, hertz, target, 0.997_wp*(1.0e-5_wp*target)**(2.0_wp/3.0_wp), .false., 2)
       call reaches(suite, second_patch, target, 0.02_wp, .true., 9)
       call reaches(suite, second_patch, target, 0.02_wp, .false., 16)
       call reaches(suite, jump_up, 1.0e3_wp*target, 0.1_wp, .false., 60)

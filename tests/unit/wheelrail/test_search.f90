@@ -226,7 +226,7 @@ contains
       call suite%close_to(regions(1)%box%y, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen - pen**2), 1.0e-3_wp, "lateral extent")
       call suite%close_to(regions(1)%box%x, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen), 1.0e-3_wp, "longitudinal extent")
       plane = patch_frame(in_track, placement, regions(1))
-      call patch_grid(in_track, pair%search, regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
+      call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, approach, strangers)
       worst = 0.0_wp
       do iy = 1, grid%my
@@ -239,7 +239,7 @@ contains
       call suite%close_to(worst, 0.0_wp, 1.0e-6_wp, "undeformed distance of a sphere")
       call suite%check(patch_is_covered(grid, regions(1)), "one element more than the patch on each side")
 
-      call patch_grid(in_track, pair%search, regions(1), plane, [0.0_wp, 0.0_wp], 2000, grid)
+      call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 2000, grid)
       call suite%check(grid%npot() < 2000 .and. grid%dx >= 0.4_wp, "larger elements where there would be too many")
       call find_regions(gap, -2.0_wp*pen, pair%search, 2, regions, misses)
       call suite%check(size(regions) == 0 .and. size(misses) == 1, "a lifted wheel: a near miss")
@@ -340,7 +340,7 @@ contains
          plane = patch_frame(in_track, placement, regions(1))
          call suite%close_to(plane%origin, cases(5:7, k), 3.5e-3_wp, trim(what) // ": contact reference")
          call suite%close_to(plane%roll(), cases(8, k), 1.0e-4_wp, trim(what) // ": contact angle")
-         call patch_grid(in_track, pair%search, regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
+         call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
          call suite%equal(grid%npot(), nint(cases(10, k)), trim(what) // ": elements")
          call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, &
             & approach, strangers)

@@ -166,7 +166,7 @@ contains
 
       call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
-      call patch_grid(bodies%rail, pair%search, first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
+      call patch_grid(bodies%rail, [pair%search%dx, pair%search%ds], first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, start_places(bodies%rail, first(1)), grid, h, &
          & pen, strangers)
       call variable_distance(bodies, plane, .false., grid, same, same_pen, strangers)

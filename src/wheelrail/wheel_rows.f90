@@ -1,0 +1,289 @@
+!> Heights of a round wheel over the rows of a patch
+!>
+!> Along a row a wheel is nearly a polynomial: heights that are found at a few points tell those of all elements. Where its last
+!> terms are not small, as with profiles that bend differently from point to point, all heights are found directly.
+module contact_wheelrail_wheel_rows
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_wheel_surface, only : row_from_estimates, wheel_height, wheel_row
+   implicit none (type, external)
+   private
+
+   public :: wheel_rows
+
+   !> Points of a row that a polynomial is made of: as many as are found at once
+   integer, parameter :: terms = 8
+   !> Last two terms of a polynomial that is as good as the heights themselves [mm]
+   real(wp), parameter :: negligible = 1.0e-10_wp
+   !> Rows one after the other without such a polynomial, after which none is tried
+   integer, parameter :: patience = 5
+   !> Rows that are remembered at most
+   integer, parameter :: remembered = 3
+
+   integer :: i_, j_
+   !> Where heights are found, relative to the middle and half the length of a row
+   real(wp), parameter :: places(terms) = [(-cos(pi*i_/(terms - 1)), i_=0, terms - 1)]
+   !> The first and the last of something count half
+   real(wp), parameter :: ends_half(0:terms - 1) = [0.5_wp, (1.0_wp, i_=1, terms - 2), 0.5_wp]
+   !> Factors of Chebyshev's polynomials (first index) through heights there
+   real(wp), parameter :: factors(terms, terms) = reshape([((2.0_wp/(terms - 1)*ends_half(i_)*ends_half(j_) &
+      & *cos(pi*i_*(terms - 1 - j_)/(terms - 1)), i_=0, terms - 1), j_=0, terms - 1)], [terms, terms])
+
+   !> Rows of a patch, one after the other at even distances
+   type :: wheel_rows
+      private
+      !> First and last point along a row [mm], and how many there are
+      real(wp) :: ends(2) = 0.0_wp
+      integer :: points = 0
+      !> Points that heights are found at [mm]: all, or `terms`
+      real(wp) :: nodes(terms) = 0.0_wp
+      integer :: few = 0
+      !> Places on the profile and heights of the rows before at the nodes [mm], the last one first, and how many are known
+      real(wp) :: rows(terms, 2, remembered) = 0.0_wp
+      integer :: known = 0
+      !> Where the first point of a row is looked for: place and height [mm]
+      real(wp) :: start(2) = 0.0_wp
+      !> Rows without a polynomial so far, one after the other
+      integer :: failures = 0
+      !> All points, their places on the profile, and the rows before: where no polynomials are looked for
+      real(wp), allocatable :: x(:), place(:), all_rows(:, :, :)
+      logical, allocatable :: found(:)
+   contains
+      !> Begin with the first row
+      procedure :: begin
+      !> Heights of a row
+      procedure :: find
+   end type wheel_rows
+
+contains
+
+   !> Prepare for rows over the same points
+   pure subroutine begin(self, ends, points, start)
+      class(wheel_rows), intent(inout) :: self
+      !> First and last point along the track [mm]
+      real(wp), intent(in) :: ends(2)
+      !> How many there are, at even distances
+      integer, intent(in) :: points
+      !> Place on the profile and height near the first point [mm]
+      real(wp), intent(in) :: start(2)
+      integer :: i
+
+      self%ends = ends
+      self%points = points
+      self%start = start
+      self%few = min(points, terms)
+      if (points > terms) then
+         self%nodes = 0.5_wp*(ends(1) + ends(2)) + 0.5_wp*(ends(2) - ends(1))*places
+      else
+         self%nodes(:points) = [(point_at(self, i), i=1, points)]
+      end if
+   end subroutine begin
+
+   !> Place of a point along the track [mm]
+   pure real(wp) function point_at(self, i)
+      type(wheel_rows), intent(in) :: self
+      integer, intent(in) :: i
+      point_at = self%ends(1) + (i - 1)*((self%ends(2) - self%ends(1))/max(1, self%points - 1))
+   end function point_at
+
+   !> Heights of the wheel's surface over the next row of the plane
+   pure subroutine find(self, wheel, radius, seen, s, missing, n)
+      class(wheel_rows), intent(inout) :: self
+      !> Profile of a round wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Of the wheel at the origin of its profile [mm]
+      real(wp), intent(in) :: radius
+      !> The plane seen from the wheel
+      type(frame), intent(in) :: seen
+      !> Position of the row [mm]
+      real(wp), intent(in) :: s
+      !> Height where the line along n does not meet the wheel
+      real(wp), intent(in) :: missing
+      !> Height over each point [mm]
+      real(wp), contiguous, intent(out) :: n(:)
+      real(wp) :: some_places(terms), some_n(terms), c(terms)
+      logical :: some_found(terms)
+
+      if (self%failures >= patience) then
+         call find_all(self, wheel, radius, seen, s, n)
+      else
+         associate (m => self%few)
+            call find_nodes(self, wheel, radius, seen, s, some_places(:m), some_n(:m), some_found(:m))
+            if (self%points == m) then
+               n = merge(some_n(:m), missing, some_found(:m))
+               return
+            end if
+         end associate
+         if (all(some_found)) then
+            c = matmul(factors, some_n)
+            call between(c, n)
+            if (abs(c(terms - 1)) + abs(c(terms)) <= negligible .and. is_inside(wheel, some_places)) then
+               self%failures = 0
+               return
+            end if
+         end if
+         call make_room(self)
+         if (all(some_found)) then
+            self%failures = self%failures + 1
+            call between(matmul(factors, some_places), self%place)
+            call row_from_estimates(wheel, radius, seen, self%x, s, self%place, n, self%found)
+         else
+            call wheel_row(wheel, radius, seen, self%x, s, self%start, self%place, n, self%found)
+         end if
+         if (self%failures == patience) then
+            self%known = 0
+            call keep(self%place, n, all(self%found), self%all_rows, self%known)
+         end if
+      end if
+      if (.not. all(self%found)) n = merge(n, missing, self%found)
+   end subroutine find
+
+   !> Heights at the nodes, from the rows before where they are known
+   pure subroutine find_nodes(self, wheel, radius, seen, s, place, n, found)
+      type(wheel_rows), intent(inout) :: self
+      !> See `find`
+      type(profile_curve), intent(in) :: wheel
+      real(wp), intent(in) :: radius
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: s
+      !> Place on the profile and height at each node [mm], where they are found
+      real(wp), intent(out) :: place(:), n(:)
+      logical, intent(out) :: found(:)
+      integer :: i
+
+      if (self%known > 0) then
+         call estimate(self%rows(:self%few, :, :), self%known, place, n)
+         call row_from_estimates(wheel, radius, seen, self%nodes(:self%few), s, place, n, found)
+      else
+         do i = 1, self%few
+            place(i) = self%start(1)
+            n(i) = self%start(2)
+            call wheel_height(wheel, radius, seen, self%nodes(i), s, place(i), n(i), found(i))
+            if (found(i)) self%start = [place(i), n(i)]
+         end do
+      end if
+      if (found(1)) self%start = [place(1), n(1)]
+      call keep(place, n, all(found), self%rows(:self%few, :, :), self%known)
+   end subroutine find_nodes
+
+   !> Heights at all points, from the rows before where they are known
+   pure subroutine find_all(self, wheel, radius, seen, s, n)
+      type(wheel_rows), intent(inout) :: self
+      !> See `find`
+      type(profile_curve), intent(in) :: wheel
+      real(wp), intent(in) :: radius
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: s
+      !> Height of each point [mm], where it is found
+      real(wp), intent(out) :: n(:)
+
+      if (self%known > 0) then
+         call estimate(self%all_rows, self%known, self%place, n)
+         call row_from_estimates(wheel, radius, seen, self%x, s, self%place, n, self%found)
+      else
+         call wheel_row(wheel, radius, seen, self%x, s, self%start, self%place, n, self%found)
+      end if
+      if (self%found(1)) self%start = [self%place(1), n(1)]
+      call keep(self%place, n, all(self%found), self%all_rows, self%known)
+   end subroutine find_all
+
+   !> Room for all points
+   pure subroutine make_room(self)
+      type(wheel_rows), intent(inout) :: self
+      integer :: i
+
+      if (allocated(self%x)) return
+      allocate(self%x(self%points), self%place(self%points), self%found(self%points), self%all_rows(self%points, 2, remembered))
+      self%x = [(point_at(self, i), i=1, self%points)]
+      self%all_rows = 0.0_wp
+   end subroutine make_room
+
+   !> Places and heights of the next row, from those before
+   pure subroutine estimate(rows, known, place, height)
+      !> Places and heights of the rows before [mm], the last one first, shape (points, 2, remembered)
+      real(wp), intent(in) :: rows(:, :, :)
+      !> How many of them there are
+      integer, intent(in) :: known
+      !> [mm], one for each point
+      real(wp), intent(out) :: place(:), height(:)
+
+      associate (p => rows(:, 1, :), h => rows(:, 2, :))
+         select case (known)
+         case (1)
+            place = p(:, 1)
+            height = h(:, 1)
+         case (2)
+            place = 2.0_wp*p(:, 1) - p(:, 2)
+            height = 2.0_wp*h(:, 1) - h(:, 2)
+         case default
+            place = 3.0_wp*(p(:, 1) - p(:, 2)) + p(:, 3)
+            height = 3.0_wp*(h(:, 1) - h(:, 2)) + h(:, 3)
+         end select
+      end associate
+   end subroutine estimate
+
+   !> Remember a row; one with points that were not found begins anew
+   pure subroutine keep(place, height, found, rows, known)
+      !> [mm], one for each point
+      real(wp), intent(in) :: place(:), height(:)
+      !> Were all points found?
+      logical, intent(in) :: found
+      !> See `estimate`
+      real(wp), intent(inout) :: rows(:, :, :)
+      integer, intent(inout) :: known
+      integer :: i, j
+
+      known = merge(min(known + 1, remembered), 0, found)
+      if (.not. found) return
+      ! one by one: whole sections that may overlap are copied by way of the heap
+      do j = remembered, 2, -1
+         do i = 1, size(place)
+            rows(i, 1, j) = rows(i, 1, j - 1)
+            rows(i, 2, j) = rows(i, 2, j - 1)
+         end do
+      end do
+      do i = 1, size(place)
+         rows(i, 1, 1) = place(i)
+         rows(i, 2, 1) = height(i)
+      end do
+   end subroutine keep
+
+   !> Values of a polynomial at points at even distances, the ends included
+   pure subroutine between(c, values)
+      !> Factors of Chebyshev's polynomials
+      real(wp), intent(in) :: c(terms)
+      real(wp), intent(out) :: values(:)
+      real(wp) :: p(0:terms - 1), t, step
+      integer :: i
+
+      ! powers in place of Chebyshev's polynomials
+      p(0) = c(1) - c(3) + c(5) - c(7)
+      p(1) = c(2) - 3.0_wp*c(4) + 5.0_wp*c(6) - 7.0_wp*c(8)
+      p(2) = 2.0_wp*c(3) - 8.0_wp*c(5) + 18.0_wp*c(7)
+      p(3) = 4.0_wp*c(4) - 20.0_wp*c(6) + 56.0_wp*c(8)
+      p(4) = 8.0_wp*c(5) - 48.0_wp*c(7)
+      p(5) = 16.0_wp*(c(6) - 7.0_wp*c(8))
+      p(6) = 32.0_wp*c(7)
+      p(7) = 64.0_wp*c(8)
+      step = 2.0_wp/(size(values) - 1)
+      do i = 1, size(values)
+         t = (i - 1)*step - 1.0_wp
+         values(i) = p(0) + t*(p(1) + t*(p(2) + t*(p(3) + t*(p(4) + t*(p(5) + t*(p(6) + t*p(7)))))))
+      end do
+   end subroutine between
+
+   !> Are all places between those at the nodes on the profile, too?
+   pure logical function is_inside(wheel, place)
+      type(profile_curve), intent(in) :: wheel
+      !> [mm]
+      real(wp), intent(in) :: place(terms)
+      real(wp) :: ends(2), low, high
+
+      ends = wheel%s_range()
+      low = minval(place)
+      high = maxval(place)
+      is_inside = 2.0_wp*low - high >= ends(1) .and. 2.0_wp*high - low <= ends(2)
+   end function is_inside
+end module contact_wheelrail_wheel_rows
