@@ -8,10 +8,13 @@ module contact_normal_problem
    implicit none (type, external)
    private
 
-   public :: approach_scale, carries_nothing, load_lowest_element, make_admissible, normal_problem, pressure_displacement
+   public :: approach_scale, carries_nothing, force_round_off, load_lowest_element, make_admissible, normal_problem, &
+      & pressure_displacement
 
    !> Estimates that carry less than this part of the force are none; chosen
    real(wp), parameter :: carries_nothing = 1.0e-3_wp
+   !> Part of a prescribed force by which the sum of the pressures may differ by rounding
+   real(wp), parameter :: force_round_off = 1.0e-12_wp
 
    !> Data of a normal problem on a window; constant during the solution
    type :: normal_problem
@@ -72,6 +75,8 @@ contains
       where (problem%h > excluded_threshold .or. .not. p > 0.0_wp) p = 0.0_wp
       if (.not. problem%force_prescribed) return
       total = sum(p)*problem%dx*problem%dy
+      ! pressures that carry the force stay as they are, to the last digit
+      if (abs(total - problem%fn) <= force_round_off*problem%fn) return
       if (total > carries_nothing*problem%fn) then
          p = p*(problem%fn/total)
       else

@@ -11,6 +11,7 @@ module contact_patch_normal_step
    use contact_normal_active_sets, only : solve_by_active_sets
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
+   use contact_normal_problem, only : force_round_off
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
@@ -18,9 +19,6 @@ module contact_patch_normal_step
    private
 
    public :: normal_step, shear_lift
-
-   !> Part of a prescribed force by which the sum of the pressures may differ by rounding
-   real(wp), parameter :: round_off = 1.0e-12_wp
 
 contains
 
@@ -108,7 +106,7 @@ contains
       end if
       ! the total is that of the pressures; a prescribed force that they carry keeps its last figure
       result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
-      if (problem%force_prescribed .and. abs(result%fn - problem%fn) <= round_off*problem%fn) result%fn = problem%fn
+      if (problem%force_prescribed .and. abs(result%fn - problem%fn) <= force_round_off*problem%fn) result%fn = problem%fn
       if (problem%motion == motion%none) call all_adhere(state%now%division)
    end subroutine normal_step
 

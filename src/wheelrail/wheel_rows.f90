@@ -22,15 +22,6 @@ module contact_wheelrail_wheel_rows
    !> Rows that are remembered at most
    integer, parameter :: remembered = 3
 
-   integer :: i_, j_
-   !> Where heights are found, relative to the middle and half the length of a row
-   real(wp), parameter :: places(terms) = [(-cos(pi*i_/(terms - 1)), i_=0, terms - 1)]
-   !> The first and the last of something count half
-   real(wp), parameter :: ends_half(0:terms - 1) = [0.5_wp, (1.0_wp, i_=1, terms - 2), 0.5_wp]
-   !> Factors of Chebyshev's polynomials (first index) through heights there
-   real(wp), parameter :: factors(terms, terms) = reshape([((2.0_wp/(terms - 1)*ends_half(i_)*ends_half(j_) &
-      & *cos(pi*i_*(terms - 1 - j_)/(terms - 1)), i_=0, terms - 1), j_=0, terms - 1)], [terms, terms])
-
    !> Rows of a patch, one after the other at even distances
    type :: wheel_rows
       private
@@ -69,6 +60,8 @@ contains
       !> Place on the profile and height near the first point [mm]
       real(wp), intent(in) :: start(2)
       integer :: i
+      !> Where heights are found, relative to the middle and half the length of a row
+      real(wp), parameter :: places(terms) = [(-cos(pi*i/(terms - 1)), i=0, terms - 1)]
 
       self%ends = ends
       self%points = points
@@ -105,6 +98,12 @@ contains
       real(wp), contiguous, intent(out) :: n(:)
       real(wp) :: some_places(terms), some_n(terms), c(terms)
       logical :: some_found(terms)
+      integer :: i, j
+      !> The first and the last of something count half
+      real(wp), parameter :: ends_half(0:terms - 1) = [0.5_wp, (1.0_wp, i=1, terms - 2), 0.5_wp]
+      !> Factors of Chebyshev's polynomials (first index) through heights at the places of `begin`
+      real(wp), parameter :: factors(terms, terms) = reshape([((2.0_wp/(terms - 1)*ends_half(i)*ends_half(j) &
+         & *cos(pi*i*(terms - 1 - j)/(terms - 1)), i=0, terms - 1), j=0, terms - 1)], [terms, terms])
 
       if (self%failures >= patience) then
          call find_all(self, wheel, radius, seen, s, n)
