@@ -16,8 +16,8 @@ contains
 
    !> Coefficients without shift; for a curved surface whose correction depends on rows those of flat bodies
    !>
-   !> Where that is possible, those that are not normal may be left to `complete_coefficients`.
-   subroutine fill_coefficients(table, model, dx, dy, nx, ny, normal_first)
+   !> Where they can be found without the others, only normal ones: `complete_coefficients` does the rest.
+   subroutine fill_coefficients(table, model, dx, dy, nx, ny)
       !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
       !> The bodies: half-spaces, layer, memory, or a table from a file
@@ -26,24 +26,19 @@ contains
       real(wp), intent(in) :: dx, dy
       !> Largest offsets in elements
       integer, intent(in) :: nx, ny
-      !> Are only normal ones wanted now?
-      logical, intent(in) :: normal_first
 
-      if (normal_first .and. .not. allocated(model%memory) .and. model%kernel /= kernel_model%bilinear &
-         & .and. .not. model%rotates_by_offset()) then
-         call fill_normal(table, model%material, dx, dy, nx, ny)
-         table%nn(0, 0) = table%nn(0, 0) + model%sheet
-         return
-      end if
       if (allocated(model%memory)) then
          call fill_with_memory(table, model%material, model%memory, model%coupled(), dx, dy, nx, ny)
       else if (model%kernel == kernel_model%bilinear) then
          call fill_bilinear(table, model%material, dx, dy, nx, ny)
-      else
+      else if (model%rotates_by_offset()) then
          call fill_table(table, model%material, dx, dy, nx, ny)
+      else
+         call fill_normal(table, model%material, dx, dy, nx, ny)
       end if
       if (model%rotates_by_offset()) call rotate_table(table, model%inclination)
       table%nn(0, 0) = table%nn(0, 0) + model%sheet
+      if (.not. allocated(table%xx)) return
       table%xx(0, 0) = table%xx(0, 0) + model%layer
       table%yy(0, 0) = table%yy(0, 0) + model%layer
    end subroutine fill_coefficients

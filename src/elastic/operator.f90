@@ -89,7 +89,7 @@ contains
          ! one element more than a plain product needs: the shifted kernel of steady rolling
          px = fast_size(2*mx + 1)
          py = merge(1, fast_size(2*my), my == 1)
-         call fill_coefficients(self%table, model, dx, dy, px/2, py/2, normal_first=.true.)
+         call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
          self%diagonal = own_coefficients(self%table)
          if (.not. allocated(self%table%xx)) self%diagonal(2:3) = self%diagonal(2:3) + model%layer
          call self%plan%prepare(mx, my, px, py)

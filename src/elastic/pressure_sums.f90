@@ -52,9 +52,9 @@ contains
       self%model = model
       if (same) then
          call fill_coefficients(self%table, model, dx, dy, max(self%table%nx, ceiling(room*mx)), &
-            & max(self%table%ny, ceiling(room*my)), normal_first=.true.)
+            & max(self%table%ny, ceiling(room*my)))
       else
-         call fill_coefficients(self%table, model, dx, dy, mx, my, normal_first=.true.)
+         call fill_coefficients(self%table, model, dx, dy, mx, my)
       end if
    end subroutine prepare
 

@@ -1,13 +1,10 @@
-/* What is done to rows and columns between their transforms, where it takes time; lines.f90 tells what.
- *
- * In C, as it is compiled twice: for all processors, and for those with AVX2, which are asked when it runs. Both have the same
- * numbers to the last digit. Vectors are those of GCC and Clang; complex numbers are pairs of real ones. */
+/* What is done to rows and columns between their transforms, where it takes time; lines.f90 tells what, lanes.h why in C. Complex
+ * numbers are pairs of real ones. */
+#include "../base/lanes.h"
 #include <stddef.h>
 
-typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
 
-#define FOUR(at) (*(four *)(at))
 #define EACH_TWICE(at) __builtin_shufflevector(*(const two *)(at), *(const two *)(at), 0, 0, 1, 1)
 #define PARTS_SWAPPED(v) __builtin_shufflevector(v, v, 1, 0, 3, 2)
 #define NUMBERS_SWAPPED(v) __builtin_shufflevector(v, v, 2, 3, 0, 1)
@@ -49,11 +46,8 @@ static void multiply_pair(double xx, double yy, double xy, double *here, double 
 
 #ifdef __x86_64__
 #define OF(name) name##_avx2
-#define TARGET __attribute__((target("avx2")))
+#define TARGET FOR_AVX2
 #include "line_loops.h"
-#define CALL(name, ...) (__builtin_cpu_supports("avx2") ? name##_avx2(__VA_ARGS__) : name##_anywhere(__VA_ARGS__))
-#else
-#define CALL(name, ...) name##_anywhere(__VA_ARGS__)
 #endif
 
 void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
