@@ -1,18 +1,23 @@
 /* Numbers taken four at once, for loops that are compiled twice: for all processors, and for those with AVX2, which are asked when
  * the loop runs. Both have the same numbers to the last digit. Vectors are those of GCC and Clang.
  *
- * A file of loops is included twice by that of their doors: OF(name) is what a function is called there, TARGET its attribute, ROOTS
- * takes four square roots. */
+ * A file of loops is included by that of their doors, by way of twice.h: OF(name) is what a function is called there, TARGET its
+ * attribute, ROOTS takes four square roots. */
 #ifndef CONTACT_LANES_H
 #define CONTACT_LANES_H
 #include <math.h>
 
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
 typedef long long four_masks __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int four_flags __attribute__((vector_size(16), aligned(4), may_alias));
 
 #define FOUR(at) (*(four *)(at))
 #define READ_FOUR(at) (*(const four *)(at))
+
+/* Two numbers, each for both parts of a complex one; both parts of two complex numbers in turn */
+#define EACH_TWICE(at) __builtin_shufflevector(*(const two *)(at), *(const two *)(at), 0, 0, 1, 1)
+#define PARTS_SWAPPED(v) __builtin_shufflevector(v, v, 1, 0, 3, 2)
 
 /* Numbers where a mask tells, else 0, or other numbers */
 #define WHERE(mask, v) ((four)((mask) & (four_masks)(v)))
@@ -25,8 +30,6 @@ typedef int four_flags __attribute__((vector_size(16), aligned(4), may_alias));
 
 #ifdef __x86_64__
 #include <immintrin.h>
-#define FOR_AVX2 __attribute__((target("avx2")))
-#define ROOTS_AT_ONCE(v) ((four)_mm256_sqrt_pd((__m256d)(v)))
 #define CALL(name, ...) (__builtin_cpu_supports("avx2") ? name##_avx2(__VA_ARGS__) : name##_anywhere(__VA_ARGS__))
 #else
 #define CALL(name, ...) name##_anywhere(__VA_ARGS__)

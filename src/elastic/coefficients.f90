@@ -3,14 +3,14 @@ module contact_elastic_coefficients
    use contact_base_choices, only : kernel_model
    use contact_base_kinds, only : wp
    use contact_elastic_bilinear, only : fill_bilinear, fill_shifted_bilinear
-   use contact_elastic_halfspace, only : complete_table, fill_normal, fill_shifted_table, fill_table, kernel_table
+   use contact_elastic_halfspace, only : complete_table, fill_normal, fill_shifted_table, fill_table, kernel_table, own_tangential
    use contact_elastic_inclination, only : rotate_table
    use contact_elastic_memory, only : fill_with_memory
    use contact_elastic_model, only : elastic_model
    implicit none (type, external)
    private
 
-   public :: complete_coefficients, fill_coefficients, fill_shifted_coefficients
+   public :: complete_coefficients, fill_coefficients, fill_shifted_coefficients, own_coefficients
 
 contains
 
@@ -38,10 +38,18 @@ contains
       end if
       if (model%rotates_by_offset()) call rotate_table(table, model%inclination)
       table%nn(0, 0) = table%nn(0, 0) + model%sheet
-      if (.not. allocated(table%xx)) return
+      if (allocated(table%xx)) call add_layer(table, model)
+   end subroutine fill_coefficients
+
+   !> An element moves with the layer below it, too
+   pure subroutine add_layer(table, model)
+      !> Complete
+      type(kernel_table), intent(inout) :: table
+      type(elastic_model), intent(in) :: model
+
       table%xx(0, 0) = table%xx(0, 0) + model%layer
       table%yy(0, 0) = table%yy(0, 0) + model%layer
-   end subroutine fill_coefficients
+   end subroutine add_layer
 
    !> What `fill_coefficients` left out; nothing where all are there
    subroutine complete_coefficients(table, model)
@@ -52,9 +60,23 @@ contains
 
       if (allocated(table%xx) .or. .not. allocated(table%nn)) return
       call complete_table(table)
-      table%xx(0, 0) = table%xx(0, 0) + model%layer
-      table%yy(0, 0) = table%yy(0, 0) + model%layer
+      call add_layer(table, model)
    end subroutine complete_coefficients
+
+   !> Coefficients nn, xx, yy of an element on itself, whether all are there or not
+   pure function own_coefficients(table, model) result(own)
+      !> From `fill_coefficients`
+      type(kernel_table), intent(in) :: table
+      !> The bodies
+      type(elastic_model), intent(in) :: model
+      real(wp) :: own(3)
+
+      if (allocated(table%xx)) then
+         own = [table%nn(0, 0), table%xx(0, 0), table%yy(0, 0)]
+      else
+         own = [table%nn(0, 0), own_tangential(table) + model%layer]
+      end if
+   end function own_coefficients
 
    !> Coefficients with the observation points moved by (shift_x, shift_y); flat bodies without memory
    !>

@@ -11,7 +11,7 @@ module contact_elastic_halfspace
    implicit none (type, external)
    private
 
-   public :: kernel_table, fill_normal, complete_table, own_coefficients, fill_table, fill_shifted_table
+   public :: kernel_table, fill_normal, complete_table, own_tangential, fill_table, fill_shifted_table
    public :: shape_table, set_mirrored, set_entry, corner_functions, combine_corners
 
    !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
@@ -124,19 +124,15 @@ contains
       end associate
    end subroutine complete_table
 
-   !> Coefficients nn, xx, yy of an element on itself, of a table that is complete or not
-   pure function own_coefficients(table) result(own)
-      !> Without shift
+   !> Coefficients xx and yy of an element on itself, of a table of normal ones
+   pure function own_tangential(table) result(own)
+      !> Without shift, with corner functions
       type(kernel_table), intent(in) :: table
-      real(wp) :: own(3), v(6)
+      real(wp) :: own(2), v(6)
 
-      if (allocated(table%xx)) then
-         own = [table%nn(0, 0), table%xx(0, 0), table%yy(0, 0)]
-      else
-         v = combine_corners(difference_of_corners(table, 0, 0), table%material)
-         own = [table%nn(0, 0), v(2:3)]
-      end if
-   end function own_coefficients
+      v = combine_corners(difference_of_corners(table, 0, 0), table%material)
+      own = v(2:3)
+   end function own_tangential
 
    !> Corner functions at the corners of an element, with their signs
    pure function difference_of_corners(table, k, l) result(d)

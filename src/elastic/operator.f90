@@ -14,9 +14,8 @@
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_elastic_coefficients, only : fill_coefficients
+   use contact_elastic_coefficients, only : fill_coefficients, own_coefficients
    use contact_elastic_compliance, only : compliance
-   use contact_elastic_halfspace, only : own_coefficients
    use contact_elastic_model, only : elastic_model
    use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
    use contact_fft_paired, only : paired_plan
@@ -90,8 +89,7 @@ contains
          px = fast_size(2*mx + 1)
          py = merge(1, fast_size(2*my), my == 1)
          call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
-         self%diagonal = own_coefficients(self%table)
-         if (.not. allocated(self%table%xx)) self%diagonal(2:3) = self%diagonal(2:3) + model%layer
+         self%diagonal = own_coefficients(self%table, model)
          call self%plan%prepare(mx, my, px, py)
          self%small = my > 1 .and. max(px, py) <= largest_fast_size
          self%has_normal = .false.

@@ -143,5 +143,3 @@ TARGET static void OF(together)(int px, size_t stride, const double *both, doubl
     z[2 * (px - k) + 1] = from[2] - from[1];
   }
 }
-#undef OF
-#undef TARGET

@@ -3,10 +3,6 @@
 #include "../base/lanes.h"
 #include <stddef.h>
 
-typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
-
-#define EACH_TWICE(at) __builtin_shufflevector(*(const two *)(at), *(const two *)(at), 0, 0, 1, 1)
-#define PARTS_SWAPPED(v) __builtin_shufflevector(v, v, 1, 0, 3, 2)
 #define NUMBERS_SWAPPED(v) __builtin_shufflevector(v, v, 2, 3, 0, 1)
 #define REAL_PARTS(v) __builtin_shufflevector(v, v, 0, 0, 2, 2)
 #define IMAGINARY_PARTS(v) __builtin_shufflevector(v, v, 1, 1, 3, 3)
@@ -40,15 +36,8 @@ static void multiply_pair(double xx, double yy, double xy, double *here, double 
   there[1] = mean * y[1] + (xy * x[0] - half * x[1]);
 }
 
-#define OF(name) name##_anywhere
-#define TARGET
-#include "line_loops.h"
-
-#ifdef __x86_64__
-#define OF(name) name##_avx2
-#define TARGET FOR_AVX2
-#include "line_loops.h"
-#endif
+#define LOOPS "../fft/line_loops.h"
+#include "../base/twice.h"
 
 void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
   CALL(block, n, xx, yy, xy, turn, a, b);

@@ -120,5 +120,3 @@ TARGET static double OF(go_along)(int n, double alpha, const double *d, double *
   }
   return least;
 }
-#undef OF
-#undef TARGET

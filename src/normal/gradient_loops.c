@@ -9,15 +9,8 @@ void contact_gradient_project(int n, const double *free, double mean, double *v,
 void contact_gradient_turn(int n, double beta, const double *z, const double *r, double *d, double *previous);
 double contact_gradient_go_along(int n, double alpha, const double *d, double *p);
 
-#define OF(name) name##_anywhere
-#define TARGET
-#include "gradient_bodies.h"
-
-#ifdef __x86_64__
-#define OF(name) name##_avx2
-#define TARGET FOR_AVX2
-#include "gradient_bodies.h"
-#endif
+#define LOOPS "../normal/gradient_bodies.h"
+#include "../base/twice.h"
 
 double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p) { return CALL(mean_gap, n, h, u, p); }
 

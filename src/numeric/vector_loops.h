@@ -23,5 +23,3 @@ TARGET static void OF(add)(int n, double factor, const double *a, double *b) {
   }
   for (; k < n; k++) b[k] += factor * a[k];
 }
-#undef OF
-#undef TARGET

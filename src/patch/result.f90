@@ -178,49 +178,56 @@ contains
       type(patch_result) :: kept, lent
 
       call move_alloc(to%effects, kept%effects)
-      call move_fields(to, kept)
-      call move_fields(from, lent)
+      call hand_over(to, kept, .false.)
+      call hand_over(from, lent, .false.)
       ! numbers, and what is there only when it is asked for
       to = from
       call move_alloc(kept%effects, to%effects)
       ! a case that is only searched for contact has no fields
       if (allocated(lent%division)) then
-         call move_fields(kept, to)
-         to%division = lent%division
-         to%h = lent%h
-         to%mu = lent%mu
-         to%pn = lent%pn
-         to%px = lent%px
-         to%py = lent%py
-         to%un = lent%un
-         to%ux = lent%ux
-         to%uy = lent%uy
-         to%sx = lent%sx
-         to%sy = lent%sy
-         to%wx = lent%wx
-         to%wy = lent%wy
+         call hand_over(kept, to, .false.)
+         call hand_over(lent, to, .true.)
       end if
-      call move_fields(lent, from)
+      call hand_over(lent, from, .false.)
    end subroutine copy_result
 
-   !> Move the fields that every solution has
-   pure subroutine move_fields(from, to)
+   !> Move the fields that every solution has, or copy them into arrays that are kept where shapes are the same
+   pure subroutine hand_over(from, to, copies)
       type(patch_result), intent(inout) :: from, to
+      !> Do they stay where they were, too?
+      logical, intent(in) :: copies
 
-      call move_alloc(from%division, to%division)
-      call move_alloc(from%h, to%h)
-      call move_alloc(from%mu, to%mu)
-      call move_alloc(from%pn, to%pn)
-      call move_alloc(from%px, to%px)
-      call move_alloc(from%py, to%py)
-      call move_alloc(from%un, to%un)
-      call move_alloc(from%ux, to%ux)
-      call move_alloc(from%uy, to%uy)
-      call move_alloc(from%sx, to%sx)
-      call move_alloc(from%sy, to%sy)
-      call move_alloc(from%wx, to%wx)
-      call move_alloc(from%wy, to%wy)
-   end subroutine move_fields
+      if (copies) then
+         to%division = from%division
+      else
+         call move_alloc(from%division, to%division)
+      end if
+      call one(from%h, to%h)
+      call one(from%mu, to%mu)
+      call one(from%pn, to%pn)
+      call one(from%px, to%px)
+      call one(from%py, to%py)
+      call one(from%un, to%un)
+      call one(from%ux, to%ux)
+      call one(from%uy, to%uy)
+      call one(from%sx, to%sx)
+      call one(from%sy, to%sy)
+      call one(from%wx, to%wx)
+      call one(from%wy, to%wy)
+
+   contains
+
+      !> The same for one field
+      pure subroutine one(here, there)
+         real(wp), allocatable, intent(inout) :: here(:, :), there(:, :)
+
+         if (copies) then
+            there = here
+         else
+            call move_alloc(here, there)
+         end if
+      end subroutine one
+   end subroutine hand_over
 
    pure real(wp) function contact_area(self) result(area)
       class(patch_result), intent(in) :: self

@@ -27,5 +27,3 @@ TARGET static void OF(column)(int n, int half, const double *factor, double othe
   }
   if (l < n) OF(one)(other_half * factor[n - l], turned, added, traction + 2 * l, product + 2 * l);
 }
-#undef OF
-#undef TARGET

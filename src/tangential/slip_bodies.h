@@ -130,6 +130,3 @@ TARGET static void OF(join)(int n, const double *weight, const double *direction
     u[n + k] = weight[k] * (y - direction[n + k] * c) + (v[n + k] - projected[n + k]);
   }
 }
-#undef OF
-#undef TARGET
-#undef ROOTS

@@ -12,17 +12,8 @@ void contact_slip_jacobian(int n, const double *weight, const double *direction,
                            const double *creep, double *out);
 void contact_slip_join(int n, const double *weight, const double *direction, const double *v, const double *projected, double r, double *u);
 
-#define OF(name) name##_anywhere
-#define TARGET
-#define ROOTS ROOTS_ONE_BY_ONE
-#include "slip_bodies.h"
-
-#ifdef __x86_64__
-#define OF(name) name##_avx2
-#define TARGET FOR_AVX2
-#define ROOTS ROOTS_AT_ONCE
-#include "slip_bodies.h"
-#endif
+#define LOOPS "../tangential/slip_bodies.h"
+#include "../base/twice.h"
 
 void contact_slip_residual(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums) {
   CALL(residual, n, contact, bound, p, slip, r, sums);

@@ -170,9 +170,11 @@ contains
          call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)
          if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
       end if
-      coarser = coarsening(problem, memory, search%guess - search%touch)
-      if (.not. (is_settled .or. allocated(error)) .and. coarser > 1) call search%approach(problem, memory, coarser, log)
-      if (.not. (is_settled .or. allocated(error))) call search_apart(problem, memory, search, is_settled, log, error)
+      if (.not. (is_settled .or. allocated(error))) then
+         coarser = coarsening(problem, memory, search%guess - search%touch)
+         if (coarser > 1) call search%approach(problem, memory, coarser, log)
+         call search_apart(problem, memory, search, is_settled, log, error)
+      end if
       if (.not. allocated(error) .and. .not. is_settled) call search_together(problem, memory, search, log, error)
       z = search%z
       if (allocated(error)) return
@@ -323,15 +325,16 @@ contains
       type(wheel_rail_memory), intent(in) :: memory
       real(wp), intent(in) :: force
       real(wp) :: curvature(2), modulus
-      integer :: round
+      integer :: lowest, round
 
       curvature = curvatures(memory%geometry%gap)
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
       pen = sphere(curvature(2))
       if (.not. problem%in_loop) return
       ! the curvature is that over the width of the contact
+      lowest = minloc(memory%geometry%gap%gap, dim=1)
       do round = 1, rounds_of_width
-         pen = sphere(bend_over(memory%geometry%gap, minloc(memory%geometry%gap%gap, dim=1), 0.5_wp*pen))
+         pen = sphere(bend_over(memory%geometry%gap, lowest, 0.5_wp*pen))
       end do
 
    contains
