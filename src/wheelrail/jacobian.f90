@@ -238,6 +238,7 @@ contains
       kept = slot%problem%parts%interaction
       allocate(u, mold=slot%result%pn)
       do k = 1, coordinate%count
+         if (.not. allocated(motions(k)%interaction)) cycle
          slot%problem%parts%interaction = motions(k)%interaction
          call slot%problem%parts%displacement(slot%workspace%window, slot%result%pn, u)
          distance(:, :, k) = distance(:, :, k) + u

@@ -23,7 +23,7 @@ module contact_wheelrail_reference_motion
    type :: reference_motion
       !> Of its origin in the track [mm], and of the contact angle [rad]
       real(wp) :: origin(3) = 0.0_wp, angle = 0.0_wp
-      !> Changes of the factors between the parts of a blended patch, shape (parts, parts); otherwise unallocated
+      !> Changes of the factors between the parts of a blended patch, shape (parts, parts); unallocated where there are none
       real(wp), allocatable :: interaction(:, :)
    end type reference_motion
 
@@ -33,10 +33,11 @@ module contact_wheelrail_reference_motion
    end type gap_motion
 
    !> Steps of central differences: displacements [mm] and turns [rad] of the wheelset for points of the locus, of the place on the
-   !> profile [mm], and displacements and turns for regions. Errors of the first are 1e-8 of the derivatives, those of regions
-   !> 1e-6, where points of the mesh come into contact or leave it
+   !> profile [mm], and displacements and turns for regions. Errors of the first are 1e-8 of the derivatives. Regions have kinks
+   !> where points of the mesh come into contact or leave it: their steps are small beside the approach of a light wheel, 2e-3 mm
+   !> with 100 N, and round-off of a place in the track, 1e-13 mm, is 1e-6 of the motion of a patch
    real(wp), parameter :: locus_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-6_wp, 1.0e-6_wp], place_step = 1.0e-4_wp
-   real(wp), parameter :: region_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-7_wp, 1.0e-7_wp]
+   real(wp), parameter :: region_step(4) = [1.0e-7_wp, 1.0e-7_wp, 1.0e-10_wp, 1.0e-10_wp]
    !> Gaps up to this one take part: those beside the contact tell where it ends [mm]
    real(wp), parameter :: near_contact = 0.5_wp
 

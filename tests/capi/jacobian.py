@@ -125,6 +125,9 @@ def agree(order):
     compare(f"order {order}, two patches", make(cant=0.05, **two), position(6.05, yaw=0.01, roll=0.0, fz=90e3))
     compare(f"order {order}, two parts of a patch", make(cant=0.05, d_comb=0.5, d_sep=60.0, order=order),
             position(6.1, yaw=0.01, roll=0.0, fz=90e3))
+    compare(f"order {order}, two parts of a light wheel", make(cant=0.05, d_comb=0.5, d_sep=60.0, order=order),
+            position(6.1, yaw=0.01, roll=0.0, fz=1e3))
+    compare(f"order {order}, a light wheel", make(order=order), position(0.0, yaw=0.01, roll=0.0, fz=100.0))
     still = make(order=order)
     still.set_flags(ic_tang=0)
     compare(f"order {order}, without friction", still, position(1.3))
