@@ -3,8 +3,14 @@
 
 Differences are of solutions to a relative 1e-11, over steps so small that hardly an element changes its state. Each row is judged
 relative to its largest entry, with inputs scaled by what moves a wheel about alike: 1 mm, 1/750 rad, 20 mm/s at 20 m/s.
+
+    jacobian.py --random 400 --seed 2
+
+compares random wheels of 100 N to 200 kN instead, and tells those with deviations above ten times what differences are good for.
 """
+import argparse
 import os
+import random
 import sys
 import warnings
 
@@ -73,8 +79,8 @@ def position(y, side=1, length=1.0, roller=False, **changes):
     return at
 
 
-def compare(text, pair, at, force_given=True, limit=5e-5, scale=1.0, length=1.0):
-    """Largest deviation from differences; what the two step lengths differ by is what these are worth"""
+def deviation(pair, at, force_given=True, scale=1.0, length=1.0):
+    """Derivatives, their deviations from differences, and what these are good for: what the two step lengths differ by"""
     unit = np.array([length if name in ("y", "z", "vs", "vy") else 1.0 for name in COLUMNS])
     solve(pair, at, force_given)
     height = solve(pair, at, force_given)[-1]
@@ -96,8 +102,11 @@ def compare(text, pair, at, force_given=True, limit=5e-5, scale=1.0, length=1.0)
     for row in (2, 8):
         largest[row] = largest[row - 2:row + 1].max()
     largest = np.maximum(largest, 1e-6 * largest.max())
-    error = np.abs(jacobian.values - differences) * scaled / largest[:, None]
-    worth = (doubt * scaled / largest[:, None]).max()
+    return jacobian, np.abs(jacobian.values - differences) * scaled / largest[:, None], (doubt * scaled / largest[:, None]).max()
+
+
+def compare(text, pair, at, force_given=True, limit=5e-5, scale=1.0, length=1.0):
+    jacobian, error, worth = deviation(pair, at, force_given, scale, length)
     i, k = np.unravel_index(error.argmax(), error.shape)
     check(jacobian.state == "exact" and error.max() <= limit and worth <= limit,
           f"{text}: {error.max():.1e} at {ROWS[i]} by {COLUMNS[k]}, differences good to {worth:.1e}")
@@ -185,6 +194,39 @@ def refusals():
     refused("apart", pair, "do not touch")
 
 
+def random_wheels(count, seed):
+    """Wheels that no one has chosen; those whose differences see an element come into contact decide nothing"""
+    profiles = f"{top}/examples/profiles"
+    deviate = 0
+    for number in range(count):
+        draw = random.Random(1000 * seed + number)
+        options = {"element": draw.choice([0.3, 0.5, 1.0, 1.5]), "cant": draw.choice([0.0, 0.025, 0.05]),
+                   "order": draw.choice([1, 2])}
+        if draw.random() < 0.5:
+            options.update(d_comb=draw.choice([0.5, 2.0, 5.0]), d_sep=draw.choice([1.0, 8.0, 60.0]))
+        side = draw.choice([-1, 1])
+        at = position(draw.uniform(-4.0, 7.0), side=side, fz=10.0**draw.uniform(2.0, 5.3), yaw=draw.uniform(-0.02, 0.02),
+                      roll=draw.uniform(-0.004, 0.004), vy=draw.uniform(-200.0, 200.0), vroll=draw.uniform(-0.05, 0.05),
+                      vyaw=draw.uniform(-0.2, 0.2), vpitch=-SPEED / RADIUS * (1.0 + draw.uniform(-0.01, 0.01)))
+        names = draw.choice(["60E1", "60E1_worn"]) + ".prr", draw.choice(["S1002", "S1002_worn"]) + ".prw"
+        pair = make("right" if side > 0 else "left", **options)
+        pair.set_rail(f"{profiles}/{names[0]}")
+        pair.set_wheel(f"{profiles}/{names[1]}")
+        jacobian, error, worth = deviation(pair, at)
+        if jacobian.state == "exact" and error.max() > 10.0 * max(worth, 5e-6):
+            deviate += 1
+            print(f"{number}: {error.max():.1e}, differences good to {worth:.1e}: {names}, {options}, y = {at['y']:.3f} mm, "
+                  f"{at['fz']:.0f} N")
+    print(f"{deviate} of {count} wheels deviate by more than ten times what their differences are good for")
+
+
+parser = argparse.ArgumentParser()
+parser.add_argument("--random", type=int, metavar="WHEELS")
+parser.add_argument("--seed", type=int, default=1)
+asked = parser.parse_args()
+if asked.random:
+    random_wheels(asked.random, asked.seed)
+    sys.exit()
 for both in (1, 2):
     agree(both)
 conventions()
