@@ -1,5 +1,5 @@
 #!/bin/sh
-# Install what is missing, build, run one example and show its result: sh examples/run.sh NAME
+# Install what is missing, build program and library, run one example and show its result: sh examples/run.sh NAME
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"
@@ -17,6 +17,8 @@ name=$(basename "$1" .inp)
 $(examples)"
 
 install_missing
+# shellcheck disable=SC2034
+build_targets=products
 build release
 results=$top/build/examples/$name
 mkdir -p "$results" || exit 1

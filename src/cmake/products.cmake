@@ -76,6 +76,14 @@ if(program_room)
   install(TARGETS contact_program RUNTIME)
 endif()
 
+# Program and libraries without the tests: cmake --build --preset products
+add_custom_target(products)
+foreach(product contact contact_addon contact_static contact_program)
+  if(TARGET ${product})
+    add_dependencies(products ${product})
+  endif()
+endforeach()
+
 # The Python package; the program looks for the pages of `contact report` in this place
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact ${PROJECT_SOURCE_DIR}/python/python_intfc DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
