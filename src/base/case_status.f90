@@ -1,8 +1,8 @@
 !> How a case ended: solved, not converged or refused
 !>
-!> The one value from which every output, code and exit status is derived. A patch gets it from the reports of its
-!> iterations and from its forces, a pair from its patches and from the searches for its forces; a case that has no result
-!> gets it where it is given up.
+!> All outputs, return codes and the exit status are derived from this one value. A patch sets it from the reports of its
+!> iterations and from its forces, a wheel on a rail from its patches and from the searches for its forces. A case without a
+!> result sets it where the computation is abandoned.
 module contact_base_case_status
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : failure_text, size_text, solve_report
@@ -12,55 +12,55 @@ module contact_base_case_status
    public :: case_state, case_status, missed_iteration
 
    type :: case_state_list
-      !> Every iteration reached its tolerance, and every prescribed force is there
+      !> Every iteration reached its tolerance, and all prescribed forces are met
       integer :: solved = 0
-      !> An iteration ended above its tolerance, or a prescribed force is missed
+      !> An iteration ended above its tolerance, or a prescribed force is not met
       integer :: not_converged = 1
       !> The case was not computed
       integer :: refused = 2
    end type case_state_list
-   !> Names of the ways in which a case ends
+   !> Final states of a case
    type(case_state_list), parameter :: case_state = case_state_list()
 
    type :: missed_iteration_list
       integer :: none = 0
       integer :: normal = 1, tangential = 2
-      !> Pressures against tractions, friction against slip or temperature
+      !> Outer iteration: pressures and tractions, or friction with slip or temperature
       integer :: outer = 3
       !> Prescribed forces
       integer :: force = 4
-      !> The time that was allowed ran out; there is no result
+      !> The time limit was reached; there is no result
       integer :: time = 5
    end type missed_iteration_list
-   !> Names of the iterations that may miss their tolerance; a smaller one is the cause of a larger one
+   !> Iterations that may miss their tolerance, in order of cause: a smaller value is the cause of a larger one
    type(missed_iteration_list), parameter :: missed_iteration = missed_iteration_list()
 
-   !> How a case ended
+   !> Final status of a case
    type :: case_status
       !> Member of case_state
       integer :: state = 0
-      !> What did not converge, member of missed_iteration
+      !> Iteration that did not converge, member of missed_iteration
       integer :: iteration = 0
-      !> One sentence: which iteration, and by how much it missed; or why there is no result. Unallocated when solved
+      !> One sentence: the iteration and its residual, or why there is no result; unallocated when solved
       character(len=:), allocatable :: reason
    contains
-      !> Did the case end as it should?
+      !> Is the case solved?
       procedure :: is_solved
       !> Is there a result, converged or not?
       procedure :: has_result
-      !> The state in words, with blanks behind
+      !> Name of the state, padded with blanks
       procedure :: word
-      !> What did not converge, in one word with blanks behind
+      !> Name of the iteration that did not converge, padded with blanks
       procedure :: iteration_word
-      !> Take note of an iteration that has failed
+      !> Record the outcome of an iteration
       procedure :: judge
-      !> Take note of a prescribed force that is not there
+      !> Record a prescribed force that is not met
       procedure :: miss_force
-      !> The case is not computed
+      !> Mark the case as refused: it is not computed
       procedure :: refuse
-      !> The time that was allowed ran out
+      !> Mark the case as stopped by the time limit
       procedure :: run_out_of_time
-      !> A part of the case ended like that
+      !> Merge the status of a part of the case
       procedure :: include => include_part
       procedure, private :: miss
    end type case_status
@@ -99,28 +99,28 @@ contains
       word = words(self%iteration)
    end function iteration_word
 
-   !> Take note of an iteration if it has failed
+   !> Record the outcome of an iteration; one that converged or was not started changes nothing
    subroutine judge(self, iteration, name, report)
       class(case_status), intent(inout) :: self
       !> Member of missed_iteration
       integer, intent(in) :: iteration
-      !> What was iterated, such as "normal problem"
+      !> Name of the iteration, such as "normal problem"
       character(len=*), intent(in) :: name
-      !> How it ended; one that converged, or was not done, changes nothing
+      !> Outcome of the iteration
       type(solve_report), intent(in) :: report
 
       if (report%succeeded()) return
       call self%miss(iteration, trim(failure_text(name, report)))
    end subroutine judge
 
-   !> Take note of a prescribed force that is not there
+   !> Record a prescribed force that is not met
    subroutine miss_force(self, name, requested, found, why)
       class(case_status), intent(inout) :: self
-      !> Which force, such as "FX"
+      !> Name of the force, such as "FX"
       character(len=*), intent(in) :: name
-      !> [N]
+      !> Prescribed and computed force [N]
       real(wp), intent(in) :: requested, found
-      !> The reason, if one is known
+      !> Reason for the difference
       character(len=*), intent(in) :: why
       character(len=24) :: numbers(3)
 
@@ -131,7 +131,7 @@ contains
          & trim(numbers(2)) // " N, off by " // trim(numbers(3)) // " N: " // why)
    end subroutine miss_force
 
-   !> Something is above its tolerance; the cause of it all stays
+   !> Record a quantity above its tolerance; the first cause is kept
    subroutine miss(self, iteration, reason)
       class(case_status), intent(inout) :: self
       !> Member of missed_iteration
@@ -163,7 +163,7 @@ contains
 
    subroutine run_out_of_time(self, reason)
       class(case_status), intent(inout) :: self
-      !> What was going on, and how long
+      !> Stage of the computation and elapsed time
       character(len=*), intent(in) :: reason
 
       self%state = case_state%not_converged
@@ -171,12 +171,12 @@ contains
       self%reason = reason
    end subroutine run_out_of_time
 
-   !> A part of the case ended like that
+   !> Merge the status of a part of the case
    subroutine include_part(self, part, where)
       class(case_status), intent(inout) :: self
-      !> The part's own status: its findings are added, its reasons kept with the part's name
+      !> Status of the part; its reasons are added, prefixed with the name of the part
       type(case_status), intent(in) :: part
-      !> Which part, in front of its reason
+      !> Name of the part
       character(len=*), intent(in) :: where
 
       if (part%is_solved()) return

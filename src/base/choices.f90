@@ -1,7 +1,6 @@
-!> The named choices that a case makes
+!> Named choices of a case
 !>
-!> Rooms compare with these names; what digit of the input format stands for a
-!> choice is known to the room `control` alone.
+!> All rooms compare with these names; only the room `control` knows the digits of the input format that select them.
 module contact_base_choices
    implicit none (type, external)
    private
@@ -19,7 +18,7 @@ module contact_base_choices
    end type time_link_list
    type(time_link_list), parameter :: time_link = time_link_list()
 
-   !> Where the normal pressures come from (B)
+   !> Source of the normal pressures (B)
    type :: pressure_model_list
       integer :: full = 0, thin_sheet = 1, elliptical = 2, parabolical = 3, sdec = 4, kpec = 5, analyn = 6
    end type pressure_model_list
@@ -31,13 +30,13 @@ module contact_base_choices
    end type motion_list
    type(motion_list), parameter :: motion = motion_list()
 
-   !> What is prescribed in normal direction (N)
+   !> Prescribed quantity in normal direction (N)
    type :: normal_control_list
       integer :: approach = 0, force = 1
    end type normal_control_list
    type(normal_control_list), parameter :: normal_control = normal_control_list()
 
-   !> What is prescribed in tangential direction (F)
+   !> Prescribed quantities in tangential direction (F)
    type :: force_control_list
       integer :: creepages = 0, fx_and_ceta = 1, fx_and_fy = 2
       !> Module 1: longitudinal force in place of the pitch rate; rail on springs
@@ -60,22 +59,22 @@ module contact_base_choices
    !> Material behaviour (M)
    type :: material_model_list
       integer :: elastic = 0, viscoelastic = 1, fastsim_single = 2, fastsim = 3, interfacial_layer = 4, fastrip = 5
-      !> FaStrip without slope reduction: as published, and with flexibilities that become one when everything slides
+      !> FaStrip without slope reduction: as published, and with flexibilities that merge into a single one in full sliding
       integer :: fastrip_plain = 6, fastrip_sliding = 7
    end type material_model_list
    type(material_model_list), parameter :: material_model = material_model_list()
 
-   !> Tangential solver (G). The default one acts in place of the others where it can, unless `classical` of the case is set
+   !> Tangential solver (G). The default solver replaces the others where it can, unless `classical` of the case is set
    type :: solver_choice_list
-      !> Newton-Krylov with automatic fall-back
+      !> Newton-Krylov with automatic fallback
       integer :: default = 0
-      !> ConvexGS always, relaxation from the input
+      !> Always ConvexGS, relaxation factors from the input
       integer :: convex_gs = 2
-      !> SteadyGS in steady rolling, TangCG otherwise, relaxation from the input
+      !> SteadyGS in steady rolling, TangCG otherwise, relaxation factors from the input
       integer :: gauss_seidel = 3
-      !> As the default, with parameters of the friction iteration from the input
+      !> As default, with parameters of the friction iteration from the input
       integer :: default_friction = 4
-      !> GDsteady with fall-back to SteadyGS
+      !> GDsteady with fallback to SteadyGS
       integer :: gd_steady = 5
    end type solver_choice_list
    type(solver_choice_list), parameter :: solver_choice = solver_choice_list()
@@ -86,61 +85,61 @@ module contact_base_choices
    end type estimate_choice_list
    type(estimate_choice_list), parameter :: estimate_choice = estimate_choice_list()
 
-   !> Extra term of the rigid slip (E)
+   !> Additional term of the rigid slip (E)
    type :: slip_source_list
       integer :: none = 0, no_spin_y = 2, no_spin_x = 3, given = 9
    end type slip_source_list
    type(slip_source_list), parameter :: slip_source = slip_source_list()
 
-   !> How the heat of friction of an element acts on itself
+   !> Treatment of the self-heating of an element by friction
    type :: heat_source_list
-      !> established: twice, as in the established program; moving: once, the solution for moving sources
+      !> established: counted twice, as in the established program; moving: counted once, solution for moving sources
       integer :: established = 0, moving = 1
    end type heat_source_list
    type(heat_source_list), parameter :: heat_source = heat_source_list()
    !> Names of the members of heat_source, from 0 on
    character(len=13), parameter :: heat_source_name(0:1) = ["established  ", "moving source"]
 
-   !> How the contact of wheel and rail is located and described (D of module 1)
+   !> Method that locates and describes the contact of wheel and rail (D of module 1)
    type :: contact_location_list
-      !> Contact locus, flat patches; also with extended rigid slip; curved patches
+      !> Contact locus: planar patches, the same with extra rigid slip, and curved patches
       integer :: locus = 2, locus_extended = 3, conformal = 4
-      !> Search over a grid; with a finer one for steep slopes
+      !> Search over a grid, and with a finer one for steep slopes
       integer :: grid = 5, steep_grid = 6
-      !> Contact locus with the first point of contact as reference
+      !> Contact locus with the first point of contact as reference point
       integer :: first_contact = 7
       !> Locus and grid in a fixed oblique view
       integer :: oblique_locus = 8, oblique_grid = 9
    end type contact_location_list
    type(contact_location_list), parameter :: contact_location = contact_location_list()
 
-   !> How a potential contact area is given (IPOTCN)
+   !> Form in which the potential contact area is given (IPOTCN)
    type :: grid_form_list
-      !> A corner or the centre of the first element with the sides of an element or the opposite one
+      !> A corner or the centre of the first element, with the element sides or with the opposite corner or centre
       integer :: corner_and_sides = 1, corners = 2, centre_and_sides = 3, centres = 4
-      !> Around a Hertzian contact, of curvatures or semi-axes; around a line contact; around two half ellipses
+      !> Around a Hertzian contact given by curvatures or semi-axes, around a line contact, around two half ellipses
       integer :: hertz_curvatures = -1, hertz_curvature_ratio = -2, hertz_axes = -3
       integer :: hertz_line_curvature = -4, hertz_line = -5, half_ellipses = -6
    end type grid_form_list
    type(grid_form_list), parameter :: grid_form = grid_form_list()
 
-   !> Where contact is possible (IPLAN)
+   !> Planform: where contact is possible (IPLAN)
    type :: planform_list
       integer :: unrestricted = 1, quadratic = 2, two_rectangles = 3, weighted_rectangles = 4
    end type planform_list
    type(planform_list), parameter :: planform_choice = planform_list()
 
-   !> Sensitivities that are computed; each one includes those before it
+   !> Requested sensitivities; each level includes those before it
    type :: sensitivity_choice_list
-      !> forces: of the tangential forces to the creepages that belong to prescribed forces;
-      !> normal: and of the normal force to the approach; all: and of all forces to all inputs
+      !> forces: of the tangential forces to the creepages with prescribed forces; normal: also of the normal force to the
+      !> approach; all: of all forces to all inputs
       integer :: none = 0, forces = 1, normal = 2, all = 3
    end type sensitivity_choice_list
    type(sensitivity_choice_list), parameter :: sensitivity_choice = sensitivity_choice_list()
 
 contains
 
-   !> Does a solver choice name a classical method, in whose place the default solver acts where it can?
+   !> Is this a classical solver, for which the default solver is used where it can be?
    pure elemental logical function is_classical(choice)
       !> Member of solver_choice
       integer, intent(in) :: choice
@@ -157,7 +156,7 @@ contains
       is_rolling = kind == motion%transient_rolling .or. kind == motion%steady_rolling
    end function is_rolling
 
-   !> Is the tangential problem one of simplified theory?
+   !> Does simplified theory solve the tangential problem?
    elemental logical function is_simplified(model)
       !> Member of material_model
       integer, intent(in) :: model
@@ -165,7 +164,7 @@ contains
       is_simplified = model == material_model%fastsim_single .or. model == material_model%fastsim .or. is_fastrip(model)
    end function is_simplified
 
-   !> Does strip theory give the tractions where elements adhere?
+   !> Are the tractions in the adhesion area given by strip theory?
    elemental logical function is_fastrip(model)
       !> Member of material_model
       integer, intent(in) :: model
@@ -174,7 +173,7 @@ contains
          & .or. model == material_model%fastrip_sliding
    end function is_fastrip
 
-   !> Are the springs of simplified theory softened by parameters of the case?
+   !> Does the case give parameters that reduce the stiffness of simplified theory?
    elemental logical function has_slope_reduction(model)
       !> Member of material_model
       integer, intent(in) :: model

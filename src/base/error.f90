@@ -1,7 +1,7 @@
-!> How a failure reads: one sentence, the place it came from, the trail it took
+!> Errors: a message, the position in the input, and the context in which they occurred
 !>
-!> An unallocated error means success. Rooms below the command line never stop
-!> and never print; they allocate an error and return.
+!> An unallocated error means success. Rooms below the command line never stop and never print; they allocate an error and
+!> return.
 module contact_base_error
    implicit none (type, external)
    private
@@ -9,57 +9,57 @@ module contact_base_error
    public :: error_type, error_kind, fatal_error, add_context, full_text
 
    type :: error_kind_list
-      !> The text or the numbers of an input cannot be used
+      !> The text or a value of the input is invalid
       integer :: input = 1
       !> A file cannot be opened, read or written
       integer :: file = 2
-      !> Known to the format but not built in this version
+      !> Known to the input format, but not implemented in this version
       integer :: unsupported = 3
-      !> Memory cannot be had
+      !> Memory could not be allocated
       integer :: memory = 4
-      !> A program fault: NaN from finite input, broken invariants
+      !> A program fault: NaN from finite input, a broken invariant
       integer :: internal = 5
-      !> Cases did not converge, and the caller asked to be told by a failure
+      !> Cases did not converge, and the caller requested this to be an error
       integer :: not_converged = 6
-      !> More elements or memory than a limit allows
+      !> A limit on elements or memory is exceeded
       integer :: limit = 7
-      !> The time that was allowed ran out
+      !> The time limit was reached
       integer :: time = 8
-      !> Another run is at work on the same files
+      !> The files are in use by another run
       integer :: locked = 9
-      !> The run was asked to end before its last case
+      !> The run was interrupted before its last case
       integer :: interrupted = 10
    end type error_kind_list
    !> Names of the kinds of failure
    type(error_kind_list), parameter :: error_kind = error_kind_list()
 
-   !> One failure; unallocated means success
+   !> An error; unallocated means success
    type :: error_type
       !> Member of error_kind
       integer :: kind = 0
-      !> One sentence with the offending value and what would have been accepted
+      !> One sentence with the offending value and the accepted ones
       character(len=:), allocatable :: message
-      !> Where the input came from; unallocated when it was a call
+      !> Name of the input file; unallocated if the input came from a call
       character(len=:), allocatable :: file
-      !> Position in that file, 0 when unknown
+      !> Position in that file, 0 if unknown
       integer :: line = 0, column = 0
-      !> Innermost first: "tangential solve, case 7"
+      !> Context, innermost first: "tangential solve, case 7"
       character(len=:), allocatable :: trail
    end type error_type
 
 contains
 
-   !> Allocate an error
+   !> Create an error
    subroutine fatal_error(error, message, kind, file, line, column)
-      !> The error that is made; what was allocated before is replaced
+      !> The new error; replaces an earlier one
       type(error_type), allocatable, intent(out) :: error
-      !> One sentence for the user, without place: what is wrong, what stands there, what would be accepted
+      !> One sentence for the user, without the position: what is wrong, the value found, and what is accepted
       character(len=*), intent(in) :: message
       !> Member of error_kind; default input
       integer, intent(in), optional :: kind
-      !> File that the sentence is about, as the user named it; absent: none
+      !> File concerned, as the user named it; absent: none
       character(len=*), intent(in), optional :: file
-      !> Place in the file, from 1; absent: not known
+      !> Position in the file, from 1; absent: unknown
       integer, intent(in), optional :: line, column
 
       allocate(error)
@@ -71,11 +71,11 @@ contains
       if (present(column)) error%column = column
    end subroutine fatal_error
 
-   !> Add a station to the trail of an error; does nothing on success
+   !> Append a context to an error; does nothing on success
    subroutine add_context(error, station)
-      !> Unallocated on success: nothing is done then
+      !> Unallocated on success
       type(error_type), allocatable, intent(inout) :: error
-      !> Where the error passed, such as "case 3", put behind those passed before
+      !> Context, such as "case 3"; appended to earlier ones
       character(len=*), intent(in) :: station
 
       if (.not. allocated(error)) return
@@ -86,12 +86,12 @@ contains
       end if
    end subroutine add_context
 
-   !> Place, message and trail of an error in one text of one line: control characters, as of a name that a
-   !> damaged file gives, become question marks
+   !> Position, message and context of an error on one line. Control characters, such as those in a name from a damaged file,
+   !> are replaced by question marks.
    pure subroutine join_parts(error, text)
       type(error_type), intent(in) :: error
       character(len=:), allocatable, intent(out) :: text
-      !> Longest name of a file that is told as a whole, of which systems take 4096 bytes at most
+      !> Longest file name shown in full; systems allow up to 4096 bytes
       integer, parameter :: longest_name = 1000
       character(len=24) :: place
       integer :: k, length
@@ -132,7 +132,7 @@ contains
 
    !> "file:line:column: message (trail)", the form compilers print
    pure function full_text(error) result(text)
-      !> An error that has happened
+      !> Error to describe
       type(error_type), intent(in) :: error
       character(len=full_length(error)) :: text
       character(len=:), allocatable :: parts

@@ -1,19 +1,18 @@
-/* Requests for memory that are refused, and run-time libraries that would end the process.
+/* Failed memory requests, and run-time libraries that would end the process.
  *
- * Compiled Fortran does not look at the result of malloc where it allocates by assignment, and its run-time library, that
- * of OpenMP and FFTW end the process when they get no memory. None of this may happen to a host, so the calls of malloc
- * and its relatives, exit and abort of this code and of those libraries lead here:
+ * Compiled Fortran does not check the result of malloc in allocations by assignment. Its run-time library, the OpenMP library
+ * and FFTW end the process when memory is exhausted. None of this may happen to a host program. Calls of malloc and related
+ * functions, exit and abort in this code and in those libraries are therefore redirected here:
  *
- *  - a small request that the system refuses is served from a reserve. The computation goes on and is right;
- *  - a larger one of our own code leaves everything up to the guard of the call, contact_guard, which says so;
- *  - so does a run-time library that wants to end the process.
+ * - a small request that the system refuses is served from a reserve, and the computation continues with correct results;
+ * - a larger request of our own code abandons all work up to the enclosing guard, contact_guard, which reports the cause;
+ * - so does a run-time library that attempts to end the process.
  *
- * Outside of a guard nothing changes, so that a host that uses the same run-time libraries sees no difference. What was
- * left keeps its memory; blocks of more than `recorded` bytes are noted with their owner and can be freed by it.
+ * Outside a guard nothing changes, so a host that uses the same run-time libraries sees no difference. Abandoned work keeps its
+ * memory; blocks of more than `recorded` bytes are recorded with their owner, which can free them.
  *
- * The calls are led here by writing to the tables of imported addresses (GOT) of the loaded objects, when this one is
- * loaded. On systems other than Linux with ELF on x86-64 or AArch64, and under sanitizers, nothing is led anywhere:
- * guards do nothing there. */
+ * Calls are redirected by writing to the tables of imported addresses (GOT) of the loaded objects when this one is loaded. On
+ * systems other than Linux with ELF on x86-64 or AArch64, and under sanitizers, nothing is redirected and guards do nothing. */
 #define _GNU_SOURCE
 #include <setjmp.h>
 #include <stdatomic.h>
@@ -30,7 +29,7 @@
 #define WATCHED 0
 #endif
 
-/* How a guard ends: the work was done; no memory; a run-time library gave up. As guard_end in guard.f90 */
+/* How a guard ended: work done; out of memory; a run-time library failed. Same values as guard_end in guard.f90 */
 enum { done = 0, no_memory = 1, gave_up = 2 };
 
 int contact_guard(void (*work)(void *), void *data, int owner);
@@ -45,7 +44,7 @@ int contact_guard_reserve_used(void);
 
 static _Atomic int owners = 0;
 
-/* A number for whoever owns blocks of memory */
+/* A new identifier for an owner of memory blocks */
 int contact_guard_new_owner(void) { return atomic_fetch_add(&owners, 1) + 1; }
 
 #if !WATCHED
@@ -73,16 +72,16 @@ int contact_guard_reserve_used(void) { return 0; }
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* ---- what a thread is doing ---- */
+/* ---- state of a thread ---- */
 
-/* A guard that was entered */
+/* An active guard */
 struct guard {
   jmp_buf place;
   struct guard *outer;
   int criticals, cause;
 };
 
-/* Critical sections of OpenMP do not nest deeper in this code */
+/* Maximum nesting depth of OpenMP critical sections in this code */
 enum { max_criticals = 8 };
 
 static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
@@ -95,10 +94,10 @@ static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
 } guarded_thread;
 #define me guarded_thread
 
-/* All threads of the process are ours, with or without a guard */
+/* Do all threads of the process belong to the program, inside and outside guards? */
 static int whole_process = 0, watched = 0;
 
-/* The functions that the calls would reach; taken before anything is led here */
+/* The original functions, looked up before calls are redirected */
 static struct {
   void *(*malloc)(size_t);
   void *(*calloc)(size_t, size_t);
@@ -132,7 +131,7 @@ static atomic_flag reserve_lock = ATOMIC_FLAG_INIT;
 static size_t reserve_place = 0;
 static _Atomic int reserve_pieces = 0, reserve_uses = 0;
 
-/* Requests that the reserve has served */
+/* Number of requests served from the reserve */
 int contact_guard_reserve_used(void) { return reserve_uses; }
 
 static inline int in_reserve(const void *p) { return (uintptr_t)p - (uintptr_t)reserve < reserve_size; }
@@ -150,7 +149,7 @@ static void *take_from_reserve(size_t n, size_t align) {
   while (walked < 2*(size_t)reserve_size) {
     struct piece *piece = (struct piece *)(reserve + at);
     if (!piece->used) {
-      /* free pieces that follow join this one */
+      /* merge this piece with the free pieces that follow */
       while (at + piece->size < reserve_size) {
         struct piece *next = (struct piece *)(reserve + at + piece->size);
         if (next->used) break;
@@ -196,7 +195,7 @@ static void give_to_reserve(void *p) {
 
 /* ---- blocks with owners ---- */
 
-/* Larger blocks [bytes] are noted; two blocks with the same place in the table are not, and stay when they are left */
+/* Larger blocks [bytes] are recorded. A block whose table entry is taken is not recorded, and leaks if its work is abandoned */
 enum { recorded = 16 << 10, table_size = 4096 };
 static struct {
   _Atomic(void *) block;
@@ -213,7 +212,7 @@ static void note(void *p, int owner) {
   if (owner != 0 && atomic_compare_exchange_strong(&table[k].block, &nothing, p)) table[k].owner = owner;
 }
 
-/* The owner of a block that is about to be freed; 0 if it was not noted */
+/* Owner of a block that is about to be freed; 0 if it was not recorded */
 static inline int forget(void *p) {
   const unsigned k = place_of(p);
   if (atomic_load_explicit(&table[k].block, memory_order_relaxed) != p || p == NULL) return 0;
@@ -223,7 +222,7 @@ static inline int forget(void *p) {
   return owner;
 }
 
-/* Free the blocks of an owner that left them behind; nobody may use them any more */
+/* Free the blocks of an owner whose work was abandoned; they must not be used any more */
 void contact_guard_free(int owner) {
   if (owner == 0) return;
   for (unsigned k = 0; k < table_size; k++) {
@@ -234,15 +233,15 @@ void contact_guard_free(int owner) {
   }
 }
 
-/* Blocks that this thread asks for belong to this owner from now on; 0 for nobody */
+/* Blocks allocated by this thread belong to this owner from now on; 0 for none */
 void contact_guard_set_owner(int owner) { me.owner = owner; }
 
-/* The code that follows looks at the result of what it allocates itself (1), or it does not (0) */
+/* Does the code that follows check the result of its own allocations (1) or not (0)? */
 void contact_guard_expect(int refusals) { me.expects = refusals; }
 
 /* ---- guards ---- */
 
-/* Do the work. When it cannot go on for want of memory, it is left where it is and the cause is returned */
+/* Run the work. If it runs out of memory it is abandoned, and the cause is returned */
 int contact_guard(void (*work)(void *), void *data, int owner) {
   struct guard guard;
   const int owner_before = me.owner;
@@ -260,7 +259,7 @@ int contact_guard(void (*work)(void *), void *data, int owner) {
   return guard.cause;
 }
 
-/* Leave everything up to the innermost guard of this thread; critical sections are opened */
+/* Abandon all work up to the innermost guard of this thread, and release its critical sections */
 static _Noreturn void leave_all(int cause) {
   struct guard *guard = me.guard;
   while (me.criticals > guard->criticals) {
@@ -271,7 +270,7 @@ static _Noreturn void leave_all(int cause) {
   longjmp(guard->place, 1);
 }
 
-/* ---- requests that were refused ---- */
+/* ---- refused requests ---- */
 
 static void *serve(size_t n, size_t align, int own) {
   if (me.guard == NULL && !whole_process) return NULL;
@@ -376,7 +375,7 @@ static char *copied(char *copy, const char *text, size_t n) {
 static char *other_strdup(const char *text) { return copied(real.strdup(text), text, strlen(text)); }
 static char *other_strndup(const char *text, size_t n) { return copied(real.strndup(text, n), text, strnlen(text, n)); }
 
-/* ---- ends of the process ---- */
+/* ---- calls that end the process ---- */
 
 static void other_exit(int status) {
   if (me.guard != NULL) leave_all(gave_up);
@@ -388,13 +387,13 @@ static void other_abort(void) {
   real.abort();
 }
 
-/* For our code in C++, whose run-time library throws where it gets no memory */
+/* For our C++ code, whose run-time library throws when memory is exhausted */
 _Noreturn void contact_guard_without_memory(void) {
   if (me.guard != NULL) leave_all(no_memory);
   abort();
 }
 
-/* ---- outside libraries that are linked into the program: their calls have these names (program_hdf5.cmake) ---- */
+/* ---- external libraries linked into the program: their calls have these names (program_hdf5.cmake) ---- */
 
 void *contact_outside_malloc(size_t n);
 void *contact_outside_calloc(size_t count, size_t size);
@@ -421,7 +420,7 @@ struct team {
   _Atomic int cause;
 };
 
-/* Each thread of a team has a guard of its own; regions have no barriers inside that a thread could miss */
+/* Each thread of a team has its own guard; parallel regions contain no barriers that an abandoned thread would miss */
 static void be_member(void *data) {
   struct team *team = data;
   const int cause = contact_guard(team->work, team->data, team->owner);
@@ -459,7 +458,7 @@ static void own_leave(void **name) {
   real.leave(name);
 }
 
-/* ---- leading the calls here ---- */
+/* ---- redirection of calls ---- */
 
 extern void GOMP_parallel(void (*)(void *), void *, unsigned, unsigned) __attribute__((weak));
 extern void GOMP_parallel_sections(void (*)(void *), void *, unsigned, unsigned, unsigned) __attribute__((weak));
@@ -468,7 +467,7 @@ extern void GOMP_critical_name_end(void **) __attribute__((weak));
 
 typedef void (*function)(void);
 
-/* What a call is led to: from our own code, from other libraries (null: it stays) */
+/* Targets of a redirected call: from our own code, from other libraries (null: not redirected) */
 struct detour {
   const char *name;
   function real, own, other;
@@ -477,13 +476,13 @@ struct detour {
 struct detours {
   struct detour list[16];
   int count;
-  /* First letters of the names */
+  /* Prefixes of the names */
   const char *letters;
 };
 
 #define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
 
-/* Libraries that end the process, or whose memory we free */
+/* Libraries that end the process, or whose memory is freed here */
 static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libquadmath."};
 
 static int begins_with_one(const char *name, const char *const *list, size_t count) {
@@ -501,7 +500,7 @@ static int contains(const struct dl_phdr_info *info, const void *address) {
   return 0;
 }
 
-/* Addresses that are write-protected once the object is loaded: start and length, 0 if there are none */
+/* Write-protected addresses of a loaded object: start and length, 0 if there are none */
 static void find_protected(const struct dl_phdr_info *info, uintptr_t *start, size_t *length) {
   const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
   *length = 0;
@@ -563,7 +562,7 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
         const function to = own ? detour->own : detour->other;
         if (to == NULL || strcmp(symbol, detour->name) != 0) continue;
         function *slot = (function *)(info->dlpi_addr + import->r_offset);
-        /* a second copy of this code in the process has been here, or somebody else */
+        /* already redirected, by a second copy of this code in the process or by another tool */
         if (*slot != detour->real && !contains(info, (const void *)*slot)) continue;
         if ((uintptr_t)slot - protected < length && !is_open) {
           if (mprotect((void *)protected, length, PROT_READ | PROT_WRITE) != 0) return 0;
@@ -577,7 +576,7 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   return 0;
 }
 
-/* Lead the calls here, once */
+/* Redirect the calls, once */
 static void watch(void) {
   struct detours detours = {{
     DETOUR(malloc, own_malloc, other_malloc), DETOUR(calloc, own_calloc, other_calloc), DETOUR(realloc, own_realloc, other_realloc),
@@ -607,13 +606,13 @@ static void watch(void) {
   dl_iterate_phdr(redirect, &detours);
 }
 
-/* Every thread of this process is ours: the program. Called before the first library is initialised */
+/* All threads of this process belong to the program. Called before the first library is initialised */
 void contact_guard_whole_process(void) {
   whole_process = 1;
   watch();
 }
 
-/* A child has one thread; it must not find the reserve locked by another one */
+/* A forked child has a single thread; the reserve must not be locked by another thread of the parent */
 static void free_lock(void) { atomic_flag_clear(&reserve_lock); }
 
 __attribute__((constructor)) static void begin(void) {

@@ -1,4 +1,4 @@
-!> Work that may run out of memory without harm to the process; see guard.c
+!> Work that may run out of memory without ending the process; see guard.c
 module contact_base_guard
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_ptr
    implicit none (type, external)
@@ -9,9 +9,9 @@ module contact_base_guard
    type :: guard_end_list
       !> The work was done
       integer :: done = 0
-      !> It was left for want of memory
+      !> It was abandoned for want of memory
       integer :: no_memory = 1
-      !> A run-time library would have ended the process; most often for want of memory, too
+      !> A run-time library would have ended the process, mostly also for want of memory
       integer :: gave_up = 2
    end type guard_end_list
    !> How guarded work ended
@@ -21,7 +21,7 @@ module contact_base_guard
       !> Work under a guard
       subroutine guarded_work(data) bind(c)
          import :: c_ptr
-         !> What it works on
+         !> Data of the work
          type(c_ptr), value :: data
       end subroutine guarded_work
    end interface
@@ -58,16 +58,16 @@ module contact_base_guard
 
 contains
 
-   !> Do a piece of work that is left where it is when there is no memory for it
+   !> Run work that is abandoned if there is not enough memory for it
    !>
-   !> What it was changing then is in no defined state: it must not be read, assigned to or deallocated any more, and
-   !> blocks of memory that belong to the owner are freed by `free_left_blocks`.
+   !> Data that abandoned work was changing is in an undefined state: it must not be read, assigned to or deallocated.
+   !> `free_left_blocks` frees the memory blocks of its owner.
    subroutine do_guarded(work, data, owner, cause)
-      !> What is done under the guard
+      !> Work to run under the guard
       procedure(guarded_work) :: work
-      !> Handed to the work
+      !> Passed to the work
       type(c_ptr), intent(in) :: data
-      !> Of the blocks that it allocates, from `new_owner`; 0: as before
+      !> Owner of the blocks that the work allocates, from `new_owner`; 0: unchanged
       integer, intent(in) :: owner
       !> Member of guard_end
       integer, intent(out) :: cause
@@ -75,7 +75,7 @@ contains
       cause = int(contact_guard(c_funloc(work), data, int(owner, c_int)))
    end subroutine do_guarded
 
-   !> Why guarded work was left, with blanks behind
+   !> Why guarded work was abandoned, padded with blanks
    pure function end_text(cause) result(text)
       !> Member of guard_end
       integer, intent(in) :: cause
@@ -85,28 +85,28 @@ contains
       if (cause == guard_end%gave_up) text = "a run-time library gave up, most likely for want of memory"
    end function end_text
 
-   !> A number for an owner of blocks of memory
+   !> A new identifier for an owner of memory blocks
    integer function new_owner()
       new_owner = int(contact_guard_new_owner())
    end function new_owner
 
-   !> Larger blocks that this thread allocates from now on belong to an owner, 0 for none
+   !> Set the owner of the larger blocks that this thread allocates from now on; 0 for none
    subroutine set_owner(owner)
       !> From `new_owner`
       integer, intent(in) :: owner
       call contact_guard_set_owner(int(owner, c_int))
    end subroutine set_owner
 
-   !> Free the larger blocks of an owner whose work was left; nobody may use them any more
+   !> Free the larger blocks of an owner whose work was abandoned; they must not be used any more
    subroutine free_left_blocks(owner)
-      !> The one that was given to `do_guarded`
+      !> Owner that was passed to `do_guarded`
       integer, intent(in) :: owner
       call contact_guard_free(int(owner, c_int))
    end subroutine free_left_blocks
 
-   !> Does the code that follows ask with `stat` whether its memory was had? Then it is not left
+   !> Does the code that follows check `stat` of its allocations? Then a failed one does not abandon the work
    subroutine expect_refusals(expected)
-      !> From now on: true where the code looks at `stat` itself, false behind it
+      !> True before code that checks `stat`, false after it
       logical, intent(in) :: expected
       call contact_guard_expect(merge(1_c_int, 0_c_int, expected))
    end subroutine expect_refusals

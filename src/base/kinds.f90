@@ -1,4 +1,4 @@
-!> Kinds of numbers used everywhere
+!> Kind parameters
 module contact_base_kinds
    use, intrinsic :: iso_fortran_env, only : int64, real64
    implicit none (type, external)
@@ -6,6 +6,6 @@ module contact_base_kinds
 
    !> Working precision of all lengths, forces and tractions
    integer, parameter, public :: wp = real64
-   !> Integers that may exceed 2**31 (products of grid sizes, clock ticks)
+   !> Integers that may exceed 2**31, such as products of grid sizes and clock ticks
    integer, parameter, public :: long = int64
 end module contact_base_kinds

@@ -1,8 +1,8 @@
-/* Numbers taken four at once, for loops that are compiled twice: for all processors, and for those with AVX2, which are asked when
- * the loop runs. Both have the same numbers to the last digit. Vectors are those of GCC and Clang.
+/* Vectors of four numbers for loops that are compiled twice: for all processors, and for those with AVX2, selected at run time.
+ * Both versions give identical digits. The vector types are extensions of GCC and Clang.
  *
- * A file of loops is included by that of their doors, by way of twice.h: OF(name) is what a function is called there, TARGET its
- * attribute, ROOTS takes four square roots. */
+ * A file of loops is included through twice.h by the file that defines their entry points. OF(name) is the name of a function
+ * in that version, TARGET its attribute; ROOTS takes four square roots. */
 #ifndef CONTACT_LANES_H
 #define CONTACT_LANES_H
 #include <math.h>
@@ -15,14 +15,14 @@ typedef int four_flags __attribute__((vector_size(16), aligned(4), may_alias));
 #define FOUR(at) (*(four *)(at))
 #define READ_FOUR(at) (*(const four *)(at))
 
-/* Two numbers, each for both parts of a complex one; both parts of two complex numbers in turn */
+/* Two numbers, each repeated for both parts of a complex number; real and imaginary parts of two complex numbers swapped */
 #define EACH_TWICE(at) __builtin_shufflevector(*(const two *)(at), *(const two *)(at), 0, 0, 1, 1)
 #define PARTS_SWAPPED(v) __builtin_shufflevector(v, v, 1, 0, 3, 2)
 
-/* Numbers where a mask tells, else 0, or other numbers */
+/* Numbers where a mask is set, else 0, or other numbers */
 #define WHERE(mask, v) ((four)((mask) & (four_masks)(v)))
 #define CHOOSE(mask, v, w) ((four)(((mask) & (four_masks)(v)) | (~(mask) & (four_masks)(w))))
-/* Of logical values of Fortran */
+/* Mask from Fortran logicals */
 #define TRUE_OF(at) (__builtin_convertvector(*(const four_flags *)(at), four_masks) != 0)
 #define SUM_OF(v) (((v)[0] + (v)[2]) + ((v)[1] + (v)[3]))
 #define MAGNITUDES(v) ((four)((four_masks)(v)&0x7fffffffffffffffLL))

@@ -1,6 +1,6 @@
-!> What a case may take: time, memory, elements; and the clock
+!> Limits of a case: time, memory, number of elements; and the clock
 !>
-!> Without limits nothing is asked: the clock is read only where there is a deadline.
+!> Without limits nothing is checked: the clock is read only if there is a deadline.
 module contact_base_limits
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
@@ -10,53 +10,53 @@ module contact_base_limits
 
    public :: case_limits, deadline_type, fill_limits, wall_clock
 
-   !> What a confined run may take where nobody says otherwise: time of a case and of the run [s], memory of a case and size of
-   !> all files [bytes], elements
+   !> Default limits of a confined run: time of a case and of the run [s], memory of a case and total size of all files [bytes],
+   !> number of elements
    real(wp), parameter :: confined_seconds = 600.0_wp, confined_run_seconds = 3600.0_wp
    integer(long), parameter :: confined_bytes = 4000000000_long, confined_output = 1000000000_long, confined_elements = 1000000_long
 
-   !> When the time of a case is up
+   !> Deadline of a case or a run
    type :: deadline_type
-      !> Time allowed [s], huge for any
+      !> Time allowed [s]; huge: unlimited
       real(wp) :: seconds = huge(1.0_wp)
-      !> Moment by wall_clock [s], huge for never
+      !> Time of the deadline by wall_clock [s]; huge: never
       real(wp), private :: at = huge(1.0_wp)
    contains
-      !> The time begins to run
+      !> Start the allowed time
       procedure :: start
-      !> Time that is left [s], huge for any
+      !> Remaining time [s]; huge: unlimited
       procedure :: left
-      !> Is the time up?
+      !> Has the deadline passed?
       procedure :: has_passed
-      !> An error when the time is up
+      !> Give an error if the deadline has passed
       procedure :: watch
    end type deadline_type
 
-   !> The limits of a case
+   !> Limits of a case
    type :: case_limits
       type(deadline_type) :: deadline
-      !> Memory, by the estimate of contact_base_memory [bytes]
+      !> Memory, as estimated by contact_base_memory [bytes]
       integer(long) :: bytes = huge(1_long)
-      !> Elements of the potential contact area, of each patch in wheel-rail contact
+      !> Number of elements of the potential contact area, in wheel-rail contact of each patch
       integer(long) :: elements = huge(1_long)
-      !> What all files of the run may take together; null for any size
+      !> Total size of all files of the run; null: unlimited
       type(output_budget), pointer :: output => null()
-      !> Are files read and written only if they are ordinary ones below the folder of the experiment?
+      !> Restrict reading and writing to regular files below the folder of the experiment?
       logical :: confined = .false.
    contains
-      !> Refuse more elements or more memory than allowed
+      !> Refuse more elements or memory than allowed
       procedure :: check
    end type case_limits
 
 contains
 
-   !> The limits of a confined run, where none are set
+   !> Apply the limits of a confined run where none are set
    pure subroutine fill_limits(limits, run_seconds, output_bytes)
-      !> Limits of one case; those that are set already are kept
+      !> Limits of a case; those already set are kept
       type(case_limits), intent(inout) :: limits
-      !> Time of the run [s], size of all its files [bytes], huge for any
+      !> Time limit of the run [s]; huge: unlimited
       real(wp), intent(inout) :: run_seconds
-      !> Size of all files of the run [bytes], huge for any
+      !> Total size of all files of the run [bytes]; huge: unlimited
       integer(long), intent(inout) :: output_bytes
 
       if (limits%deadline%seconds >= huge(1.0_wp)) limits%deadline%seconds = confined_seconds
@@ -66,7 +66,7 @@ contains
       if (output_bytes >= huge(1_long)) output_bytes = confined_output
    end subroutine fill_limits
 
-   !> Elapsed time since a fixed moment [s]
+   !> Elapsed time since a fixed instant [s]
    real(wp) function wall_clock() result(seconds)
       integer(long) :: ticks, rate
 
@@ -97,9 +97,9 @@ contains
 
    subroutine watch(self, where, error)
       class(deadline_type), intent(in) :: self
-      !> What was going on, such as "in the normal problem"
+      !> Stage of the computation, such as "in the normal problem"
       character(len=*), intent(in) :: where
-      !> Allocated when the time is up
+      !> Allocated if the deadline has passed
       type(error_type), allocatable, intent(out) :: error
       character(len=24) :: text
 
@@ -110,11 +110,11 @@ contains
 
    subroutine check(self, number, bytes_each, what, error)
       class(case_limits), intent(in) :: self
-      !> Number of elements or points, bytes that each of them takes
+      !> Number of elements or points, and memory per item [bytes]
       integer(long), intent(in) :: number, bytes_each
-      !> What they are: "elements" are limited in number, everything in memory
+      !> Name of the items: only "elements" are limited in number, all are limited in memory
       character(len=*), intent(in) :: what
-      !> Allocated when one of the limits, or the memory of the system, does not suffice
+      !> Allocated if a limit or the memory of the system is exceeded
       type(error_type), allocatable, intent(out) :: error
       character(len=160) :: text
 

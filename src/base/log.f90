@@ -1,8 +1,7 @@
-!> The two sinks of messages: the log (screen and .out file) and the result (.out file only)
+!> Sinks of messages: the log (screen and .out file) and the result (.out file only)
 !>
-!> A log without screen and file swallows everything, which is what a library caller gets
-!> who did not ask for messages. Lines that solvers write carry the flow-trace level (W digit)
-!> from which on they appear.
+!> A log without screen and file discards all messages; this is the log of a library caller who requested none. Lines written by
+!> solvers have the flow-trace level (W digit) from which on they appear.
 module contact_base_log
    use contact_base_error, only : error_type
    use contact_base_output_file, only : output_file
@@ -12,45 +11,45 @@ module contact_base_log
    public :: choice_terms, log_type
 
    abstract interface
-      !> A message, which names choices as the readable format does, in the terms of those who read it
+      !> Convert a message, which names choices as in the readable format, to the terms of its readers
       pure subroutine choice_terms(message, text)
-         !> As the rooms below the readers write it
+         !> Message with the names of the readable format
          character(len=*), intent(in) :: message
-         !> The same with the names that its readers know
+         !> Message with the names that its readers know
          character(len=:), allocatable, intent(out) :: text
       end subroutine choice_terms
    end interface
 
-   !> Different warnings of a case that are told apart, and what is compared of them
+   !> Maximum number of distinct warnings per case, and number of characters that are compared
    integer, parameter :: max_told = 16, told_length = 160
 
-   !> A warning of the present case and how often it came
+   !> A warning of the current case and its number of occurrences
    type :: told_warning
       character(len=told_length) :: text = ""
       integer :: times = 0
    end type told_warning
 
-   !> Where messages go
+   !> Sinks and settings of messages
    type :: log_type
-      !> Unit of the screen, 0 for none
+      !> Unit of the screen, 0: none
       integer :: screen = 0
-      !> The .out file; not open for none
+      !> The .out file; not open: none
       type(output_file) :: out
       !> Flow-trace level W of the case, 0...9
       integer :: level = 0
-      !> How choices are told; not associated: in the words of the readable format
+      !> Conversion of choices to the terms of the readers; not associated: names of the readable format
       procedure(choice_terms), pointer, nopass :: terms => null()
-      !> Number of warnings since the log was made; those that a case repeats count once
+      !> Number of warnings since the log was created; repeated warnings of a case count once
       integer :: warnings = 0
-      !> The same with those that were repeated
+      !> The same with repeated warnings
       integer :: heard = 0
-      !> The warnings of the present case, so that each one is written once; 1...told are in use
+      !> Distinct warnings of the current case, each of which is written once; entries 1...told are in use
       integer, private :: told = 0
       type(told_warning), private :: said(max_told)
-      !> Are warnings held back until `speak`? Those that are, one a line; unallocated when there is none
+      !> Are warnings held until `write_held`? Held warnings, one per line; unallocated: none
       logical, private :: holds = .false.
       character(len=:), allocatable, private :: held
-      !> The same for warnings of a solution that may be made anew: they are noted in place of being written
+      !> Are warnings deferred until `write_deferred`, because the solution may be repeated? Deferred warnings, as above
       logical, private :: notes = .false.
       character(len=:), allocatable, private :: noted
    contains
@@ -60,21 +59,21 @@ module contact_base_log
       procedure :: result => log_result
       !> Write a line to both sinks when the flow-trace level is high enough
       procedure :: trace => log_trace
-      !> Write a warning to both sinks and count it; one that was written in this case is only counted
+      !> Write a warning to both sinks and count it; a warning repeated in the same case is only counted
       procedure :: warning => log_warning
-      !> Put the choices that an error names into the terms of the log; nothing on success
+      !> Convert the choices named by an error to the terms of the log; does nothing on success
       procedure :: tell_choices
-      !> A case begins: nothing was said yet
+      !> Start a case: reset the list of warnings
       procedure :: begin_case
-      !> A case ends: tell how often its warnings came
+      !> End a case: write the number of occurrences of repeated warnings
       procedure :: end_case
-      !> From now on hold warnings back, and forget those that are held: they belong to a trial that did not count
+      !> Hold warnings from now on, and discard those held so far, which belong to a rejected trial
       procedure :: hold => log_hold
-      !> Write the warnings that are held, and all later ones at once
+      !> Write the held warnings, and all later ones immediately
       procedure :: speak => log_speak
-      !> From now on note warnings in place of writing them, and forget those that are noted; trials inside may hold and speak
+      !> Defer warnings from now on, and discard those deferred so far; trials in between may hold and write warnings
       procedure :: note => log_note
-      !> Write the warnings that are noted, each one once, and all later ones at once
+      !> Write the deferred warnings, each once, and all later ones immediately
       procedure :: publish => log_publish
       !> Is anything written at this flow-trace level?
       procedure :: shows => log_shows
@@ -84,7 +83,7 @@ contains
 
    subroutine log_line(self, text)
       class(log_type), intent(inout) :: self
-      !> The line, without its end
+      !> The line, without line end
       character(len=*), intent(in) :: text
       if (self%screen /= 0) write(self%screen, "(A)") text
       call self%out%line(text)
@@ -92,23 +91,23 @@ contains
 
    subroutine log_result(self, text)
       class(log_type), intent(inout) :: self
-      !> The line, without its end
+      !> The line, without line end
       character(len=*), intent(in) :: text
       call self%out%line(text)
    end subroutine log_result
 
    subroutine log_trace(self, level, text)
       class(log_type), intent(inout) :: self
-      !> Lowest flow-trace level at which the line appears
+      !> Lowest flow-trace level at which the line is written
       integer, intent(in) :: level
-      !> The line, without its end
+      !> The line, without line end
       character(len=*), intent(in) :: text
       if (self%level >= level) call self%line(text)
    end subroutine log_trace
 
    subroutine log_warning(self, text)
       class(log_type), intent(inout) :: self
-      !> The sentence, without the leading word
+      !> The sentence, without the word "Warning"
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: told
 
@@ -124,9 +123,9 @@ contains
       end if
    end subroutine log_warning
 
-   !> Add a line
+   !> Append a line
    pure subroutine append(lines, text)
-      !> Unallocated: none so far
+      !> Unallocated: empty
       character(len=:), allocatable, intent(inout) :: lines
       character(len=*), intent(in) :: text
 
@@ -134,7 +133,7 @@ contains
       lines = lines // text // new_line(text)
    end subroutine append
 
-   !> Write a warning once in a case
+   !> Write a warning once per case
    subroutine write_warning(self, text)
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -157,7 +156,7 @@ contains
 
    subroutine tell_choices(self, error)
       class(log_type), intent(in) :: self
-      !> Its message is put in the terms of the readers; unallocated: nothing is done
+      !> Its message is converted; unallocated: nothing is done
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: text
 
@@ -184,9 +183,9 @@ contains
       self%told = 0
    end subroutine end_case
 
-   !> Are two warnings the same but for their numbers with a point?
+   !> Are two warnings identical except for numbers with a decimal point?
    pure logical function says_the_same(one, other) result(same)
-      !> Cut to told_length, and whole
+      !> A warning cut to told_length, and a complete one
       character(len=*), intent(in) :: one, other
       integer :: a, b, next_a, next_b, length
 
@@ -207,7 +206,7 @@ contains
       same = a > len_trim(one) .and. b > length
    end function says_the_same
 
-   !> Is a word a number with a point?
+   !> Is a word a number with a decimal point?
    pure logical function is_real(word)
       character(len=*), intent(in) :: word
       is_real = scan(word, "0123456789") > 0 .and. index(word, ".") > 0 .and. verify(word, "0123456789.+-Ee,;:()") == 0
@@ -247,7 +246,7 @@ contains
       call self%end_case()
    end subroutine log_publish
 
-   !> A warning for each line
+   !> Issue a warning for each line
    subroutine warn_of_lines(self, text)
       class(log_type), intent(inout) :: self
       !> Each line ends with a new_line
@@ -264,7 +263,7 @@ contains
 
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self
-      !> Flow-trace level that is asked about, 0 to 9
+      !> Flow-trace level, 0 to 9
       integer, intent(in) :: level
       shows = self%level >= level .and. (self%screen /= 0 .or. self%out%is_open())
    end function log_shows

@@ -1,4 +1,4 @@
-!> Is there memory for what comes? Asked before large problems, so that they are refused and nobody is ended by them
+!> Check of available memory, made before large problems so that they are refused instead of ending the process
 module contact_base_memory
    use, intrinsic :: iso_fortran_env, only : int8
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -9,25 +9,25 @@ module contact_base_memory
 
    public :: require_memory, bytes_per_element
 
-   !> What a contact problem takes at its largest: about 1200 bytes per element were measured for homogeneous, 1400 for
-   !> dissimilar bodies
+   !> Upper estimate of the memory of a contact problem: about 1200 bytes per element were measured for bodies of the same
+   !> material, 1400 for dissimilar bodies
    integer(long), parameter :: bytes_per_element = 1500_long
-   !> Below this nobody asks; it is had where anything can be computed
+   !> Smaller problems are not checked; they fit on any system
    integer(long), parameter :: little = 100000000_long
 
 contains
 
-   !> Refuse a problem when the system does not give the memory it needs
+   !> Refuse a problem if the system does not provide the memory it needs
    !>
-   !> The memory is asked for at once and given back. Systems that promise more than they have still refuse what cannot be.
+   !> The memory is requested in one piece and returned. Systems that overcommit memory still refuse impossible requests.
    subroutine require_memory(number, bytes_each, what, error)
-      !> Number of things, bytes for each of them
+      !> Number of items, and memory per item [bytes]
       integer(long), intent(in) :: number, bytes_each
-      !> What they are, for the message
+      !> Name of the items, for the message
       character(len=*), intent(in) :: what
-      !> Allocated when the system refuses; names what needs how much
+      !> Allocated if the system refuses; contains the required memory
       type(error_type), allocatable, intent(out) :: error
-      ! a compiler may take an allocation for granted that is not used
+      ! volatile, as a compiler may skip an allocation whose memory is not used
       integer(int8), allocatable, volatile :: probe(:)
       character(len=120) :: text
       integer :: status

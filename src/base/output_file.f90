@@ -1,8 +1,8 @@
-!> A file that is written line by line, and knows whether all of it arrived
+!> A file that is written line by line and reports whether all of it was written
 !>
-!> Streams of the C library: that of gfortran says nothing of a write that failed (12.2), repeats it with a byte too many
-!> when the disk has room again, and calls the file closed. A failure here is remembered until the file is closed.
-!> Copies of an `output_file` write to the same file; only one of them may close it.
+!> Uses streams of the C library. The run-time library of gfortran 12.2 ignores a failed write, repeats it with an extra byte
+!> when the disk has room again, and reports the file as closed. Here a failure is remembered until the file is closed. Copies
+!> of an `output_file` write to the same file; only one of them may close it.
 module contact_base_output_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_int, c_long, c_loc, c_null_char, c_null_ptr, &
       & c_ptr, c_size_t
@@ -13,51 +13,51 @@ module contact_base_output_file
 
    public :: output_budget, output_file, remove_file
 
-   !> How much several files may take together
+   !> Total size that several files may have together
    type :: output_budget
-      !> Bytes allowed, and bytes left of them; negative once more was asked for, and nothing is written any more
+      !> Bytes allowed, and bytes left; negative after the first request that exceeded it, when nothing is written any more
       integer(long) :: allowed = huge(1_long), left = huge(1_long)
    contains
-      !> Take bytes, if they are there
+      !> Request bytes; true if they are available
       procedure :: take
-      !> Was more asked for than is allowed?
+      !> Was more requested than allowed?
       procedure :: is_exceeded
    end type output_budget
 
-   !> What a file counts for beside its bytes: about the block that it takes on a disk
+   !> Size charged for a file in addition to its content: about one block on disk [bytes]
    integer(long), parameter :: bytes_per_file = 4096
 
-   !> A file that is open, or not
+   !> A file, open or closed
    type :: output_file
       private
       type(c_ptr) :: stream = c_null_ptr
-      !> What its bytes are taken from; null for no limit
+      !> Budget of the file; null: unlimited
       type(output_budget), pointer :: budget => null()
    contains
       procedure :: is_open
-      !> Open a file for writing; what it held is gone
+      !> Open a file for writing; its previous content is lost
       procedure :: open_file
-      !> Go on with a file: what it holds behind a place is cut off
+      !> Continue a file: its content beyond a position is cut off
       procedure :: open_again
-      !> Take the standard output; closing leaves it open for others
+      !> Use the standard output; closing leaves it open for others
       procedure :: open_standard_output
-      !> From now on take what is written from a budget
+      !> Charge what is written from now on to a budget
       procedure :: charge_to
-      !> Write a text and the end of the line
+      !> Write a text and a line end
       procedure :: line
-      !> Write a text, or numbers as they stand in memory, without end of line
+      !> Write a text, or numbers in binary form, without line end
       generic :: bytes => text_bytes, real_bytes
       procedure, private :: text_bytes
       procedure, private :: real_bytes
-      !> Hand everything to the system
+      !> Flush the buffer to the system
       procedure :: flush_now
-      !> Has some of what was written not arrived?
+      !> Was some of the output not written?
       procedure :: has_lost
-      !> Bytes in front of what is written next
+      !> Current position [bytes]
       procedure :: place
-      !> Go on at a place; what stands there is overwritten
+      !> Set the position; existing content is overwritten
       procedure :: go_to
-      !> Close, and tell whether all of it arrived
+      !> Close the file, and report whether all of it was written
       procedure :: close_file
    end type output_file
 
@@ -121,15 +121,15 @@ module contact_base_output_file
       end function c_remove
    end interface
 
-   !> Number of the standard output of a process
+   !> Descriptor of the standard output of a process
    integer(c_int), parameter :: standard_output = 1
 
 contains
 
-   !> A file that would exceed what is left is cut off there, and no other file gets the rest
+   !> A file that would exceed the budget is cut off there, and no other file gets the rest
    logical function take(self, bytes) result(granted)
       class(output_budget), intent(inout) :: self
-      !> Bytes that are to be written
+      !> Number of bytes to write
       integer(long), intent(in) :: bytes
 
       granted = bytes <= self%left
@@ -143,7 +143,7 @@ contains
 
    subroutine charge_to(self, budget)
       class(output_file), intent(inout) :: self
-      !> Null for no limit
+      !> Null: unlimited
       type(output_budget), pointer, intent(in) :: budget
       logical :: ignored
 
@@ -151,7 +151,7 @@ contains
       if (associated(budget)) ignored = budget%take(bytes_per_file)
    end subroutine charge_to
 
-   !> May so many bytes be written to the file?
+   !> May this number of bytes be written to the file?
    logical function may_write(file, bytes)
       class(output_file), intent(in) :: file
       integer(long), intent(in) :: bytes
@@ -169,15 +169,15 @@ contains
       class(output_file), intent(inout) :: self
       !> Path of the file, as the user gave it
       character(len=*), intent(in) :: name
-      !> Why the file could not be opened, one sentence; unallocated when it was
+      !> Why the file could not be opened, one sentence; unallocated on success
       character(len=:), allocatable, intent(out) :: reason
-      !> Only an ordinary file, and no link to one? Default no
+      !> Require a regular file that is not a symbolic link? Default: no
       logical, intent(in), optional :: confined
 
       call open_stream(self, name, "w" // c_null_char, reason, confined)
    end subroutine open_file
 
-   !> Open the stream of a file, a new one or behind what is kept
+   !> Open the stream of a file, new or after the content that is kept
    subroutine open_stream(self, name, mode, reason, confined, keep)
       class(output_file), intent(inout) :: self
       !> Name; mode of the stream, null-terminated
@@ -201,9 +201,9 @@ contains
 
    subroutine open_again(self, name, place, reason, confined)
       class(output_file), intent(inout) :: self
-      !> Path of a file that is there
+      !> Path of an existing file
       character(len=*), intent(in) :: name
-      !> Bytes that are kept
+      !> Number of bytes kept
       integer(c_long), intent(in) :: place
       !> As for open_file
       character(len=:), allocatable, intent(out) :: reason
@@ -224,14 +224,14 @@ contains
 
    subroutine line(self, text)
       class(output_file), intent(in) :: self
-      !> The line, without its end
+      !> The line, without line end
       character(len=*), intent(in) :: text
-      !> Longer lines are put together on the heap: stacks are small
+      !> Longer lines are assembled on the heap, as stacks may be small
       integer, parameter :: usual = 1000
       character(len=usual + 1) :: whole
       character(len=:), allocatable :: longer
 
-      ! in one call, so that lines of two threads do not mix
+      ! a single call, so that lines of two threads do not mix
       if (len(text) <= usual) then
          whole(:len(text)) = text
          whole(len(text) + 1:len(text) + 1) = new_line("a")
@@ -244,7 +244,7 @@ contains
 
    subroutine text_bytes(self, text)
       class(output_file), intent(in) :: self
-      !> Bytes that are written as they are, without an end of line
+      !> Written unchanged, without line end
       character(len=*), intent(in) :: text
 
       if (len(text) == 0) return
@@ -262,7 +262,7 @@ contains
 
    subroutine real_bytes(self, values)
       class(output_file), intent(in) :: self
-      !> Numbers that are written as 8 bytes each, in the order of this machine
+      !> Written as 8 bytes each, in the byte order of the machine
       real(c_double), intent(in), target, contiguous :: values(:)
       integer(c_size_t) :: ignored
 
@@ -296,7 +296,7 @@ contains
 
    subroutine go_to(self, place)
       class(output_file), intent(in) :: self
-      !> What the function `place` has told [bytes]
+      !> Position from the function `place` [bytes]
       integer(c_long), intent(in) :: place
       integer(c_int), parameter :: from_the_start = 0
       integer(c_int) :: ignored
@@ -306,7 +306,7 @@ contains
 
    subroutine close_file(self, complete)
       class(output_file), intent(inout) :: self
-      !> Did everything that was written since opening arrive? A file that is not open is complete
+      !> Was everything since opening written? True for a file that is not open
       logical, intent(out) :: complete
       logical :: failed
 
@@ -314,7 +314,7 @@ contains
       if (.not. self%is_open()) return
       failed = .false.
       if (associated(self%budget)) failed = self%budget%is_exceeded()
-      ! flushed first: errors of both calls count
+      ! flushed first, so that errors of both calls are detected
       failed = fflush(self%stream) /= 0 .or. failed
       failed = ferror(self%stream) /= 0 .or. failed
       failed = fclose(self%stream) /= 0 .or. failed
@@ -322,7 +322,7 @@ contains
       self%stream = c_null_ptr
    end subroutine close_file
 
-   !> Delete a file; nothing happens when it is not there
+   !> Delete a file, if it exists
    subroutine remove_file(name)
       !> Path of the file
       character(len=*), intent(in) :: name

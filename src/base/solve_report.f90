@@ -1,4 +1,4 @@
-!> How an iteration ended: data that callers test, not a printed warning
+!> Outcome of an iteration, as data for its callers
 module contact_base_solve_report
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -7,58 +7,58 @@ module contact_base_solve_report
    public :: reason_length, solve_report, ending, failure_text, size_text
 
    type :: ending_list
-      !> Nothing was iterated (empty contact, skipped problem)
+      !> There was nothing to iterate (empty contact, skipped problem)
       integer :: not_started = 0
       !> The tolerance was reached
       integer :: converged = 1
-      !> The allowed number of iterations was used up
+      !> The maximum number of iterations was reached
       integer :: iteration_limit = 2
       !> The residual no longer decreased
       integer :: stagnated = 3
-      !> The iterates grew
+      !> The iterates diverged
       integer :: diverged = 4
-      !> More force is prescribed than friction gives
+      !> The prescribed force exceeds the friction bound
       integer :: beyond_friction = 5
-      !> The time that was allowed ran out
+      !> The time limit was reached
       integer :: out_of_time = 6
    end type ending_list
-   !> Names of the ways in which an iteration ends
+   !> Ways in which an iteration ends
    type(ending_list), parameter :: ending = ending_list()
 
-   !> Length of the names of methods; of fixed length, a report is set without a request to the heap
+   !> Length of the names of methods; fixed, so that setting a report does not allocate memory
    integer, parameter :: name_length = 24
-   !> Length of the reason for an order
+   !> Length of the reason for the order
    integer, parameter :: reason_length = 48
 
    !> Outcome of one iterative method
    type :: solve_report
       !> Name of the method that ended the iteration; blank when none ran
       character(len=name_length) :: method = ""
-      !> Name of the method that was tried first and given up; blank normally
+      !> Name of the method that was tried first and abandoned; normally blank
       character(len=name_length) :: gave_up = ""
-      !> Name of the method that the input asks for, where another one acts; blank normally
+      !> Name of the method selected in the input if another one was used instead; normally blank
       character(len=name_length) :: asked = ""
       !> Member of ending
       integer :: ended = 0
-      !> Iterations of the method (conjugate gradients, sweeps, Newton steps), last call
+      !> Iterations of the method (conjugate gradients, sweeps, Newton steps) in the last call
       integer :: iterations = 0
-      !> Passes of the driver around it (INORM, ITANG), added up over outer iterations
+      !> Passes of the enclosing driver (INORM, ITANG), summed over outer iterations
       integer :: passes = 0
-      !> Products with the full compliance operator, all calls
+      !> Products with the full compliance operator, in all calls
       integer :: products = 0
-      !> Transforms, counted as pairs of one forward and one backward real transform of the
-      !> padded window in use, all calls, coarse levels weighted by their size
+      !> Number of transforms in all calls, in pairs of one forward and one backward real transform of the padded window; coarse
+      !> levels are weighted by their size
       real(wp) :: fft_pairs = 0.0_wp
       !> True residual of the contact conditions, relative (see the method's room); -1 if unknown
       real(wp) :: residual = -1.0_wp
-      !> Tolerance that was asked for
+      !> Requested tolerance
       real(wp) :: tolerance = 0.0_wp
-      !> Order of the discretisation that acted, 1 or 2, where 2 was asked for; 0 otherwise
+      !> Order of the discretisation that was used, 1 or 2, if 2 was requested; 0 otherwise
       integer :: order = 0
-      !> Why it was 1 in spite of that
+      !> Why order 1 was used instead
       character(len=reason_length) :: order_reason = ""
    contains
-      !> Did the iteration reach its tolerance (or had nothing to do)?
+      !> Did the iteration reach its tolerance, or was there nothing to do?
       procedure :: succeeded => report_succeeded
    end type solve_report
 
@@ -69,11 +69,11 @@ contains
       succeeded = self%ended == ending%converged .or. self%ended == ending%not_started
    end function report_succeeded
 
-   !> What an iteration that failed has missed, and by how much, with blanks behind
+   !> Failure of an iteration, with its residual and tolerance, padded with blanks
    function failure_text(name, report) result(text)
-      !> What was iterated, such as "normal problem"
+      !> Name of the iteration, such as "normal problem"
       character(len=*), intent(in) :: name
-      !> How the iteration ended, and its residual and tolerance
+      !> Outcome of the iteration, with residual and tolerance
       type(solve_report), intent(in) :: report
       character(len=len(name) + name_length + 80) :: text
       character(len=11) :: numbers(2)
@@ -98,11 +98,11 @@ contains
       text = trim(text) // ": relative residual " // trim(numbers(1)) // ", tolerance " // trim(numbers(2))
    end function failure_text
 
-   !> A number that may have any exponent, such as "1.6E-07"
+   !> A number with any exponent, such as "1.6E-07"
    pure function size_text(value, decimals) result(text)
-      !> Any number; one that is not finite gives its name
+      !> Any number; if not finite, its name is given
       real(wp), intent(in) :: value
-      !> 1 or 2
+      !> Number of decimals, 1 or 2
       integer, intent(in) :: decimals
       character(len=11) :: text
       character(len=10) :: form

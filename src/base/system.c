@@ -1,6 +1,6 @@
-/* What Fortran has no words for: files opened only if they are of the right kind, locks, folders; see system.f90.
+/* System services that Fortran lacks: opening files of the expected kind only, locks, folders; see system.f90.
  *
- * A descriptor is 0 or more; failures are negative numbers, given in system.f90 too. */
+ * A descriptor is 0 or more; failures are negative numbers, listed in system.f90 too. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <errno.h>
@@ -28,7 +28,7 @@ int contact_lock(const char *name, char *holder, int length, int *cause);
 void contact_unlock(int file, const char *name);
 void contact_clean(const char *folder, const char *start, int (*is_ours)(const char *rest, int length));
 
-/* The next part of a path, or NULL at its end; `place` goes on behind it */
+/* The next component of a path, or NULL at its end; `place` is moved past it */
 static const char *part_of(const char **place, char *part, size_t size) {
   const char *from = *place + strspn(*place, "/");
   const size_t length = strcspn(from, "/");
@@ -39,7 +39,7 @@ static const char *part_of(const char **place, char *part, size_t size) {
   return part;
 }
 
-/* Does a path, relative to some folder, lead out of it by its names alone? */
+/* Does a path relative to some folder leave it, judging by its names alone? */
 static int leads_out(const char *name) {
   char part[256];
   if (name[0] == '/') return 1;
@@ -48,7 +48,7 @@ static int leads_out(const char *name) {
   return 0;
 }
 
-/* Open a file below a folder without following any symbolic link; where one stands in the way, errno is ELOOP */
+/* Open a file below a folder without following symbolic links; one in the path gives errno ELOOP */
 static int walk(int folder, const char *name, int flags) {
   char part[256];
   int at = dup(folder);
@@ -58,7 +58,7 @@ static int walk(int folder, const char *name, int flags) {
     const int next = openat(at, part, (last ? flags : O_RDONLY | O_DIRECTORY | O_CLOEXEC) | O_NOFOLLOW);
     struct stat status;
     int cause = errno;
-    /* a link in the place of a folder is said to be no folder */
+    /* a link in place of a folder is reported as "not a directory" */
     if (next < 0 && cause == ENOTDIR && fstatat(at, part, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
       cause = ELOOP;
     close(at);
@@ -71,8 +71,8 @@ static int walk(int folder, const char *name, int flags) {
   return -1;
 }
 
-/* Open a file below a folder; links may lead anywhere below it, and nowhere else. Where the system cannot see to that, no link
- * is followed, and `by_parts` is set */
+/* Open a file below a folder. Links may lead anywhere below it, but not outside. If the system cannot enforce this, no link is
+ * followed and `by_parts` is set */
 static int open_below(const char *folder, const char *name, int flags, int *by_parts) {
   const int at = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (at < 0) return -1;
@@ -82,7 +82,7 @@ static int open_below(const char *folder, const char *name, int flags, int *by_p
   struct open_how how = {.flags = (unsigned)flags, .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
   file = (int)syscall(SYS_openat2, at, name, &how, sizeof how);
 #endif
-  /* an older kernel, or one that does not let us */
+  /* an older kernel, or one that does not permit the call */
   *by_parts = file < 0 && (errno == ENOSYS || errno == EPERM);
   if (*by_parts) file = walk(at, name, flags);
   const int cause = errno;
@@ -91,8 +91,8 @@ static int open_below(const char *folder, const char *name, int flags, int *by_p
   return file;
 }
 
-/* Open an ordinary file for reading. Nothing else is waited for or read: a FIFO blocks, a device has no end.
- * `folder` and `name` together are the path; a confined file is below the folder. */
+/* Open a regular file for reading. Other kinds are refused without waiting: a FIFO blocks, a device has no end.
+ * `folder` and `name` together are the path; a confined file must be below the folder. */
 int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause) {
   const int flags = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   struct stat status;
@@ -113,8 +113,8 @@ int contact_open_input(const char *folder, const char *name, int confined, long 
   return file;
 }
 
-/* Numbers that a file keeps as long as nobody writes to it, and the time since its last change [ns]; not 0: there is none.
- * Nobody but the system sets the time of the change of status */
+/* Identity and time stamps of a file, which stay the same until it is written to, and the time since its last change [ns];
+ * returns non-zero if it does not exist. The time of the status change can only be set by the system */
 int contact_stamp(const char *name, long long numbers[5], long long *age) {
   struct stat status;
   struct timespec now;
@@ -129,7 +129,7 @@ int contact_stamp(const char *name, long long numbers[5], long long *age) {
   return 0;
 }
 
-/* Read from a file until the buffer is full or the file ends; tells how much was read, or -1 */
+/* Read from a file until the buffer is full or the file ends; returns the number of bytes read, or -1 */
 long long contact_read(int file, char *buffer, long long length, int *cause) {
   long long done = 0;
   while (done < length) {
@@ -145,8 +145,8 @@ long long contact_read(int file, char *buffer, long long length, int *cause) {
   return done;
 }
 
-/* Open a file for writing; what it held is gone, or with keep >= 0 what it holds behind so many bytes. A FIFO that nobody
- * reads is not waited for. Confined: an ordinary file, and no link to one. */
+/* Open a file for writing. Its content is lost, or with keep >= 0 all but the first `keep` bytes. Does not wait for a reader of
+ * a FIFO. Confined: a regular file that is not a symbolic link. */
 int contact_open_output(const char *name, int confined, long keep, int *cause) {
   struct stat status;
   const int access = keep < 0 ? O_WRONLY | O_CREAT : O_RDWR;
@@ -169,7 +169,7 @@ int contact_open_output(const char *name, int confined, long keep, int *cause) {
 
 void contact_close(int file) { close(file); }
 
-/* The system's sentence for an errno */
+/* The system's text for an errno */
 void contact_explain(int cause, char *text, int length) {
   char buffer[256];
 #ifdef __GLIBC__
@@ -182,8 +182,8 @@ void contact_explain(int cause, char *text, int length) {
   memcpy(text, sentence, used < (size_t)length ? used : (size_t)length);
 }
 
-/* Take the lock of an experiment: a file that the system keeps locked for us until it is closed, or this process ends in
- * whatever way. A file that is left behind locks nobody out. Tells who holds the lock when another one does. */
+/* Take the lock of an experiment: a file that the system keeps locked until it is closed or this process ends for whatever
+ * reason. A leftover file locks nobody out. Returns the holder if the lock is taken. */
 int contact_lock(const char *name, char *holder, int length, int *cause) {
   char text[256] = "", host[128] = "", since[32] = "";
   memset(holder, ' ', (size_t)length);
@@ -207,7 +207,7 @@ int contact_lock(const char *name, char *holder, int length, int *cause) {
         if (text[k] >= ' ' && text[k] < 127) holder[k] = text[k];
       return HELD;
     }
-    /* whoever had it before may have taken the file away after we opened it */
+    /* the previous holder may have deleted the file after we opened it */
     if (stat(name, &there) != 0 || there.st_ino != ours.st_ino || there.st_dev != ours.st_dev) {
       close(file);
       continue;
@@ -217,7 +217,7 @@ int contact_lock(const char *name, char *holder, int length, int *cause) {
     gethostname(host, sizeof host - 1);
     if (localtime_r(&now, &local) != NULL) strftime(since, sizeof since, "%Y-%m-%d %H:%M:%S", &local);
     const int used = snprintf(text, sizeof text, "process %ld on %s since %s\n", (long)getpid(), host, since);
-    /* only for the message of others */
+    /* only informs others */
     if (ftruncate(file, 0) != 0 || pwrite(file, text, (size_t)used, 0) != used) *cause = errno;
     return file;
   }
@@ -225,14 +225,14 @@ int contact_lock(const char *name, char *holder, int length, int *cause) {
   return REFUSED;
 }
 
-/* Give the lock back; the file goes first, while nobody else can have it */
+/* Release the lock; the file is deleted first, while nobody else can hold the lock */
 void contact_unlock(int file, const char *name) {
   unlink(name);
   flock(file, LOCK_UN);
   close(file);
 }
 
-/* Delete the files of a folder whose names begin like this, and have a rest that is ours */
+/* Delete the files in a folder whose names start with `start` and have an accepted rest */
 void contact_clean(const char *folder, const char *start, int (*is_ours)(const char *rest, int length)) {
   const size_t skipped = strlen(start);
   DIR *entries = opendir(folder[0] ? folder : ".");

@@ -1,6 +1,6 @@
-!> What Fortran has no words for: files opened only if they are of the right kind, locks, leftovers of ended runs
+!> System services that Fortran lacks: opening files of the expected kind only, locks, leftover files of ended runs
 !>
-!> The work is done in system.c. Descriptors are those of the system.
+!> Implemented in system.c. Descriptors are those of the system.
 module contact_base_system
    use, intrinsic :: iso_c_binding, only : c_char, c_funloc, c_funptr, c_int, c_long, c_long_long, c_loc, c_null_char, c_ptr
    use contact_base_kinds, only : long
@@ -10,34 +10,34 @@ module contact_base_system
    public :: close_descriptor, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers
    public :: stamp_of, unlock_experiment
 
-   !> What a file has as long as nobody writes to it: device, number on it, length, times of the last changes of content and status
+   !> Identity of an unchanged file: device, file number, length, times of the last change of content and of status
    type :: file_stamp
       integer(c_long_long), private :: numbers(5) = 0
-      !> Would another change have another time? Clocks of file systems tick
+      !> Is the file old enough that a later change would have another time? Clocks of file systems are coarse
       logical, private :: settled = .false.
    contains
-      !> Is this still the file of an earlier stamp? Never of one that was not settled
+      !> Is the file unchanged since an earlier stamp? False if that stamp was taken too soon after a change
       procedure :: is_still
    end type file_stamp
 
-   !> How the attempt to take a lock ended
+   !> Outcome of taking a lock
    type :: lock_state_list
       integer :: ours = 0
-      !> Another run has it
+      !> Held by another run
       integer :: held = 1
-      !> The folder or its file system has no locks for us
+      !> The folder or its file system does not support locks
       integer :: impossible = 2
    end type lock_state_list
-   !> Names of these states
+   !> Names of these outcomes
    type(lock_state_list), parameter :: lock_state = lock_state_list()
 
    !> Results of system.c in place of a descriptor
    integer(c_int), parameter :: of_another_kind = -2, outside = -3, held = -4, link = -5
-   !> Longest sentence of the system, and longest description of the holder of a lock
+   !> Maximum lengths of a system message, and of the description of the holder of a lock
    integer, parameter :: longest_sentence = 120, longest_holder = 200
 
    abstract interface
-      !> Is the rest of a name that of a file which may be deleted? Not 0: yes
+      !> May a file whose name has this rest be deleted? Non-zero: yes
       function name_test(rest, length) result(answer) bind(c)
          import :: c_char, c_int
          implicit none (type, external)
@@ -103,7 +103,7 @@ module contact_base_system
          integer(c_int) :: file
       end function contact_lock
 
-      !> Give a lock back; the name is null-terminated
+      !> Release a lock; the name is null-terminated
       subroutine unlock_experiment(file, name) bind(c, name="contact_unlock")
          import :: c_char, c_int
          !> Descriptor from `lock_experiment`
@@ -121,17 +121,17 @@ module contact_base_system
 
 contains
 
-   !> Open an ordinary file for reading; anything else, such as a FIFO or a device, is refused without waiting for it
+   !> Open a regular file for reading; other kinds, such as a FIFO or a device, are refused without waiting
    subroutine open_input(name, file, length, reason, below)
       !> Path of the file
       character(len=*), intent(in) :: name
-      !> Descriptor, to be given back by `close_descriptor`
+      !> Descriptor, to be closed by `close_descriptor`
       integer(c_int), intent(out) :: file
       !> Length of the file [bytes]
       integer(long), intent(out) :: length
-      !> Why the file is not opened, one sentence; unallocated when it is
+      !> Why the file was not opened, one sentence; unallocated on success
       character(len=:), allocatable, intent(out) :: reason
-      !> Folder, "" for the current one, below which the file must be, also behind symbolic links; absent: anywhere
+      !> Folder, "" for the current one, below which the file must be, also if reached by symbolic links; absent: anywhere
       character(len=*), intent(in), optional :: below
       integer(c_long_long) :: bytes
       integer(c_int) :: cause
@@ -161,11 +161,11 @@ contains
       end if
    end subroutine open_input
 
-   !> The stamp of a file; one that is never the same where there is none
+   !> Stamp of a file; a missing file never equals an earlier one
    type(file_stamp) function stamp_of(name) result(stamp)
       !> Path of the file
       character(len=*), intent(in) :: name
-      !> Longest tick of clocks of file systems [ns]: of those that tell parts of a second, and of the others
+      !> Clock resolution of file systems that record fractions of a second, and of the others [ns]
       integer(c_long_long), parameter :: tick = 100000000_c_long_long, coarse_tick = 2000000000_c_long_long
       integer(c_long_long), parameter :: second = 1000000000_c_long_long
       integer(c_long_long) :: age
@@ -176,7 +176,7 @@ contains
 
    pure logical function is_still(self, earlier)
       class(file_stamp), intent(in) :: self
-      !> Taken before the file was read
+      !> Stamp taken before the file was read
       type(file_stamp), intent(in) :: earlier
 
       is_still = earlier%settled .and. all(self%numbers == earlier%numbers)
@@ -184,7 +184,7 @@ contains
 
    !> Why a file was not opened
    subroutine explain(file, cause, reason)
-      !> What came in place of a descriptor, and the errno
+      !> Failure in place of a descriptor, and errno
       integer(c_int), intent(in) :: file, cause
       character(len=:), allocatable, intent(out) :: reason
       character(len=longest_sentence) :: sentence
@@ -197,15 +197,15 @@ contains
       end if
    end subroutine explain
 
-   !> Read an open file from where it stands
+   !> Read an open file from its current position
    subroutine read_input(file, text, done, reason)
       !> Descriptor from `open_input`
       integer(c_int), intent(in) :: file
-      !> Gets the bytes, from its first character on
+      !> Receives the bytes, from its first character on
       character(len=*), intent(inout), target :: text
-      !> Bytes that were read, fewer than the text has when the file ended before
+      !> Number of bytes read; less than the length of the text if the file ended
       integer(long), intent(out) :: done
-      !> Why it cannot be read; unallocated when it was
+      !> Why the file cannot be read; unallocated on success
       character(len=:), allocatable, intent(out) :: reason
       integer(c_int) :: cause
 
@@ -213,17 +213,17 @@ contains
       if (done < 0) call explain(-1_c_int, cause, reason)
    end subroutine read_input
 
-   !> Open a file for writing; what it held is gone, or what it holds behind a place
+   !> Open a file for writing; its content is lost, or the part beyond `keep`
    subroutine open_output(name, confined, file, reason, keep)
       !> Path of the file
       character(len=*), intent(in) :: name
-      !> Only an ordinary file, and no link to one?
+      !> Require a regular file that is not a symbolic link?
       logical, intent(in) :: confined
-      !> Descriptor, to be given back by `close_descriptor`
+      !> Descriptor, to be closed by `close_descriptor`
       integer(c_int), intent(out) :: file
-      !> Why it is not opened, one sentence; unallocated when it is
+      !> Why the file was not opened, one sentence; unallocated on success
       character(len=:), allocatable, intent(out) :: reason
-      !> Bytes that are kept of a file that is there; absent: a new file
+      !> Number of bytes kept of an existing file; absent: a new file
       integer(c_long), intent(in), optional :: keep
       integer(c_long) :: kept
       integer(c_int) :: cause
@@ -234,15 +234,15 @@ contains
       if (file < 0) call explain(file, cause, reason)
    end subroutine open_output
 
-   !> Take the lock of an experiment, which the system gives back when this process ends in whatever way
+   !> Take the lock of an experiment, which the system releases when this process ends for whatever reason
    subroutine lock_experiment(name, file, state, what)
-      !> Name of the file that is locked
+      !> Name of the lock file
       character(len=*), intent(in) :: name
       !> Descriptor of the lock, for `unlock_experiment`
       integer(c_int), intent(out) :: file
       !> Member of lock_state
       integer, intent(out) :: state
-      !> Who has the lock, or why there is none; unallocated when it is ours
+      !> Holder of the lock, or why there is none; unallocated if the lock was taken
       character(len=:), allocatable, intent(out) :: what
       character(len=longest_holder) :: holder
       integer(c_int) :: cause
@@ -260,13 +260,13 @@ contains
       end if
    end subroutine lock_experiment
 
-   !> Delete files that an ended run has left behind
+   !> Delete files left by an ended run
    subroutine remove_leftovers(folder, start, is_leftover)
       !> "" for the current folder
       character(len=*), intent(in) :: folder
-      !> With what their names begin
+      !> First part of their names
       character(len=*), intent(in) :: start
-      !> Tells from the rest of a name whether a file was left behind
+      !> Decides from the rest of a name whether a file is a leftover
       procedure(name_test) :: is_leftover
 
       call contact_clean(folder // c_null_char, start // c_null_char, c_funloc(is_leftover))

@@ -1,4 +1,5 @@
-/* Include the loops of a file, LOOPS, for all processors and for those with AVX2; see lanes.h. The name is relative to this folder */
+/* Include a file of loops, LOOPS, twice: for all processors and for those with AVX2; see lanes.h. The name is relative to this
+ * folder */
 #define OF(name) name##_anywhere
 #define TARGET
 #define ROOTS ROOTS_ONE_BY_ONE
