@@ -1,11 +1,11 @@
-!> A text that grows at its end in a time that does not depend on its length
+!> A text buffer that grows in amortised constant time
 module contact_text_buffer
    implicit none (type, external)
    private
 
    public :: text_buffer
 
-   !> The first `length` characters of `letters` count
+   !> The first `length` characters of `letters` are in use
    type :: text_buffer
       integer :: length = 0
       character(len=:), allocatable :: letters
@@ -17,10 +17,10 @@ module contact_text_buffer
 
 contains
 
-   !> Add a piece
+   !> Append a piece of text
    subroutine add(self, piece)
       class(text_buffer), intent(inout) :: self
-      !> Goes behind what is there
+      !> Text to append
       character(len=*), intent(in) :: piece
       integer, parameter :: first_length = 1000
       character(len=:), allocatable :: longer
@@ -35,10 +35,10 @@ contains
       self%length = self%length + len(piece)
    end subroutine add
 
-   !> Add a line with its end
+   !> Append a line with its line end
    subroutine add_line(self, line)
       class(text_buffer), intent(inout) :: self
-      !> Without its end
+      !> Line without line end
       character(len=*), intent(in) :: line
 
       call self%add(line)
@@ -48,7 +48,7 @@ contains
    !> The text
    subroutine get(self, text)
       class(text_buffer), intent(in) :: self
-      !> All that was added
+      !> Complete text
       character(len=:), allocatable, intent(out) :: text
 
       text = ""

@@ -1,8 +1,8 @@
-!> The lexer of input files: lines into words, words into groups of values
+!> Lexer of input files: lines into words, words into groups of values
 !>
-!> The file is read into memory once. A group starts on a new line and takes lines until its
-!> mandatory values are there; optional values stand on the line of the last mandatory one, and
-!> the first word that cannot be read as the next optional value ends the group silently.
+!> The file is read into memory once. A group starts on a new line and extends over as many lines as its mandatory values need.
+!> Optional values follow on the line of the last mandatory one; the first word that cannot be read as the next optional value
+!> ends the group without an error.
 module contact_text_lexer
    use, intrinsic :: iso_c_binding, only : c_int
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -19,11 +19,11 @@ module contact_text_lexer
    type :: input_value
       !> Name in messages
       character(len=:), allocatable :: name
-      !> The word as it stands in the file; unallocated when it was not given
+      !> The word as in the file; unallocated if it was not given
       character(len=:), allocatable :: word
-      !> Was it given? Always so for mandatory values of a group that was read
+      !> Was the value given? Always true for mandatory values of a group that was read
       logical :: given = .false.
-      !> The value, according to its type, integers as both kinds of numbers; angles are in rad
+      !> The value according to its type, integers also as a real number; angles in rad
       integer :: i = 0
       real(wp) :: r = 0.0_wp
       character(len=:), allocatable :: s
@@ -35,7 +35,7 @@ module contact_text_lexer
    type :: input_lexer
       !> Name of the file in messages
       character(len=:), allocatable :: file
-      !> Number of the line that was read last, 0 before the first
+      !> Number of the last line read, 0 before the first
       integer :: line = 0
       character(len=:), allocatable, private :: text
       !> First and last character of each line in the text
@@ -61,19 +61,19 @@ module contact_text_lexer
    type :: word_place
       !> First and last character in the text, without quotes; first = 0 when there is none
       integer :: first = 0, last = 0
-      !> Position to go on from
+      !> Position after the word
       integer :: next = 0
-      !> In quotes? And was the closing quote there?
+      !> Is it quoted, and was the closing quote found?
       logical :: quoted = .false., closed = .false.
    end type word_place
 
    character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13)
-   !> What separates words: blank, tab, comma, equals sign, and control characters
+   !> Separators of words: blank, tab, comma, equals sign, and control characters
    character(len=*), parameter :: separators = " ,=" // achar(9) // carriage_return // achar(11) // achar(12) // achar(0)
    character(len=*), parameter :: quote = "'", comment = "%"
-   !> Hash of no text
+   !> Hash of an empty text
    integer(long), parameter :: empty_hash = 2166136261_long
-   !> Longest part of a line that messages repeat
+   !> Maximum length of a line quoted in messages
    integer, parameter :: longest_echo = 80
 
 contains
@@ -99,7 +99,7 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: below
-      !> Longest file [MB], and in a confined run
+      !> Maximum file size [MB], normally and in a confined run
       integer(long), parameter :: longest = 1000, longest_confined = 100
       character(len=:), allocatable :: reason
       integer(c_int) :: descriptor
@@ -119,13 +119,13 @@ contains
          allocate(character(len=length) :: text, stat=status)
          call expect_refusals(.false.)
          if (status /= 0) then
-            call fatal_error(error, "no memory for the text of the file", error_kind%memory, file)
+            call fatal_error(error, "not enough memory for the text of the file", error_kind%memory, file)
          else
             call read_input(descriptor, text, done, reason)
             if (allocated(reason)) then
                call fatal_error(error, "the file cannot be read: " // reason, error_kind%file, file)
             else if (done < length) then
-               ! it became shorter meanwhile
+               ! the file was shortened while it was read
                text = text(:done)
             end if
          end if
@@ -133,10 +133,10 @@ contains
       call close_descriptor(descriptor)
    end subroutine read_whole
 
-   !> Take a text that is in memory already
+   !> Open a text that is already in memory
    subroutine open_text(self, text, name)
       class(input_lexer), intent(out) :: self
-      !> Lines end with LF or CR-LF
+      !> Text with lines ending with LF or CR-LF
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name
@@ -164,14 +164,14 @@ contains
       self%last(n) = len(text)
    end subroutine open_text
 
-   !> Number of lines, for files with another grammar than groups of values
+   !> Number of lines, for files whose grammar is not groups of values
    pure integer function count_lines(self) result(n)
       class(input_lexer), intent(in) :: self
 
       n = size(self%first)
    end function count_lines
 
-   !> A line without its end, control characters (tabs as well) as blanks
+   !> A line without line end; control characters, including tabs, become blanks
    pure function line_text(self, k) result(text)
       class(input_lexer), intent(in) :: self
       !> 1...count_lines()
@@ -185,16 +185,16 @@ contains
       end do
    end function line_text
 
-   !> The text as a whole, for formats with a grammar of their own
+   !> The complete text, for formats with their own grammar
    subroutine get_text(self, text)
       class(input_lexer), intent(in) :: self
-      !> With the ends of its lines
+      !> Text with line ends
       character(len=:), allocatable, intent(out) :: text
 
       text = self%text
    end subroutine get_text
 
-   !> A number that differs, almost certainly, when the text does (FNV-1a with 32 bits, and the length)
+   !> Fingerprint of the text (FNV-1a with 32 bits, combined with the length); almost certainly differs for different texts
    pure integer(long) function fingerprint(self) result(hash)
       class(input_lexer), intent(in) :: self
 
@@ -203,11 +203,11 @@ contains
       hash = ieor(hash, int(len(self%text), long))
    end function fingerprint
 
-   !> Go on with the hash of a text: FNV-1a with 32 bits
+   !> Update a hash (FNV-1a with 32 bits)
    pure subroutine add_to_hash(text, hash)
-      !> Its bytes count, in their order
+      !> Bytes to add, in order
       character(len=*), intent(in) :: text
-      !> Begins with empty_hash
+      !> Hash so far; empty_hash at the start
       integer(long), intent(inout) :: hash
       integer(long), parameter :: prime = 16777619_long, mask = 4294967295_long
       integer :: i
@@ -217,10 +217,10 @@ contains
       end do
    end subroutine add_to_hash
 
-   !> Go on with the hash of the text over some lines, without the ends of lines
+   !> Update a hash with some lines of the text, without line ends
    pure subroutine hash_lines(self, first, last, hash)
       class(input_lexer), intent(in) :: self
-      !> Numbers of lines, both included
+      !> First and last line number, inclusive
       integer, intent(in) :: first, last
       !> As for add_to_hash
       integer(long), intent(inout) :: hash
@@ -247,14 +247,14 @@ contains
 
    !> Read a group of values of given types
    !>
-   !> On an error the values are of no use and reading cannot go on.
+   !> After an error the values are undefined and reading cannot continue.
    subroutine read_group(self, types, names, values, error)
       class(input_lexer), intent(inout) :: self
-      !> One letter per value: i integer, r real, a angle, s string; capitals for optional values
+      !> One letter per value: i integer, r real, a angle, s string; capital letters for optional values
       character(len=*), intent(in) :: types
-      !> Names of the values, separated by single blanks; together they name the group
+      !> Names of the values, separated by single blanks; together they form the name of the group
       character(len=*), intent(in) :: names
-      !> The values, at least as many as types
+      !> Values, at least as many as types
       type(input_value), intent(inout) :: values(:)
       type(error_type), allocatable, intent(out) :: error
       type(word_place) :: place
@@ -285,10 +285,10 @@ contains
       end do
    end subroutine read_group
 
-   !> Read exactly n numbers, from as many lines as they need
+   !> Read exactly n numbers, from as many lines as needed
    subroutine read_array(self, n, name, values, error, angles, line, lowest, highest, outside)
       class(input_lexer), intent(inout) :: self
-      !> Number of values; nothing is read when it is not positive
+      !> Number of values; nothing is read if it is not positive
       integer, intent(in) :: n
       !> Name of the array
       character(len=*), intent(in) :: name
@@ -299,9 +299,9 @@ contains
       logical, intent(in), optional :: angles
       !> Line of the first value
       integer, intent(out), optional :: line
-      !> Bounds of the values, and the first value that is outside; it is not given when there is none
+      !> Bounds of the values
       real(wp), intent(in), optional :: lowest, highest
-      !> The first number beyond its bounds, with its place
+      !> First value out of bounds, with its position; not given if there is none
       type(input_value), intent(out), optional :: outside
       type(input_value) :: value
       type(word_place) :: place
@@ -340,7 +340,7 @@ contains
       end do
    end subroutine read_array
 
-   !> Go to the next line that has words; false at the end of the text
+   !> Move to the next line with words; false at the end of the text
    logical function next_line(self) result(found)
       class(input_lexer), intent(inout) :: self
       type(word_place) :: place
@@ -354,7 +354,7 @@ contains
       end do
    end function next_line
 
-   !> The next word of a line from a position on
+   !> Next word of a line, from a given position on
    pure type(word_place) function find_word(text, from) result(place)
       !> The text up to the end of the line
       character(len=*), intent(in) :: text
@@ -384,13 +384,13 @@ contains
       place%next = k
    end function find_word
 
-   !> Read one word as a value of the given type
+   !> Parse a word as a value of the given type
    subroutine parse(self, place, letter, value, state)
       class(input_lexer), intent(in) :: self
       type(word_place), intent(in) :: place
       !> i, r, a or s
       character, intent(in) :: letter
-      !> Only the name of it is left alone
+      !> Result; only its name is kept
       type(input_value), intent(inout) :: value
       !> Member of word_state
       integer, intent(out) :: state
@@ -417,12 +417,12 @@ contains
       end associate
    end subroutine parse
 
-   !> Error for a word that is not what the group needs
+   !> Error for a word that does not match the expected value
    subroutine refuse_word(self, place, letter, name, position, group, state, error)
       class(input_lexer), intent(in) :: self
       type(word_place), intent(in) :: place
       character, intent(in) :: letter
-      !> Name, position and group of the value that was expected
+      !> Name, position and group of the expected value
       character(len=*), intent(in) :: name, group
       integer, intent(in) :: position
       !> Member of word_state
@@ -450,7 +450,7 @@ contains
          & merge(place%first - 1, place%first, place%quoted) - first + 1)
    end subroutine refuse_word
 
-   !> Error for the end of the text inside a group
+   !> Error for the end of the text within a group
    subroutine refuse_end(self, letter, name, group, error)
       class(input_lexer), intent(in) :: self
       character, intent(in) :: letter
@@ -461,7 +461,7 @@ contains
          & ", in the group " // group, error_kind%input, self%file, self%line)
    end subroutine refuse_end
 
-   !> What a type is called
+   !> Description of a type
    pure function type_text(letter) result(text)
       character, intent(in) :: letter
       character(len=23) :: text
@@ -474,7 +474,7 @@ contains
       end select
    end function type_text
 
-   !> Small letter of a type
+   !> Lower-case letter of a type
    pure character function lower(letter)
       character, intent(in) :: letter
 
@@ -482,7 +482,7 @@ contains
       if (letter >= "A" .and. letter <= "Z") lower = achar(iachar(letter) + 32)
    end function lower
 
-   !> A piece of a line without control characters, not too long for a message; with blanks behind
+   !> A piece of a line without control characters, shortened for a message; padded with blanks
    pure function echo(piece) result(text)
       character(len=*), intent(in) :: piece
       character(len=longest_echo + 3) :: text
@@ -495,16 +495,16 @@ contains
       end do
    end function echo
 
-   !> The same without the blanks
+   !> The same without trailing blanks
    pure function printable(piece) result(text)
-      !> A part of an input
+      !> Part of an input
       character(len=*), intent(in) :: piece
       character(len=len_trim(echo(piece))) :: text
 
       text = echo(piece)
    end function printable
 
-   !> Distribute the names of a group over its values and forget what they held
+   !> Assign the names of a group to its values, and reset the values
    pure subroutine name_values(names, values)
       character(len=*), intent(in) :: names
       type(input_value), intent(inout) :: values(:)
@@ -538,7 +538,7 @@ contains
       text = name // "(1.." // integer_text(n) // ")"
    end function array_name
 
-   !> Make an array longer
+   !> Extend an array
    pure subroutine lengthen(values, n)
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: n

@@ -1,18 +1,18 @@
-!> The word of a list that is most like a mistyped one
+!> The word of a list that is most similar to a mistyped word
 module contact_text_nearest
    implicit none (type, external)
    private
 
    public :: edit_distance, nearest_word
 
-   !> Longest words that are compared
+   !> Maximum length of words that are compared
    integer, parameter :: longest = 32
 
 contains
 
-   !> Number of letters to be put in, left out, changed or swapped with the next, to get from one word to the other
+   !> Number of letters to be inserted, deleted, replaced or swapped with the next one to turn one word into the other
    pure integer function edit_distance(first, second) result(distance)
-      !> Not longer than 32 letters
+      !> At most 32 letters
       character(len=*), intent(in) :: first, second
       integer :: d(-1:longest, -1:longest), i, j
 
@@ -33,11 +33,11 @@ contains
       distance = d(len(first), len(second))
    end function edit_distance
 
-   !> Place of the most similar word in a list, 0 when none is similar: more than a third of its letters would change
+   !> Index of the most similar word in a list, 0 if none is similar: more than a third of its letters would change
    pure integer function nearest_word(word, list) result(place)
-      !> As it was mistyped
+      !> Mistyped word
       character(len=*), intent(in) :: word
-      !> Words with blanks behind; blank ones do not count
+      !> Words padded with blanks; blank ones are skipped
       character(len=*), intent(in) :: list(:)
       integer :: best, distance, k, n
 

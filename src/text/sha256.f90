@@ -6,14 +6,14 @@ module contact_text_sha256
 
    public :: sha256
 
-   !> Bytes of a block, words of its schedule
+   !> Bytes per block, words of the message schedule
    integer, parameter :: block_bytes = 64, words = 64
-   !> All bits of a word. Words are kept in integers that are longer, so that sums do not overflow
+   !> All bits of a word. Words are kept in longer integers, so that sums do not overflow
    integer(long), parameter :: all_bits = int(z'FFFFFFFF', long)
-   !> First 32 bits of the fractions of the square roots of the first 8 primes
+   !> First 32 bits of the fractional parts of the square roots of the first 8 primes
    integer(long), parameter :: first_state(8) = [int(z'6a09e667', long), int(z'bb67ae85', long), int(z'3c6ef372', long), &
       & int(z'a54ff53a', long), int(z'510e527f', long), int(z'9b05688c', long), int(z'1f83d9ab', long), int(z'5be0cd19', long)]
-   !> The first 64 primes: the fractions of their cube roots are the constants of the rounds
+   !> The first 64 primes; the fractional parts of their cube roots are the constants of the rounds
    integer, parameter :: primes(words) = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, &
       & 89, 97, 101, 103, 107, 109, 113, 127, 131, 137, 139, 149, 151, 157, 163, 167, 173, 179, 181, 191, 193, 197, 199, 211, 223, &
       & 227, 229, 233, 239, 241, 251, 257, 263, 269, 271, 277, 281, 283, 293, 307, 311]
@@ -35,7 +35,7 @@ contains
          call add_block(text(k:k + block_bytes - 1), constants, state)
       end do
       left = modulo(len(text), block_bytes)
-      ! a bit, zeros, and the length in bits fill up the last blocks
+      ! padding: a one bit, zeros, and the length in bits
       tail = repeat(char(0), len(tail))
       tail(:left) = text(len(text) - left + 1:)
       tail(left + 1:left + 1) = char(128)
@@ -49,18 +49,18 @@ contains
       end do
    end function sha256
 
-   !> Bits 1 to 32 behind the point of the cube roots of the primes
+   !> Bits 1 to 32 after the binary point of the cube roots of the primes
    pure subroutine make_constants(constants)
       integer(long), intent(out) :: constants(words)
       integer :: k
 
-      ! 35 bits of the root are needed; that 52 are enough for these primes is what the test sees
+      ! 35 bits of the root are needed; the test verifies that 52 suffice for these primes
       do k = 1, words
          constants(k) = iand(int(real(primes(k), wp)**(1.0_wp/3.0_wp)*2.0_wp**32, long), all_bits)
       end do
    end subroutine make_constants
 
-   !> A number as eight bytes, the highest first
+   !> A number as eight bytes, most significant first
    pure subroutine put_length(bytes, number)
       character(len=8), intent(out) :: bytes
       integer(long), intent(in) :: number
@@ -71,11 +71,11 @@ contains
       end do
    end subroutine put_length
 
-   !> Go on with a block of 64 bytes
+   !> Process a block of 64 bytes
    pure subroutine add_block(block, constants, state)
       character(len=block_bytes), intent(in) :: block
       integer(long), intent(in) :: constants(words)
-      !> Hash so far
+      !> Intermediate hash
       integer(long), intent(inout) :: state(8)
       integer(long) :: first, second, v(8), w(words)
       integer :: k
@@ -108,10 +108,10 @@ contains
       end function byte
    end subroutine add_block
 
-   !> A word with its bits turned to the right
+   !> A word rotated to the right
    elemental integer(long) function turned(word, steps)
       integer(long), intent(in) :: word
-      !> Bits
+      !> Number of bits
       integer, intent(in) :: steps
 
       turned = iand(ior(shiftr(word, steps), shiftl(word, 32 - steps)), all_bits)

@@ -1,7 +1,7 @@
-!> One word of an input file as integer, real number or angle, and numbers as words for messages
+!> Conversion of words of an input file to integers, real numbers and angles, and of numbers to text
 !>
-!> The length of a text that a function returns follows from its arguments, here and in all rooms: gfortran keeps the length
-!> of a `character(len=:), allocatable` result in a variable that all threads share.
+!> The length of a text returned by a function is an expression of its arguments, here and in all rooms: gfortran keeps the
+!> length of a `character(len=:), allocatable` result in a variable that all threads share.
 module contact_text_words
    use contact_base_constants, only : pi
    use contact_base_kinds, only : long, wp
@@ -12,25 +12,25 @@ module contact_text_words
 
    type :: word_state_list
       integer :: good = 0
-      !> The characters do not form a value of the type
+      !> The characters do not form a value of this type
       integer :: malformed = 1
-      !> A number that the machine cannot hold
+      !> The number exceeds the range of the machine
       integer :: too_large = 2
-      !> NaN or infinity, spelled out
+      !> NaN or infinity, written as a word
       integer :: not_finite = 3
    end type word_state_list
-   !> How the reading of a word ended
+   !> Outcome of the conversion of a word
    type(word_state_list), parameter :: word_state = word_state_list()
 
    character(len=*), parameter :: figures = "0123456789"
 
 contains
 
-   !> Optional sign and figures
+   !> Convert an optional sign and digits
    pure subroutine to_integer(word, value, state)
       !> Without blanks
       character(len=*), intent(in) :: word
-      !> 0 unless the state is good
+      !> Result, 0 unless the state is good
       integer, intent(out) :: value
       !> Member of word_state
       integer, intent(out) :: state
@@ -56,18 +56,18 @@ contains
       state = word_state%good
    end subroutine to_integer
 
-   !> All forms of real numbers that Fortran programs write, `1d-3` and `.1-07` included
+   !> Convert a real number in any form that Fortran programs write, including `1d-3` and `.1-07`
    !>
-   !> The form is checked by hand: list-directed and formatted reading accept more (`1,5`, `3*2`,
-   !> blanks as zeros, NaN), and numbers beyond the range would trap in a debug build.
+   !> The form is checked here: list-directed and formatted reading accept more (`1,5`, `3*2`, blanks as zeros, NaN), and
+   !> numbers beyond the range would trap in a debug build.
    pure subroutine to_real(word, value, state)
       !> Without blanks
       character(len=*), intent(in) :: word
-      !> 0 unless the state is good
+      !> Result, 0 unless the state is good
       real(wp), intent(out) :: value
       !> Member of word_state
       integer, intent(out) :: state
-      !> Decimal exponents that are certainly inside the range of real numbers
+      !> Decimal exponents that are always within the range of real numbers
       integer, parameter :: highest = 307, lowest = -307
       character(len=:), allocatable :: number
       character(len=12) :: form
@@ -120,14 +120,14 @@ contains
       state = word_state%good
    end subroutine to_real
 
-   !> Value of a number whose figures and power of ten are exact, so that one operation rounds it correctly
-   !> (Clinger, How to read floating point numbers accurately, 1990)
+   !> Value of a number whose digits and power of ten are exact, so that a single operation rounds it correctly (Clinger, How to
+   !> read floating point numbers accurately, 1990)
    pure subroutine round_once(mantissa, exponent, value, done)
-      !> Figures with at most one point
+      !> Digits with at most one decimal point
       character(len=*), intent(in) :: mantissa
       integer, intent(in) :: exponent
       real(wp), intent(out) :: value
-      !> False when there are too many figures or the power is too high
+      !> False if there are too many digits or the power is too high
       logical, intent(out) :: done
       integer, parameter :: longest = 15, highest = 22
       integer :: k, power
@@ -155,7 +155,7 @@ contains
       end if
    end subroutine round_once
 
-   !> A real number, with `d` or `D` behind it in degrees, with `r` or `R` in radians
+   !> Convert a real number with an optional suffix: `d` or `D` for degrees, `r` or `R` for radians
    pure subroutine to_angle(word, value, state)
       !> Without blanks
       character(len=*), intent(in) :: word
@@ -180,14 +180,14 @@ contains
       end select
    end subroutine to_angle
 
-   !> Find the figures and the point at the start of a word
+   !> Find the digits and the decimal point at the start of a word
    pure subroutine measure_mantissa(word, length, leading, is_zero)
       character(len=*), intent(in) :: word
-      !> Number of characters, 0 when there is no figure
+      !> Number of characters, 0 if there is no digit
       integer, intent(out) :: length
-      !> Decimal exponent of the first figure that is not zero
+      !> Decimal exponent of the first non-zero digit
       integer, intent(out) :: leading
-      !> Are all figures zero?
+      !> Are all digits zero?
       logical, intent(out) :: is_zero
       integer :: k, point, count_figures, first_nonzero
 
@@ -215,12 +215,12 @@ contains
       end if
    end subroutine measure_mantissa
 
-   !> Exponent with optional sign; far beyond the range it is cut
+   !> Exponent with optional sign; clipped far beyond the range
    pure subroutine read_exponent(word, value, state)
       character(len=*), intent(in) :: word
       integer, intent(out) :: value
       integer, intent(out) :: state
-      !> Larger than any length of a mantissa that fits into memory
+      !> Larger than the length of any mantissa that fits into memory
       integer, parameter :: limit = 1000000000
 
       call to_integer(word, value, state)
@@ -232,7 +232,7 @@ contains
       value = max(-limit, min(limit, value))
    end subroutine read_exponent
 
-   !> Is this nan, inf or infinity in any case?
+   !> Is this nan, inf or infinity, in any case?
    pure logical function spells_not_finite(word) result(spells)
       character(len=*), intent(in) :: word
       character(len=8) :: lower
@@ -247,7 +247,7 @@ contains
       spells = lower == "nan" .or. lower == "inf" .or. lower == "infinity"
    end function spells_not_finite
 
-   !> Columns that an integer needs
+   !> Number of characters of an integer
    pure integer function columns_of(value) result(columns)
       !> May be negative
       integer, intent(in) :: value
@@ -261,7 +261,7 @@ contains
       end do
    end function columns_of
 
-   !> An integer in as many characters as it needs
+   !> An integer without blanks
    pure function integer_text(value) result(text)
       !> May be negative
       integer, intent(in) :: value
@@ -270,7 +270,7 @@ contains
       write(text, "(I0)") value
    end function integer_text
 
-   !> A real number in six figures without needless zeros, with blanks behind
+   !> A real number with six significant digits, without unnecessary zeros, padded with blanks
    pure function six_figures(value) result(text)
       real(wp), intent(in) :: value
       character(len=14) :: text
@@ -289,16 +289,16 @@ contains
       text = adjustl(text)
    end function six_figures
 
-   !> The same without the blanks
+   !> The same without trailing blanks
    pure function real_text(value) result(text)
-      !> What is written
+      !> Any number
       real(wp), intent(in) :: value
       character(len=len_trim(six_figures(value))) :: text
 
       text = six_figures(value)
    end function real_text
 
-   !> How often a letter stands in a text
+   !> Number of occurrences of a letter in a text
    pure integer function occurrences(text, letter) result(count)
       character(len=*), intent(in) :: text
       character, intent(in) :: letter
@@ -310,13 +310,13 @@ contains
       end do
    end function occurrences
 
-   !> A text with something else for each occurrence of a letter
+   !> A text with each occurrence of a letter replaced
    pure function replaced(text, letter, by) result(changed)
       !> Any
       character(len=*), intent(in) :: text
-      !> What is looked for
+      !> Letter to be replaced
       character, intent(in) :: letter
-      !> What stands there instead, of any length
+      !> Replacement, of any length
       character(len=*), intent(in) :: by
       character(len=len(text) + occurrences(text, letter)*(len(by) - 1)) :: changed
       integer :: i, last
@@ -333,9 +333,10 @@ contains
       end do
    end function replaced
 
-   !> A real number in as few figures as tell it apart from all others, with blanks behind; it has a point or an exponent
+   !> Shortest representation of a real number that reads back to the same value, with a decimal point or an exponent; padded
+   !> with blanks
    pure function exact_text(value) result(text)
-      !> What is written
+      !> Any number
       real(wp), intent(in) :: value
       character(len=26) :: text
       !> Numbers from 1e-5 to 1e7 are written without exponent
@@ -373,9 +374,9 @@ contains
       if (sign(1.0_wp, value) < 0.0_wp) text = "-" // text(:len(text) - 1)
    end function exact_text
 
-   !> A text in small letters
+   !> A text in lower case
    pure function small(text)
-      !> Other letters than A to Z stay
+      !> Letters other than A to Z are unchanged
       character(len=*), intent(in) :: text
       character(len=len(text)) :: small
       integer :: k
@@ -386,9 +387,9 @@ contains
       end do
    end function small
 
-   !> A text in capital letters
+   !> A text in upper case
    elemental function capital(text)
-      !> Other letters than a to z stay
+      !> Letters other than a to z are unchanged
       character(len=*), intent(in) :: text
       character(len=len(text)) :: capital
       integer :: k
