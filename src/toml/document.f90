@@ -1,4 +1,4 @@
-!> What a text in TOML says: a tree of tables, arrays and values, each with its place in the text
+!> Content of a TOML text: a tree of tables, arrays and values, each with its position in the text
 module contact_toml_document
    use contact_base_kinds, only : long, wp
    use contact_text_lexer, only : add_to_hash, empty_hash
@@ -17,44 +17,44 @@ module contact_toml_document
    type :: toml_node
       !> Member of toml_kind
       integer :: kind = 0
-      !> Nodes: the one it belongs to, its first and last child, the next child of the same parent; 0 for none
+      !> Indices of the parent, of the first and last child, and of the next child of the same parent; 0: none
       integer :: parent = 0, first = 0, last = 0, next = 0
       !> Number of children
       integer :: count = 0
-      !> Where its key, and a value as a text, stand in the store of the document; empty for elements of arrays and for tables
+      !> Range of the key and of a textual value in the store of the document; empty for array elements and tables
       integer :: key_first = 1, key_last = 0, text_first = 1, text_last = 0
       !> Line and column of the key, or of the header of a table, and of the value
       integer :: key_line = 0, key_column = 0, line = 0, column = 0
-      !> The value of an integer, of a number of either kind, of a logical
+      !> Value of an integer, of a number of either kind, of a logical
       integer(long) :: i = 0
       real(wp) :: r = 0.0_wp
       logical :: l = .false.
-      !> May no header name this table again, or no dotted key lead through it? And may nothing be added, as in an inline table?
+      !> Is it closed to further headers and to dotted keys? Is it closed to any additions, as an inline table is?
       logical :: is_explicit = .false., is_frozen = .false.
-      !> An array of tables of its own headers?
+      !> Is it an array of tables, made by headers?
       logical :: has_tables = .false.
    end type toml_node
 
-   !> The tree; node 1 is the table at the top
+   !> Tree of nodes; node 1 is the root table
    type :: toml_document
       !> Number of nodes in use
       integer :: count = 0
       type(toml_node), allocatable :: nodes(:)
-      !> The text that was parsed, and behind it strings whose escapes were resolved; the first `used` characters count
+      !> The parsed text, followed by strings with resolved escapes; the first `used` characters are in use
       character(len=:), allocatable :: store
       integer :: used = 0
-      !> Nodes by parent and key; 0 for free places
+      !> Hash table of nodes by parent and key; 0: free slot
       integer, allocatable, private :: places(:)
    contains
-      !> Begin with the text
+      !> Initialise with a text
       procedure :: begin
-      !> Add a node at the end of its parent
+      !> Append a node to its parent
       procedure :: add
-      !> Put a string into the store
+      !> Append a string to the store
       procedure :: keep
-      !> The child of a table with a key, 0 when there is none
+      !> Child of a table with a given key, 0 if there is none
       procedure :: child
-      !> Key of a node; a value as a text: that of a string, or how a number is written
+      !> Key of a node; its value as a text: of a string, or a number as written
       procedure :: key_of
       procedure :: text_of
       procedure, private :: slot_of
@@ -63,10 +63,10 @@ module contact_toml_document
 
 contains
 
-   !> A document with a text and an empty table
+   !> Initialise a document with a text and an empty root table
    subroutine begin(self, text)
       class(toml_document), intent(out) :: self
-      !> It is copied
+      !> Text to parse; copied
       character(len=*), intent(in) :: text
       integer, parameter :: first_size = 64
 
@@ -80,14 +80,14 @@ contains
       self%nodes(1)%column = 1
    end subroutine begin
 
-   !> Add a node; with a key it can be found by it
+   !> Append a node; if it has a key, it is entered in the hash table
    subroutine add(self, parent, node, index)
       class(toml_document), intent(inout) :: self
-      !> Node of a table or an array
+      !> Index of a table or an array
       integer, intent(in) :: parent
-      !> Its key and its kind are known
+      !> Node with its key and kind
       type(toml_node), intent(in) :: node
-      !> Where it is now
+      !> Index of the new node
       integer, intent(out) :: index
       type(toml_node), allocatable :: longer(:)
       integer :: k
@@ -115,7 +115,7 @@ contains
       call self%note_place(index)
    end subroutine add
 
-   !> Make a node known by its key
+   !> Enter a node in the hash table
    subroutine note_place(self, index)
       class(toml_document), intent(inout) :: self
       integer, intent(in) :: index
@@ -128,7 +128,7 @@ contains
       end associate
    end subroutine note_place
 
-   !> Place of a child among `places`: where it is, or where it would be
+   !> Slot of a child in `places`: occupied by it, or the free slot for it
    pure integer function slot_of(self, parent, key) result(k)
       class(toml_document), intent(in) :: self
       integer, intent(in) :: parent
@@ -148,12 +148,12 @@ contains
       end do
    end function slot_of
 
-   !> Put a string into the store
+   !> Append a string to the store
    subroutine keep(self, text, first, last)
       class(toml_document), intent(inout) :: self
-      !> Without quotes and escapes
+      !> String without quotes and escapes
       character(len=*), intent(in) :: text
-      !> Where it is
+      !> Its range in the store
       integer, intent(out) :: first, last
       character(len=:), allocatable :: longer
 
@@ -168,12 +168,12 @@ contains
       self%used = last
    end subroutine keep
 
-   !> The child of a table with a key, 0 when there is none
+   !> Child of a table with a given key, 0 if there is none
    pure integer function child(self, parent, key) result(index)
       class(toml_document), intent(in) :: self
-      !> Node of a table
+      !> Index of a table
       integer, intent(in) :: parent
-      !> Without quotes
+      !> Key without quotes
       character(len=*), intent(in) :: key
 
       index = self%places(self%slot_of(parent, key))
@@ -182,7 +182,7 @@ contains
    !> Key of a node, "" for an element of an array
    pure function key_of(self, index) result(text)
       class(toml_document), intent(in) :: self
-      !> Of a node
+      !> Index of a node
       integer, intent(in) :: index
       character(len=self%nodes(index)%key_last - self%nodes(index)%key_first + 1) :: text
 
@@ -192,14 +192,14 @@ contains
    !> A value as a text, "" for tables and arrays
    pure function text_of(self, index) result(text)
       class(toml_document), intent(in) :: self
-      !> Of a node
+      !> Index of a node
       integer, intent(in) :: index
       character(len=self%nodes(index)%text_last - self%nodes(index)%text_first + 1) :: text
 
       text = self%store(self%nodes(index)%text_first:self%nodes(index)%text_last)
    end function text_of
 
-   !> What a kind is called
+   !> Name of a kind, for messages
    pure function toml_kind_text(kind) result(text)
       !> Member of toml_kind
       integer, intent(in) :: kind

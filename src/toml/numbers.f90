@@ -11,17 +11,17 @@ module contact_toml_numbers
 
 contains
 
-   !> A word as an integer or a real number
+   !> Convert a word to an integer or a real number
    subroutine read_number(word, is_real, i, r, complaint)
-      !> Not empty
+      !> Non-empty word
       character(len=*), intent(in) :: word
-      !> With a point or an exponent?
+      !> Does it have a decimal point or an exponent?
       logical, intent(out) :: is_real
-      !> Of integers, and of both
+      !> Set for integers
       integer(long), intent(out) :: i
-      !> The number, where it is real
+      !> Set for both kinds
       real(wp), intent(out) :: r
-      !> What is wrong with it; unallocated when it is a number
+      !> Why it is not a number; unallocated if it is one
       character(len=:), allocatable, intent(out) :: complaint
       character(len=len(word)) :: plain
       integer :: state
@@ -50,12 +50,12 @@ contains
       end if
    end subroutine read_number
 
-   !> A sign, figures or 0 alone, a part behind the point, an exponent
+   !> Check the form: optional sign, digits without leading zeros, optional fraction and exponent
    pure subroutine look_at_form(word, is_good, is_real)
       character(len=*), intent(in) :: word
-      !> Does it have the form of a number?
+      !> Is it a valid number?
       logical, intent(out) :: is_good
-      !> With a point or an exponent?
+      !> Does it have a decimal point or an exponent?
       logical, intent(out) :: is_real
       integer :: at, first
 
@@ -78,7 +78,7 @@ contains
       is_good = is_good .and. at > len(word)
    end subroutine look_at_form
 
-   !> A letter of a word, blank behind its end
+   !> A letter of a word; blank beyond its end
    pure character function letter(word, at)
       character(len=*), intent(in) :: word
       integer, intent(in) :: at
@@ -87,12 +87,12 @@ contains
       if (at <= len(word)) letter = word(at:at)
    end function letter
 
-   !> Figures with single underscores between them
+   !> Skip digits with single underscores between them
    pure subroutine skip_figures(word, at, is_good)
       character(len=*), intent(in) :: word
-      !> On return behind them
+      !> Position; on return after the digits
       integer, intent(inout) :: at
-      !> Is there at least one, and no underscore at an end?
+      !> Is there at least one digit, and no underscore at either end?
       logical, intent(out) :: is_good
 
       is_good = .false.
@@ -108,10 +108,10 @@ contains
       end do
    end subroutine skip_figures
 
-   !> Take the underscores out of a number
+   !> Remove the underscores from a number
    pure subroutine remove_underscores(word, plain)
       character(len=*), intent(in) :: word
-      !> With blanks behind
+      !> Number padded with blanks
       character(len=len(word)), intent(out) :: plain
       integer :: k, n
 
@@ -124,14 +124,14 @@ contains
       end do
    end subroutine remove_underscores
 
-   !> An integer with 64 bits
+   !> Convert to a 64-bit integer
    pure subroutine to_long(word, value, is_good)
-      !> Optional sign and figures
+      !> Optional sign and digits
       character(len=*), intent(in) :: word
       integer(long), intent(out) :: value
-      !> False when it is too large
+      !> False if it is too large
       logical, intent(out) :: is_good
-      !> Above it one figure more may not fit
+      !> Above this value another digit may not fit
       integer(long), parameter :: highest = 922337203685477579_long
       integer :: k
 
@@ -146,7 +146,7 @@ contains
       is_good = .true.
    end subroutine to_long
 
-   !> Why a word that begins as a number is none
+   !> Why a word that starts like a number is not one
    subroutine describe_form(word, complaint)
       character(len=*), intent(in) :: word
       character(len=:), allocatable, intent(out) :: complaint

@@ -1,7 +1,7 @@
-!> The parser of TOML 1.0, as far as input files need it
+!> Parser for the subset of TOML 1.0 that input files need
 !>
-!> Left out, and refused by name: dates and times, strings over several lines, integers that are not decimal, inf and nan.
-!> What is accepted means what it means to other parsers of TOML 1.0; a test compares it with that of Python.
+!> Not supported, and refused by name: dates and times, multi-line strings, non-decimal integers, inf and nan. Whatever is
+!> accepted has the same meaning as in other parsers of TOML 1.0; a test compares it with Python's.
 module contact_toml_parser
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_text_lexer, only : printable
@@ -15,26 +15,26 @@ module contact_toml_parser
 
    public :: parse_toml, is_bare_key
 
-   !> Deepest nesting of arrays and inline tables, most parts of a dotted key
+   !> Maximum nesting of arrays and inline tables, maximum number of parts of a dotted key
    integer, parameter :: deepest = 20, longest_key = 20
-   !> Most nodes of a document
+   !> Maximum number of nodes of a document
    integer, parameter :: max_nodes = 20000000
 
    character(len=*), parameter :: figures = "0123456789"
    character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-   !> What a key without quotes consists of, and a value that is no string
+   !> Characters of an unquoted key, and of a value other than a string
    character(len=*), parameter :: bare = letters // figures // "_-", word_letters = bare // "+.:"
 
-   !> Part of a key: where it is in the store of the document, and its place in the text
+   !> Part of a key: its range in the store of the document, and its position in the text
    type :: key_part
       integer :: first = 1, last = 0, line = 0, column = 0
    end type key_part
 
-   !> A text that is being parsed
+   !> State of the parser
    type, extends(toml_scanner) :: toml_parser
-      !> Arrays and inline tables around what is read
+      !> Number of arrays and inline tables that enclose the current position
       integer :: depth = 0
-      !> Tables that dotted keys have made since the last header
+      !> Tables created by dotted keys since the last header
       integer, allocatable :: pending(:)
       integer :: pending_count = 0
    end type toml_parser
@@ -43,7 +43,7 @@ contains
 
    !> Parse a text
    subroutine parse_toml(text, file, document, error)
-      !> In UTF-8; lines end with LF or CR-LF
+      !> Text in UTF-8, with lines ending with LF or CR-LF
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: file
@@ -80,13 +80,13 @@ contains
 
    !> Can a key be written without quotes?
    pure logical function is_bare_key(key)
-      !> Without quotes
+      !> Key without quotes
       character(len=*), intent(in) :: key
 
       is_bare_key = len(key) > 0 .and. verify(key, bare) == 0
    end function is_bare_key
 
-   !> A key of one or more parts
+   !> Parse a key of one or more parts
    subroutine take_key(p, document, parts, n)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
@@ -122,14 +122,14 @@ contains
       end do
    end subroutine take_key
 
-   !> Go to a table below another one, or make it; that of an array of tables is its last
+   !> Move to a table below another one, creating it if needed; for an array of tables, to its last one
    subroutine enter(p, document, part, table, with_arrays)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       type(key_part), intent(in) :: part
-      !> On entry the one above
+      !> On entry the parent
       integer, intent(inout) :: table
-      !> May an array of tables stand for its last table?
+      !> May the last table of an array of tables be used?
       logical, intent(in) :: with_arrays
       type(toml_node) :: node
       integer :: below
@@ -156,14 +156,14 @@ contains
       end if
    end subroutine enter
 
-   !> A key is already there
+   !> Report a key that is already defined
    subroutine fail_twice(p, document, part, index, what)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(in) :: document
       type(key_part), intent(in) :: part
-      !> The node that it names
+      !> Node with this key
       integer, intent(in) :: index
-      !> What is wrong with it
+      !> What is wrong
       character(len=*), intent(in) :: what
 
       if (allocated(p%error)) return
@@ -173,7 +173,7 @@ contains
       end associate
    end subroutine fail_twice
 
-   !> A key in one pair of brackets, or in two
+   !> Parse a header: a key in single or double brackets
    subroutine take_header(p, document, table)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
@@ -246,7 +246,7 @@ contains
 
    contains
 
-      !> Key and place of the node
+      !> Set the key and position of the node
       subroutine place_node(part)
          type(key_part), intent(in) :: part
 
@@ -259,13 +259,13 @@ contains
       end subroutine place_node
    end subroutine take_header
 
-   !> key = value
+   !> Parse key = value
    recursive subroutine take_pair(p, document, table, is_inline)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
-      !> Where it belongs
+      !> Table to which it belongs
       integer, intent(in) :: table
-      !> In an inline table?
+      !> Within an inline table?
       logical, intent(in) :: is_inline
       type(key_part) :: parts(longest_key)
       type(toml_node) :: node
@@ -307,12 +307,12 @@ contains
       end do
    end subroutine take_pair
 
-   !> A value, which becomes a child
+   !> Parse a value, which becomes a child
    recursive subroutine take_value(p, document, parent, node)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: parent
-      !> With its key
+      !> Node with its key
       type(toml_node), intent(inout) :: node
       integer :: index
 
@@ -339,7 +339,7 @@ contains
       if (node%kind == toml_kind%table) call take_inline_table(p, document, index)
    end subroutine take_value
 
-   !> [value, value, ...], over any number of lines
+   !> Parse [value, value, ...], over any number of lines
    recursive subroutine take_array(p, document, array)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
@@ -366,7 +366,7 @@ contains
       p%depth = p%depth - 1
    end subroutine take_array
 
-   !> { key = value, ... } on one line
+   !> Parse { key = value, ... } on one line
    recursive subroutine take_inline_table(p, document, table)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
@@ -374,7 +374,7 @@ contains
 
       call go_deeper(p)
       if (allocated(p%error)) return
-      ! the table itself is complete when it ends
+      ! the table itself is complete at its end
       document%nodes(table)%is_frozen = .false.
       p%at = p%at + 1
       call skip_blanks(p)
@@ -394,7 +394,7 @@ contains
       p%depth = p%depth - 1
    end subroutine take_inline_table
 
-   !> What dotted keys made inside an inline table is complete too
+   !> Also close the tables created by dotted keys within an inline table
    recursive subroutine freeze_below(document, table)
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: table
@@ -410,7 +410,7 @@ contains
       end do
    end subroutine freeze_below
 
-   !> One array or inline table more around what follows
+   !> Enter an array or an inline table
    subroutine go_deeper(p)
       type(toml_parser), intent(inout) :: p
 
@@ -418,7 +418,7 @@ contains
       if (p%depth > deepest) call fail(p, "arrays and inline tables are nested more than " // integer_text(deepest) // " deep")
    end subroutine go_deeper
 
-   !> A document has a size that it cannot exceed
+   !> Check the size of the document
    subroutine check_size(p, document)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(in) :: document
@@ -426,11 +426,11 @@ contains
       if (document%count >= max_nodes) call fail(p, "there are more than " // integer_text(max_nodes) // " values")
    end subroutine check_size
 
-   !> A string, which is in the text or, with escapes, added to the store
+   !> Parse a string, which is in the text or, if it has escapes, appended to the store
    subroutine keep_string(p, document, first, last)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
-      !> Where it is in the store of the document
+      !> Its range in the store of the document
       integer, intent(out) :: first, last
       character(len=:), allocatable :: resolved
 
@@ -438,7 +438,7 @@ contains
       if (allocated(resolved) .and. .not. allocated(p%error)) call document%keep(resolved, first, last)
    end subroutine keep_string
 
-   !> true, false, an integer or a number
+   !> Parse true, false, an integer or a real number
    subroutine take_word(p, node)
       type(toml_parser), intent(inout) :: p
       type(toml_node), intent(inout) :: node
@@ -467,7 +467,7 @@ contains
       p%at = last + 1
    end subroutine take_word
 
-   !> An integer or a number
+   !> Parse an integer or a real number
    subroutine take_number(p, word, node)
       type(toml_parser), intent(inout) :: p
       character(len=*), intent(in) :: word

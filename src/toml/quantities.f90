@@ -1,4 +1,4 @@
-!> Numbers with a unit, "460 mm", "0.46 m", "12 deg", "10 kN", in the unit that is wanted
+!> Numbers with a unit, "460 mm", "0.46 m", "12 deg", "10 kN", converted to the required unit
 module contact_toml_quantities
    use contact_base_constants, only : pi
    use contact_base_kinds, only : long, wp
@@ -9,7 +9,8 @@ module contact_toml_quantities
 
    public :: read_quantity
 
-   !> A unit: powers of length, force, time, angle, temperature and mass, and a factor 10**power rest to mm, N, s, rad, degC, kg
+   !> A unit: powers of length, force, time, angle, temperature and mass, and the factor 10**power * rest to mm, N, s, rad,
+   !> degC, kg
    type :: unit_type
       integer :: dimensions(6) = 0
       integer :: power = 0
@@ -21,7 +22,7 @@ module contact_toml_quantities
       type(unit_type) :: unit
    end type unit_row
 
-   !> Powers of ten are kept apart from other factors, so that 0.46 m is exactly 460 mm
+   !> Powers of ten are kept separate from other factors, so that 0.46 m is exactly 460 mm
    type(unit_row), parameter :: units(*) = [ &
       & unit_row("mm", unit_type([1, 0, 0, 0, 0, 0], 0)), unit_row("m", unit_type([1, 0, 0, 0, 0, 0], 3)), &
       & unit_row("cm", unit_type([1, 0, 0, 0, 0, 0], 1)), unit_row("km", unit_type([1, 0, 0, 0, 0, 0], 6)), &
@@ -44,15 +45,15 @@ module contact_toml_quantities
 
 contains
 
-   !> A number with a unit
+   !> Convert a number with a unit
    subroutine read_quantity(text, wanted, value, complaint)
       !> Number, blank and unit
       character(len=*), intent(in) :: text
-      !> Unit of the result, as in the table of bounds; "- or mm" is one of two
+      !> Required unit, as in the table of bounds; "- or mm" allows either of two
       character(len=*), intent(in) :: wanted
-      !> In the internal unit
+      !> Value in the internal unit
       real(wp), intent(out) :: value
-      !> What is wrong with it; unallocated when it is good
+      !> Why it is invalid; unallocated if it is valid
       character(len=:), allocatable, intent(out) :: complaint
       type(unit_type) :: given, asked
       character(len=:), allocatable :: name
@@ -86,7 +87,7 @@ contains
          if (is_known) fits = all(asked%dimensions == given%dimensions)
          first = last + 5
       end do
-      ! a temperature in kelvin is another number, a difference of temperatures is not, and the table does not tell them apart
+      ! kelvin: temperatures would need an offset and differences would not, and the table does not distinguish them
       if (name == "K" .and. fits) then
          complaint = "is in kelvin; temperatures are in degC"
       else if (.not. fits .and. (wanted == "integer" .or. index(wanted, "...") > 0)) then
@@ -101,7 +102,7 @@ contains
       if (abs(given%rest - asked%rest) > 0.0_wp) value = value*(given%rest/asked%rest)
    end subroutine read_quantity
 
-   !> A unit in a message, with blanks behind
+   !> A unit as shown in a message, padded with blanks
    pure function asked_for(wanted) result(text)
       character(len=*), intent(in) :: wanted
       character(len=len(wanted) + 14) :: text
@@ -112,11 +113,11 @@ contains
 
    !> A number times a power of ten, rounded once
    subroutine scale_number(word, power, value, is_good)
-      !> Is known to be a number of TOML
+      !> Valid TOML number
       character(len=*), intent(in) :: word
       integer, intent(in) :: power
       real(wp), intent(out) :: value
-      !> False beyond the range
+      !> False if out of range
       logical, intent(out) :: is_good
       character(len=len(word)) :: mantissa
       integer :: exponent, k, last, n, status, state
@@ -136,7 +137,7 @@ contains
       is_good = state == word_state%good .and. (abs(value) > 0.0_wp .or. scan(mantissa, "123456789") == 0)
    end subroutine scale_number
 
-   !> A product or quotient of units: "N/mm2", "m/s", "J/(kg K)", "1/m"
+   !> Parse a product or quotient of units: "N/mm2", "m/s", "J/(kg K)", "1/m"
    pure subroutine read_unit(text, unit, is_known)
       character(len=*), intent(in) :: text
       type(unit_type), intent(out) :: unit

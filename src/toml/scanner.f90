@@ -1,4 +1,4 @@
-!> A text in TOML, letter by letter: blanks, comments, ends of lines, words and strings, and where an error is
+!> Scanner for TOML texts: blanks, comments, line ends, words and strings, and positions of errors
 module contact_toml_scanner
    use contact_base_error, only : error_kind, error_type, fatal_error
    implicit none (type, external)
@@ -9,7 +9,7 @@ module contact_toml_scanner
 
    character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
 
-   !> A text and how far it was read
+   !> A text and the current position
    type :: toml_scanner
       character(len=:), allocatable :: text, file
       !> Next character, its line, and the first character of that line
@@ -20,12 +20,12 @@ module contact_toml_scanner
 
 contains
 
-   !> An error at a place of the line in hand
+   !> Set an error at a position in the current line
    subroutine fail(p, message, at)
       class(toml_scanner), intent(inout) :: p
-      !> One sentence without the place
+      !> One sentence without the position
       character(len=*), intent(in) :: message
-      !> Character; default the next one
+      !> Character; default: the next one
       integer, intent(in), optional :: at
       integer :: place
 
@@ -35,7 +35,7 @@ contains
       call fatal_error(p%error, message, error_kind%input, p%file, p%line, place - p%line_first + 1)
    end subroutine fail
 
-   !> The next character in a message
+   !> The next character, for a message
    pure function shown(p) result(text)
       class(toml_scanner), intent(in) :: p
       character(len=24) :: text
@@ -51,7 +51,7 @@ contains
       if (code > 127) text = "a letter beyond ASCII"
    end function shown
 
-   !> The text must be UTF-8 without a byte order mark
+   !> Check that the text is UTF-8 without a byte order mark
    subroutine check_encoding(p)
       class(toml_scanner), intent(inout) :: p
       integer :: at, code, follow, k, line, line_first
@@ -78,7 +78,7 @@ contains
          do k = 1, follow
             if (good) good = iand(iachar(p%text(at + k:at + k)), 192) == 128
          end do
-         ! neither longer than need be, nor a surrogate, nor beyond the last letter of Unicode
+         ! no overlong encoding, no surrogate, nothing beyond the Unicode range
          if (good .and. follow > 1) then
             k = iachar(p%text(at + 1:at + 1))
             good = .not. ((code == 224 .and. k < 160) .or. (code == 237 .and. k > 159) .or. (code == 240 .and. k < 144) &
@@ -96,7 +96,7 @@ contains
          &TOML does not have", 1)
    end subroutine check_encoding
 
-   !> Does a line end here, by LF or CR-LF?
+   !> Is this a line end, LF or CR-LF?
    pure logical function is_line_end(p)
       class(toml_scanner), intent(in) :: p
 
@@ -106,7 +106,7 @@ contains
       if (p%text(p%at:p%at) == carriage_return .and. p%at < len(p%text)) is_line_end = p%text(p%at + 1:p%at + 1) == line_feed
    end function is_line_end
 
-   !> Go behind the end of a line
+   !> Move past a line end
    subroutine next_line(p)
       class(toml_scanner), intent(inout) :: p
 
@@ -126,10 +126,10 @@ contains
       end do
    end subroutine skip_blanks
 
-   !> Is this the next character? Then it is skipped
+   !> Skip the next character if it is the given one; true if it was
    logical function took(p, letter)
       class(toml_scanner), intent(inout) :: p
-      !> What is expected
+      !> Expected character
       character, intent(in) :: letter
 
       took = .false.
@@ -138,7 +138,7 @@ contains
       if (took) p%at = p%at + 1
    end function took
 
-   !> Skip a comment, which has no control characters
+   !> Skip a comment; control characters are refused
    subroutine skip_comment(p)
       class(toml_scanner), intent(inout) :: p
 
@@ -152,14 +152,14 @@ contains
       end do
    end subroutine skip_comment
 
-   !> A control character that is no tab?
+   !> Is it a control character other than tab?
    pure logical function is_control(letter)
       character, intent(in) :: letter
 
       is_control = (iachar(letter) < 32 .and. letter /= tab) .or. iachar(letter) == 127
    end function is_control
 
-   !> Behind a header or a pair only a comment may stand
+   !> Check that only a comment follows a header or a pair
    subroutine end_statement(p)
       class(toml_scanner), intent(inout) :: p
 
@@ -173,7 +173,7 @@ contains
       call next_line(p)
    end subroutine end_statement
 
-   !> Skip blanks, comments and ends of lines, as between the values of an array
+   !> Skip blanks, comments and line ends, as between the values of an array
    subroutine skip_lines(p)
       class(toml_scanner), intent(inout) :: p
 
@@ -191,10 +191,10 @@ contains
       end do
    end subroutine skip_lines
 
-   !> Last character of a word that begins at the next one; before it when there is none
+   !> Last character of the word that starts at the next character; one before it if there is none
    pure integer function end_of_word(p, set) result(last)
       class(toml_scanner), intent(in) :: p
-      !> What words consist of
+      !> Characters of which words consist
       character(len=*), intent(in) :: set
 
       do last = p%at, len(p%text)
@@ -203,7 +203,7 @@ contains
       last = last - 1
    end function end_of_word
 
-   !> Is a quote the next character?
+   !> Is the next character a quote?
    pure logical function is_quote(p)
       class(toml_scanner), intent(in) :: p
 
@@ -211,7 +211,7 @@ contains
       if (p%at <= len(p%text)) is_quote = index("""'", p%text(p%at:p%at)) > 0
    end function is_quote
 
-   !> Characters up to the end of the line, of which a text cannot have more
+   !> Number of characters to the end of the line, an upper bound of the length of a string
    pure integer function len_of_string(p, start) result(length)
       class(toml_scanner), intent(in) :: p
       integer, intent(in) :: start
@@ -220,12 +220,12 @@ contains
       if (length == 0) length = len(p%text) - start + 1
    end function len_of_string
 
-   !> A text in single or double quotes
+   !> Parse a string in single or double quotes
    subroutine take_string(p, resolved, first, last)
       class(toml_scanner), intent(inout) :: p
-      !> The text, where it has escapes; unallocated otherwise
+      !> The string, if it has escapes; unallocated otherwise
       character(len=:), allocatable, intent(out) :: resolved
-      !> Its first and last character in the text that is parsed; with escapes the length is that of `resolved`
+      !> Its first and last character in the text; with escapes the length is that of `resolved`
       integer, intent(out) :: first, last
       character :: quote
       integer :: start, length
@@ -273,10 +273,10 @@ contains
       p%at = p%at + 1
    end subroutine take_string
 
-   !> A backslash and what follows
+   !> Parse a backslash and the escape that follows
    subroutine take_escape(p, text, length)
       class(toml_scanner), intent(inout) :: p
-      !> Long enough; the letter is added to its first `length` characters
+      !> String, long enough; the character is appended to its first `length` characters
       character(len=:), allocatable, intent(inout) :: text
       integer, intent(inout) :: length
       character(len=*), parameter :: names = "btnfr""\", hexadecimal = "0123456789abcdef0123456789ABCDEF"
@@ -329,7 +329,7 @@ contains
 
    contains
 
-      !> Add one byte
+      !> Append one byte
       subroutine add_byte(value)
          integer, intent(in) :: value
 
