@@ -1,8 +1,9 @@
-!> Plans that are kept for all windows of one size, whoever owns them
+!> Cache of plans, shared by all windows of the same size
 !>
-!> A plan is constant once it is made, FFTW executes it on any arrays of the same alignment, and arrays here begin at 16 bytes. A
-!> contact that moves comes back to the same sizes again and again, and so do the other wheels of a vehicle. Kept plans live as
-!> long as the process; what has no room is its owner's. All of this happens in the critical region of the planner.
+!> A plan is constant once it is made. FFTW executes it on any arrays of the same alignment, and all arrays here are aligned to
+!> 16 bytes. A moving contact returns to the same sizes again and again, and so do the other wheels of a vehicle. Cached plans
+!> live as long as the process; plans that do not fit into the cache belong to their owner. All access is within the critical
+!> region of the planner.
 module contact_fft_kept_plans
    use, intrinsic :: iso_c_binding, only : c_null_ptr, c_ptr
    use contact_fft_library, only : destroy
@@ -12,32 +13,32 @@ module contact_fft_kept_plans
    public :: plan_kind, plan_set
 
    type :: plan_kind_list
-      !> Lines of one length, and two fields on a window
+      !> For lines of one length; for two fields on a window
       integer :: lines = 1, paired = 2
    end type plan_kind_list
-   !> What the plans of a size are for
+   !> Purposes of plans
    type(plan_kind_list), parameter :: plan_kind = plan_kind_list()
 
-   !> Rows forward, rows backward, columns forward, columns backward; lines forward and backward only, the others are null
+   !> Rows forward, rows backward, columns forward, columns backward; for lines only forward and backward, the others are null
    integer, parameter :: plans_per_size = 4
    integer, parameter, public :: row_forward = 1, row_backward = 2, column_forward = 3, column_backward = 4
    integer, parameter, public :: line_forward = 1, line_backward = 2
 
-   !> Plans of one size
+   !> Plans for one size
    type :: plan_set
       type(c_ptr) :: plan(plans_per_size) = c_null_ptr
-      !> Are they those of all windows of this size, which nobody frees?
+      !> Are they in the cache and never freed?
       logical :: is_kept = .false.
    contains
-      !> Take those of a size, if they are kept; in the critical region
+      !> Get the plans of a size from the cache, if present; within the critical region
       procedure :: take
-      !> Keep new ones, if there is room; in the critical region
+      !> Put new plans into the cache, if there is room; within the critical region
       procedure :: keep
-      !> Free them, unless they are kept
+      !> Free the plans, unless they are in the cache
       procedure :: release
    end type plan_set
 
-   !> Sizes that are kept, and elements of a padded window or of a line at most: plans of large ones take memory
+   !> Maximum number of cached sizes, and maximum size of a padded window or a line: plans of large ones take memory
    integer, parameter :: most = 256, largest = 65536
 
    type :: kept_type
@@ -51,11 +52,11 @@ module contact_fft_kept_plans
 contains
 
    subroutine take(self, kind, my, px, py)
-      !> Empty where they are not kept
+      !> Empty if they are not in the cache
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window; lines at once, their length, and 1
+      !> Rows of the window, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
       integer :: k
 
@@ -70,11 +71,11 @@ contains
    end subroutine take
 
    subroutine keep(self, kind, my, px, py)
-      !> The caller's own where there is no room
+      !> Remain the caller's if there is no room
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window; lines at once, their length, and 1
+      !> Rows of the window, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
 
       if (n_kept == most .or. px*py > largest) return

@@ -1,6 +1,7 @@
-!> Transforms by FFTW 3, or by another library with its interface
+!> Transforms by FFTW 3 or another library with its interface
 !>
-!> Of library_fftw and library_pocketfft, which hold one module, CONTACT_FFT chooses one. The rest of the room knows no library.
+!> CONTACT_FFT selects library_fftw or library_pocketfft, which contain the same module. The rest of the room is independent of
+!> the library.
 module contact_fft_library
    use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
@@ -11,22 +12,23 @@ module contact_fft_library
 
    public :: backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
 
-   !> Lines that are worth transforming together: FFTW has vector code for a single one
+   !> Number of lines to transform together: FFTW has vector code for a single line
    integer, parameter :: lanes = 1
-   !> Even lengths for which estimated plans are quick, measured: no longer one takes less time, its larger spectrum included.
-   !> Where 3 is a factor plans are often bad: 640 takes little more than half the time of 576, and 160 of 144
+   !> Even lengths for which estimated plans are fast, by measurement: no longer length takes less time, including its larger
+   !> spectrum. Plans of lengths with a factor 3 are often slow: 640 takes little more than half the time of 576, and 160 that
+   !> of 144
    integer, parameter :: fast_lengths(*) = [2, 4, 6, 8, 10, 12, 14, 16, 20, 32, 40, 48, 56, 64, 72, 80, 96, 112, 128, &
       & 140, 160, 200, 224, 240, 256, 280, 320, 400, 448, 512, 640, 768, 800, 1024, 1120, 1280, 1440, 1536, 1600, 2048, 2240, &
       & 2304, 2560]
 
 contains
-   !> Plan for some complex transforms of one length; null where there is none. Like all planners not thread-safe
+   !> Plan for a number of complex transforms of one length; null on failure. Like all planners not thread-safe
    type(c_ptr) function plan_complex(n, many, from, stride, distance, to, to_stride, to_distance, direction) result(plan)
       !> Length and number of the transforms
       integer, intent(in) :: n, many
-      !> Arrays of the kind that will be transformed, from one to another; their values may be lost
+      !> Arrays of the kind to be transformed, source and target; their values may be overwritten
       complex(wp), intent(inout) :: from(*), to(*)
-      !> Steps between the elements of one transform, and between the first elements of two, in either array
+      !> Strides within a transform and between transforms, in either array
       integer, intent(in) :: stride, distance, to_stride, to_distance
       !> forwards or backwards
       integer, intent(in) :: direction
@@ -35,9 +37,9 @@ contains
          & direction, fftw_estimate)
    end function plan_complex
 
-   !> Free a plan, if there is one; not thread-safe, see the planner
+   !> Free a plan if it exists; not thread-safe, see the planner
    subroutine destroy(plan)
-      !> Null: there is none; null on exit
+      !> May be null; null on exit
       type(c_ptr), intent(inout) :: plan
 
       if (c_associated(plan)) call fftw_destroy_plan(plan)

@@ -1,4 +1,4 @@
-!> Transforms by pocketfft, which may be handed on with programs of any licence; see library_fftw.f90
+!> Transforms by pocketfft, whose licence allows distribution with any program; see library_fftw.f90
 module contact_fft_library
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_double_complex, c_int, c_null_ptr, c_ptr
    implicit none (type, external)
@@ -6,9 +6,9 @@ module contact_fft_library
 
    public :: backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
 
-   !> Lines that are worth transforming together: as many as fit into a register
+   !> Number of lines to transform together: as many as fit into a register
    integer, parameter :: lanes = 4
-   !> Even lengths that are transformed quickly; above them every product of small primes is
+   !> Even lengths that are transformed fast; above them any product of small primes is
    integer, parameter :: fast_lengths(*) = [2, 4, 6, 8, 10, 12, 14, 16, 20, 32, 40, 48, 56, 64, 72, 80, 96, 112, 128]
 
    !> Directions of complex transforms
@@ -19,36 +19,36 @@ module contact_fft_library
          & bind(c, name="contact_pocketfft_complex")
          import :: c_double_complex, c_int, c_ptr
          implicit none (type, external)
-         !> Length and number of the transforms, steps inside of one and between two in either array, and the direction
+         !> Length and number of the transforms, strides within and between them in either array, and the direction
          integer(c_int), value :: n, many, stride, distance, to_stride, to_distance, direction
-         !> Values to be transformed, and what they become
+         !> Values to be transformed, and transformed values
          complex(c_double_complex), intent(inout) :: from(*), to(*)
       end function plan_complex
 
       subroutine execute_complex(plan, from, to) bind(c, name="contact_pocketfft_run_complex")
          import :: c_double_complex, c_ptr
          implicit none (type, external)
-         !> A plan of the same kind
+         !> Plan of the same kind
          type(c_ptr), value :: plan
-         !> Values to be transformed; those that go back may be lost
+         !> Values to be transformed; overwritten by backward transforms
          complex(c_double_complex), intent(inout) :: from(*)
-         !> Gets the transformed values
+         !> Transformed values
          complex(c_double_complex), intent(inout) :: to(*)
       end subroutine execute_complex
 
       subroutine delete_plan(plan) bind(c, name="contact_pocketfft_destroy")
          import :: c_ptr
          implicit none (type, external)
-         !> A plan of the same kind
+         !> Plan of the same kind
          type(c_ptr), value :: plan
       end subroutine delete_plan
    end interface
 
 contains
 
-   !> Free a plan, if there is one
+   !> Free a plan if it exists
    subroutine destroy(plan)
-      !> Null: there is none; null on exit
+      !> May be null; null on exit
       type(c_ptr), intent(inout) :: plan
 
       if (c_associated(plan)) call delete_plan(plan)

@@ -26,7 +26,7 @@ static void turn_number(double re, double im, double *z) {
   z[1] = re * z[1] + im * keep;
 }
 
-/* One number of `pair` and its opposite, which may be the same */
+/* Product for one frequency of `pair` and its negative, which may be the same */
 static void multiply_pair(double xx, double yy, double xy, double *here, double *there) {
   const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
   const double x[2] = {here[0], here[1]}, y[2] = {there[0], there[1]};

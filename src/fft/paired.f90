@@ -1,8 +1,8 @@
-!> Zero-padded transforms of two real fields at once, as the parts of one complex field
+!> Zero-padded transforms of two real fields at once, as real and imaginary part of one complex field
 !>
-!> For windows that fit into the caches this takes about half the time of two real transforms:
-!> FFTW has vector code for complex transforms only. Both passes go from one array to another, so
-!> that nothing is copied, and the padding of the forward arrays stays zero for ever.
+!> For windows that fit into the caches this takes about half the time of two real transforms, as FFTW has vector code for
+!> complex transforms only. Both passes go from one array to another, so that nothing is copied and the padding of the forward
+!> arrays remains zero.
 module contact_fft_paired
    use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
@@ -13,11 +13,11 @@ module contact_fft_paired
 
    public :: paired_plan
 
-   !> Plans and buffers for one window size; not to be copied, see fft_plan
+   !> Plans and buffers for one window size; must not be copied, see fft_plan
    type :: paired_plan
       !> Size of the window and of the padded window
       integer :: mx = 0, my = 0, px = 0, py = 0
-      !> Rows of the window, padded in x, on the way there and back, shape (px, my)
+      !> Rows of the window, padded in x, for the forward and the backward transform, shape (px, my)
       complex(wp), allocatable, private :: rows(:, :), rows_back(:, :)
       !> Spectrum of the first field + i times the second, shape (py, px)
       complex(wp), allocatable :: spectrum(:, :)
@@ -25,7 +25,7 @@ module contact_fft_paired
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
       type(plan_set), private :: plans
    contains
-      !> Make plans for a window; keeps them when the sizes are the same
+      !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare
       !> Transform two fields to the spectrum
       procedure :: forward
@@ -68,7 +68,7 @@ contains
       class(paired_plan), intent(inout) :: self
       !> Two fields on the window, shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: fields(:, :, :)
-      !> +1, -1: transform the differences to the next, the previous column; padded by more than one column
+      !> +1, -1: transform the differences with the next or previous column; the padding exceeds one column
       integer, intent(in), optional :: ahead
       complex(wp) :: previous, here
       integer :: ix, iy

@@ -1,9 +1,9 @@
-!> Zero-padded real transforms of a rectangular window, and convolutions by them
+!> Zero-padded real transforms of a rectangular window, and convolutions based on them
 !>
-!> Two rows are transformed at once, as the parts of complex ones: FFTW has vector code for complex transforms only. Rows that
-!> are known to be zero are not transformed, and rows of the result that nobody asks for are not transformed back. A convolution
-!> goes through the spectrum column by column: there, times the kernel, and back, so that no whole spectrum is ever in memory.
-!> Every row and every column is a transform by itself, so that results do not depend on the number of threads.
+!> Two rows are transformed at once, as real and imaginary part of a complex row: FFTW has vector code for complex transforms
+!> only. Zero rows are not transformed forward, and rows that are not needed are not transformed back. A convolution processes
+!> the spectrum column by column (transform, multiply by the kernel, transform back), so that the complete spectrum is never
+!> stored. Each row and each column is transformed independently, so that results do not depend on the number of threads.
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_ptr
    use contact_base_kinds, only : wp
@@ -16,37 +16,38 @@ module contact_fft_plan
 
    public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size, start_planner
 
-   !> Windows whose padded sides are not longer are small
+   !> Windows up to this padded side length are small
    integer, parameter :: largest_fast_size = 128
-   !> Padded windows of more elements are shared among threads; smaller ones are done before threads are awake
+   !> Number of elements of a padded window above which the work is shared among threads; smaller ones are finished before
+   !> threads are awake
    integer, parameter :: worth_threads = 40000
 
-   !> Plans and buffers for one window size; not to be copied
+   !> Plans and buffers for one window size; must not be copied
    !>
-   !> Whoever owns one calls release before it goes: a finaliser would do that by itself, but gfortran 12
-   !> makes programs crash that finalise such components inside arrays of derived types.
+   !> The owner must call release. A finaliser would do this automatically, but programs compiled by gfortran 12 crash when they
+   !> finalise such components inside arrays of derived types.
    type :: fft_plan
       !> Size of the window and of the padded window
       integer :: mx = 0, my = 0, px = 0, py = 0
       !> Number of frequencies kept in x: px/2 + 1
       integer :: kx = 0
-      !> Rows of one field or two after their transform, room for (my, 2, kx)
+      !> Rows of one or two fields after their transform, space for (my, 2, kx)
       complex(wp), allocatable, private :: half(:)
-      !> Pairs of rows, padded, their transforms, and back again, shape (px, lanes, 3, threads)
+      !> Pairs of rows: padded, transformed, and transformed back, shape (px, lanes, 3, threads)
       complex(wp), allocatable, private :: row(:, :, :, :)
-      !> Columns, padded, those of two fields transformed, and back again, shape (py, lanes, 4, threads)
+      !> Columns: padded, those of two fields transformed, and transformed back, shape (py, lanes, 4, threads)
       complex(wp), allocatable, private :: column(:, :, :, :)
       type(plan_set), private :: rows, columns
    contains
-      !> Make plans for a window; keeps them when the size is the same
+      !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare => prepare_plan
       !> Transform a window, zero-padded
       procedure :: forward => transform_forward
       !> Transform back, unscaled, and cut out the window; keeps the spectrum
       procedure :: backward => transform_backward
-      !> Product with a kernel whose spectrum is real
+      !> Product with a kernel that has a real spectrum
       procedure :: convolve
-      !> Product of two fields with a symmetric 2 by 2 block of them
+      !> Product of two fields with a symmetric 2 by 2 block of kernels
       procedure :: convolve_pair
       !> Free the plans
       procedure :: release => release_plan
@@ -56,7 +57,7 @@ contains
 
    !> Smallest even number 2^a 3^b 5^c 7^d (a >= 1) that is at least n, or 1 for n <= 1
    pure integer function good_size(n) result(size)
-      !> Number of points that are needed, with those of the padding
+      !> Number of points required, padding included
       integer, intent(in) :: n
       integer :: rest, factor
       integer, parameter :: primes(4) = [2, 3, 5, 7]
@@ -76,9 +77,9 @@ contains
       end do
    end function good_size
 
-   !> Even length of at least n that is transformed quickly, or 1 for n <= 1
+   !> Even length of at least n that is transformed fast, or 1 for n <= 1
    pure integer function fast_size(n)
-      !> Number of points that are needed, with those of the padding
+      !> Number of points required, padding included
       integer, intent(in) :: n
 
       if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
@@ -88,7 +89,7 @@ contains
       end if
    end function fast_size
 
-   !> Start the planner of the library, which takes FFTW some tenths of a millisecond: for who prepares a loop over time
+   !> Start the planner of the library, which takes FFTW some tenths of a millisecond; for callers that prepare a time loop
    subroutine start_planner()
       complex(wp) :: from(2), to(2)
       type(c_ptr) :: plan
@@ -118,7 +119,7 @@ contains
       call take_lines(self%columns, self%column(:, :, 1, 1), self%column(:, :, 2, 1))
    end subroutine prepare_plan
 
-   !> Buffers for some threads, whose padding stays zero for ever
+   !> Allocate buffers for a number of threads; their padding remains zero
    subroutine fit_buffers(self, threads)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: threads
@@ -200,7 +201,7 @@ contains
       real(wp), contiguous, intent(in) :: kernel(:, :)
       !> Field, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
-      !> Its product with the kernel, of the same shape
+      !> Product of the field and the kernel, same shape
       real(wp), contiguous, intent(inout) :: product(:, :)
 
       call make_product(self, 1, field, product, kernel)
@@ -212,9 +213,9 @@ contains
       real(wp), contiguous, intent(in) :: xx(:, :), yy(:, :), xy(:, :)
       !> Two fields, shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: fields(:, :, :)
-      !> Their product with the block, of the same shape
+      !> Product of the fields and the block, same shape
       real(wp), contiguous, intent(inout) :: products(:, :, :)
-      !> One more factor per column of the spectrum, shape (kx); absent: 1
+      !> Additional factor per column of the spectrum, shape (kx); absent: 1
       complex(wp), contiguous, intent(in), optional :: factor(:)
 
       if (self%py == 1) then
@@ -224,7 +225,7 @@ contains
       end if
    end subroutine convolve_pair
 
-   !> Rows forward, columns, rows back: in each of the three a part of the lines falls to each thread
+   !> Rows forward, columns, rows back; in each stage the lines are shared among the threads
    subroutine make_product(self, n, fields, products, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
       !> Number of fields, 1 or 2
@@ -233,7 +234,7 @@ contains
       real(wp), intent(in) :: fields(self%mx, n*self%my)
       real(wp), intent(inout) :: products(self%mx, n*self%my)
       real(wp), contiguous, intent(in) :: xx(:, :)
-      !> Given for two fields
+      !> Present for two fields
       real(wp), contiguous, intent(in), optional :: yy(:, :), xy(:, :)
       complex(wp), contiguous, intent(in), optional :: factor(:)
       integer :: stage, t, threads
@@ -254,7 +255,7 @@ contains
       end do
    end subroutine make_product
 
-   !> What falls to one of some threads
+   !> Part of a stage that one of several threads does
    subroutine share_of_stage(self, stage, t, threads, n, fields, products, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
       !> 1: rows forward, 2: columns, 3: rows back
@@ -281,7 +282,7 @@ contains
       if (stage == 3) call rows_backward(self, t, first, last, n*self%my, self%half, products)
    end subroutine share_of_stage
 
-   !> Lines of a thread: whole blocks, which are transformed together
+   !> Lines of a thread, in whole blocks that are transformed together
    pure subroutine find_share(lines, block_size, t, threads, first, last)
       integer, intent(in) :: lines, block_size, t, threads
       integer, intent(out) :: first, last
@@ -292,7 +293,7 @@ contains
       last = min(lines, block_size*(t*blocks/threads))
    end subroutine find_share
 
-   !> Columns first to last: transform, multiply, transform back
+   !> Transform columns first to last, multiply, and transform back
    subroutine multiply_columns(self, t, first, last, n, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: t, first, last, n
@@ -322,7 +323,7 @@ contains
       end do
    end subroutine multiply_columns
 
-   !> Product of two fields on a window of one row: their transform need not be taken apart
+   !> Product of two fields on a window of one row: their transform need not be separated
    subroutine multiply_lines(self, fields, products, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
       real(wp), intent(in) :: fields(self%mx, 2)
@@ -351,7 +352,7 @@ contains
       type(fft_plan), intent(inout) :: self
       !> Thread
       integer, intent(in) :: t
-      !> The first one is odd; number of all rows
+      !> The first is odd; number of all rows
       integer, intent(in) :: first, last, rows
       real(wp), intent(in) :: field(self%mx, rows)
       !> Rows after their transform
@@ -367,7 +368,7 @@ contains
                      row(ix, l) = cmplx(0.5_wp*field(ix, jy), 0.5_wp*field(ix, jy + 1), wp)
                   end do
                else
-                  ! an odd last row is alone
+                  ! an odd last row has no partner
                   row(:self%mx, l) = 0.0_wp
                   if (jy == rows) row(:self%mx, l)%re = 0.5_wp*field(:, jy)
                end if
@@ -411,7 +412,7 @@ contains
       end associate
    end subroutine rows_backward
 
-   !> Transform the columns of a block that begins with k, of field f among n
+   !> Transform the columns of the block that starts at k, of field f of n
    subroutine columns_forward(self, t, k, f, n, half)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: t, k, f, n
@@ -424,7 +425,7 @@ contains
       call execute_complex(self%columns%plan(line_forward), self%column(:, :, 1, t), self%column(:, :, 1 + f, t))
    end subroutine columns_forward
 
-   !> Transform them back
+   !> Transform the columns back
    subroutine columns_backward(self, t, k, f, n, half)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: t, k, f, n
