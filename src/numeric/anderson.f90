@@ -1,10 +1,9 @@
 !> Acceleration of fixed-point iterations x := g(x) after Anderson (1965)
 !>
-!> The last few values of f = g(x) - x are combined linearly, with weights of sum one, so that the norm of the
-!> combination is smallest; the same combination of the g is the next x. For linear g this is GMRES
-!> in other clothes (Walker and Ni 2011): it converges where the plain iteration does not.
-!> A history that no longer describes g is dropped when f has grown; the next step is a plain
-!> one, shortened when that happens again.
+!> The last values of f = g(x) - x are combined linearly, with weights that sum to one, so that the norm of the combination is
+!> minimal; the next x is the same combination of the values of g. For linear g this is equivalent to GMRES (Walker and Ni
+!> 2011): it converges where the plain iteration does not. When f has grown, the history no longer describes g and is dropped;
+!> the next step is a plain one, shortened if this happens again.
 module contact_numeric_anderson
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -12,24 +11,24 @@ module contact_numeric_anderson
 
    public :: anderson_iteration
 
-   !> Memory of one iteration
+   !> State of an iteration
    type :: anderson_iteration
-      !> Number of steps that are remembered
+      !> Number of steps in the history
       integer, private :: depth = 0
-      !> Remembered differences, and the column that is written next
+      !> Number of stored differences, and the column to be written next
       integer, private :: used = 0, next_column = 1
       !> Differences of f and of g from step to step, shape (n, depth)
       real(wp), allocatable, private :: df(:, :), dg(:, :)
-      !> Last f and g, and the present f, shape (n)
+      !> Last f and g, and the current f, shape (n)
       real(wp), allocatable, private :: f(:), g(:), present_f(:)
-      !> For the fit of weights: orthogonal columns and their triangle, what is left of f and its parts along them, weights
+      !> For the least-squares fit: orthogonal columns and triangular factor, remainder of f and its components, weights
       real(wp), allocatable, private :: a(:, :), r(:, :), rest(:), y(:), b(:)
       integer, allocatable, private :: pivots(:)
       !> Length of a plain step, in (0, 1]
       real(wp), private :: length = 1.0_wp
       logical, private :: begun = .false.
    contains
-      !> Forget everything
+      !> Start an iteration with empty history
       procedure :: start
       !> Next x
       procedure :: advance
@@ -39,7 +38,7 @@ contains
 
    subroutine start(self, n, depth)
       class(anderson_iteration), intent(inout) :: self
-      !> Number of unknowns, steps to remember
+      !> Number of unknowns, number of steps in the history
       integer, intent(in) :: n, depth
 
       if (allocated(self%f)) then
@@ -57,12 +56,12 @@ contains
 
    subroutine advance(self, x, g)
       class(anderson_iteration), intent(inout) :: self
-      !> What g was computed from on entry, what it is to be computed from next on exit
+      !> On entry the argument of g, on exit the next one
       real(wp), intent(inout) :: x(size(self%f))
-      !> Value of the map at x, in the unit of x; the iteration looks for g(x) = x
+      !> Value of the map at x, in the unit of x; the iteration solves g(x) = x
       real(wp), intent(in) :: g(size(self%f))
       integer :: k
-      !> Growth of f at which the history is dropped
+      !> Growth of f above which the history is dropped
       real(wp), parameter :: growth = 5.0_wp
 
       self%present_f = g - x
@@ -92,14 +91,14 @@ contains
       end do
    end subroutine advance
 
-   !> Weights w that make |f - df w| smallest, as the first values of b
+   !> Weights w that minimise |f - df w|, as the first values of b
    !>
-   !> Columns of df are made orthogonal one after the other, the longest that is left first (modified Gram-Schmidt, twice).
+   !> Columns of df are orthogonalised one after the other, the longest remaining one first (modified Gram-Schmidt, twice).
    subroutine fit(self)
       class(anderson_iteration), intent(inout) :: self
       integer :: i, j, k, rank, longest
       real(wp) :: length, rest
-      !> Directions that are known less accurately than this are left out
+      !> Directions with a smaller relative length are left out
       real(wp), parameter :: smallest = 1.0e-10_wp
 
       self%a(:, :self%used) = self%df(:, :self%used)
@@ -122,7 +121,7 @@ contains
             exit
          end if
          if (longest /= k) call exchange(self, k, longest)
-         ! a second time, because what is left of nearly dependent columns is mostly rounding
+         ! repeated, because the remainder of nearly dependent columns is mostly round-off
          do i = 1, k - 1
             rest = dot_product(self%a(:, i), self%a(:, k))
             self%r(i, k) = self%r(i, k) + rest
@@ -148,7 +147,7 @@ contains
       end do
    end subroutine fit
 
-   !> Exchange two columns that are not done yet
+   !> Exchange two columns that are not yet processed
    subroutine exchange(self, k, j)
       class(anderson_iteration), intent(inout) :: self
       integer, intent(in) :: k, j

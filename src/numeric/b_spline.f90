@@ -9,13 +9,13 @@ module contact_numeric_b_spline
    public :: basis_values, knot_interval, interpolation_knots, interpolate_sites, not_a_knot_splines
    public :: smooth_b_splines, pieces_from_b_spline
 
-   !> Weight of the conditions of straight sections, relative to the largest of the sums of squares: holds them straight,
-   !> and leaves the system solvable; chosen
+   !> Weight of the conditions that keep sections straight, relative to the largest sum of squares: large enough to keep them
+   !> straight, small enough to solve the system; chosen
    real(wp), parameter :: straightness = 1.0e6_wp
 
 contains
 
-   !> The interval j with t(j) <= s < t(j+1) among those that carry four basis functions
+   !> The interval j with t(j) <= s < t(j+1), among those with four basis functions
    pure integer function knot_interval(t, s) result(j)
       !> Knots, not decreasing; at least eight
       real(wp), intent(in) :: t(:)
@@ -23,15 +23,15 @@ contains
       real(wp), intent(in) :: s
 
       j = piece_of(t(4:size(t) - 3), s) + 3
-      ! At the far end and inside multiple knots: back to an interval that is not empty
+      ! at the far end and in multiple knots: move back to a non-empty interval
       do while (t(j + 1) <= t(j) .and. j > 4)
          j = j - 1
       end do
    end function knot_interval
 
-   !> The four basis functions j-3...j that are not zero in interval j, with two derivatives
+   !> The four basis functions j-3...j that are non-zero in interval j, and two derivatives
    !>
-   !> Recurrence of de Boor and Cox. s may lie outside of the interval: its polynomials go on.
+   !> Recurrence of de Boor and Cox. If s is outside the interval, its polynomials are extended.
    pure subroutine basis_values(t, j, s, b, slope, bend)
       !> Knots, not decreasing, in any unit
       real(wp), intent(in) :: t(:)
@@ -39,7 +39,7 @@ contains
       integer, intent(in) :: j
       !> Argument of the spline, in the unit of the knots
       real(wp), intent(in) :: s
-      !> Values of the four basis functions [-], that of the lowest knots first
+      !> Values of the four basis functions [-], lowest knots first
       real(wp), intent(out) :: b(4)
       !> First and second derivatives
       real(wp), intent(out), optional :: slope(4), bend(4)
@@ -62,11 +62,11 @@ contains
       end do
    end subroutine basis_values
 
-   !> Derivative of the basis functions of a degree from those one degree lower, padded with zeros
+   !> Derivatives of the basis functions of a degree, from functions of the next lower degree, padded with zeros
    pure function differences(t, j, degree, lower) result(slope)
       real(wp), intent(in) :: t(:)
       integer, intent(in) :: j, degree
-      !> `degree` values of the lower functions, or derivatives of them
+      !> `degree` values of the lower functions, or their derivatives
       real(wp), intent(in) :: lower(4)
       real(wp) :: slope(4), term
       integer :: k
@@ -79,8 +79,8 @@ contains
       end do
    end function differences
 
-   !> Knots for interpolation at sites: the second and the last but one are left out ("not a knot"),
-   !> three more of the last spacing stand at each end
+   !> Knots for interpolation at sites: the second and the last but one are omitted ("not a knot"), and the end knots are
+   !> repeated beyond each end at the last spacing
    pure function interpolation_knots(sites) result(t)
       !> Strictly increasing, at least four
       real(wp), intent(in) :: sites(:)
@@ -97,15 +97,15 @@ contains
       end do
    end function interpolation_knots
 
-   !> Coefficients of the spline on given knots that takes given values at the sites
+   !> Coefficients of the spline on given knots through given values at the sites
    subroutine interpolate_sites(t, sites, values, solved)
       !> Knots, four more than sites
       real(wp), intent(in) :: t(:)
-      !> Where values are given, rising, one in the support of each basis function
+      !> Abscissae of the values, increasing, one in the support of each basis function
       real(wp), intent(in) :: sites(:)
       !> On entry the values (site, function), on exit the coefficients
       real(wp), intent(inout) :: values(:, :)
-      !> False when sites and knots do not fit
+      !> False if sites and knots do not match
       logical, intent(out) :: solved
       real(wp), allocatable :: band(:, :)
       real(wp) :: b(4)
@@ -119,23 +119,23 @@ contains
          j = knot_interval(t, sites(i))
          call basis_values(t, j, sites(i), b)
          do k = 1, 4
-            ! Row i, column j - 4 + k; values that vanish may lie outside of the band
+            ! row i, column j - 4 + k; vanishing values may lie outside the band
             if (abs(i - (j - 4 + k)) <= width) band(2*width + 1 + i - (j - 4 + k), j - 4 + k) = b(k)
          end do
       end do
       call solve_band(band, width, values, solved)
    end subroutine interpolate_sites
 
-   !> Interpolating splines without extra conditions at the ends, one per function; sections of
-   !> three points are parabolas, of two points straight
+   !> Interpolating splines without end conditions, one per function; sections of three points are parabolas, sections of two
+   !> points straight lines
    subroutine not_a_knot_splines(s, f, splines, solved, is_kink)
-      !> Places of the points [mm], strictly increasing, at least two
+      !> Abscissae of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
-      !> One per function, all with the same pieces
+      !> One per function, all on the same pieces
       type(cubic_spline), allocatable, intent(out) :: splines(:)
-      !> False when the points leave the system singular
+      !> False if the system is singular
       logical, intent(out) :: solved
       !> Points where the slope may jump
       logical, intent(in), optional :: is_kink(:)
@@ -175,7 +175,7 @@ contains
       solved = .true.
    end subroutine not_a_knot_splines
 
-   !> The polynomial through two or three points, in pieces
+   !> The polynomial through two or three points, as pieces
    pure subroutine few_points(s, f, c)
       real(wp), intent(in) :: s(:), f(:)
       real(wp), intent(out) :: c(0:, :)
@@ -196,15 +196,15 @@ contains
       end do
    end subroutine few_points
 
-   !> A B-spline in pieces of polynomials between given ends, none of which may straddle a knot
+   !> Convert a B-spline to polynomial pieces between given ends, none of which may straddle a knot
    pure subroutine pieces_from_b_spline(t, coefficients, breaks, spline)
       !> Knots, not decreasing
       real(wp), intent(in) :: t(:)
       !> Coefficients of the basis functions, four fewer than knots
       real(wp), intent(in) :: coefficients(:)
-      !> Ends of the pieces, increasing; every knot between the first and the last is one
+      !> Ends of the pieces, increasing; include every knot between the first and the last
       real(wp), intent(in) :: breaks(:)
-      !> The same function in pieces of polynomials
+      !> The same function as polynomial pieces
       type(cubic_spline), intent(out) :: spline
       real(wp) :: b(4), slope(4), h, start(2), finish(2), chord
       integer :: i, j
@@ -226,11 +226,11 @@ contains
 
    !> Smoothing B-splines of several functions on the same points
    !>
-   !> Each minimises sum(w (f(s_i) - f_i)**2) + lambda integral(f'''**2). Knots are evenly spaced in each
-   !> section between kinks, threefold at kinks (continuous, slope free) and fourfold at the ends. The
-   !> third derivative is constant between knots. A section of one interval is held straight.
+   !> Each minimises sum(w (f(s_i) - f_i)**2) + lambda integral(f'''**2). Knots are evenly spaced in each section between kinks,
+   !> threefold at kinks (continuous, free slope) and fourfold at the ends. The third derivative is constant between knots. A
+   !> section of one interval is kept straight.
    subroutine smooth_b_splines(s, f, weights, lambda, spacing, splines, solved, is_kink)
-      !> Places of the points [mm], strictly increasing, at least two
+      !> Abscissae of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
@@ -238,11 +238,11 @@ contains
       real(wp), intent(in) :: weights(:)
       !> Weight of the third derivative, positive
       real(wp), intent(in) :: lambda
-      !> Largest distance of knots [mm], positive
+      !> Maximum distance between knots [mm], positive
       real(wp), intent(in) :: spacing
-      !> One per function, all with the same pieces
+      !> One per function, all on the same pieces
       type(cubic_spline), allocatable, intent(out) :: splines(:)
-      !> False when the matrix is not positive definite within the precision of the machine
+      !> False if the matrix is not numerically positive definite
       logical, intent(out) :: solved
       !> Points where the slope may jump
       logical, intent(in), optional :: is_kink(:)
@@ -287,9 +287,9 @@ contains
    !> Knots of all sections
    pure subroutine section_knots(s, spacing, breaks, t, is_straight, is_kink)
       real(wp), intent(in) :: s(:), spacing
-      !> Different knots, and all of them with their multiplicity
+      !> Distinct knots, and all of them with their multiplicity
       real(wp), allocatable, intent(out) :: breaks(:), t(:)
-      !> Is the interval a section of its own?
+      !> Is the interval a section by itself?
       logical, allocatable, intent(out) :: is_straight(:)
       logical, intent(in), optional :: is_kink(:)
       real(wp) :: length
@@ -318,7 +318,7 @@ contains
       end do
    end subroutine section_knots
 
-   !> The constant third derivative in interval j as a combination of four coefficients
+   !> Constant third derivative in interval j, as a linear combination of four coefficients
    pure function third_derivative(t, j) result(row)
       real(wp), intent(in) :: t(:)
       integer, intent(in) :: j

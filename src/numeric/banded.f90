@@ -1,7 +1,7 @@
-!> Systems of equations with a band matrix: a few diagonals, thousands of unknowns, several right-hand sides
+!> Linear systems with a band matrix: a few diagonals, thousands of unknowns, several right-hand sides
 !>
-!> Our own, because the usual library of linear algebra starts threads in every process that it is loaded into, for work that
-!> these few bands do not need.
+!> Implemented here because the usual linear algebra library starts threads in every process that loads it, which these few band
+!> systems do not need.
 module contact_numeric_banded
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -11,14 +11,14 @@ module contact_numeric_banded
 
 contains
 
-   !> A symmetric positive definite matrix: Cholesky factors U'U
+   !> Solve a system with a symmetric positive definite matrix, by Cholesky factorisation U'U
    pure subroutine solve_positive_band(band, b, solved)
-      !> Upper half: element (i, j), i <= j, in row w + i - j of column j, with w rows and so w - 1 diagonals above the main one,
-      !> which is the last row; on exit U
+      !> Upper half: element (i, j), i <= j, in row w + i - j of column j, with w rows and w - 1 superdiagonals; the main
+      !> diagonal is the last row; on exit U
       real(wp), intent(inout) :: band(:, :)
       !> Right-hand sides (unknown, function), on exit the solutions
       real(wp), intent(inout) :: b(:, :)
-      !> False when the matrix is not positive definite within the precision of the machine
+      !> False if the matrix is not numerically positive definite
       logical, intent(out) :: solved
       real(wp) :: rest
       integer :: w, n, i, j, k, l, first
@@ -58,16 +58,16 @@ contains
       solved = .true.
    end subroutine solve_positive_band
 
-   !> Any matrix: elimination with exchange of rows
+   !> Solve a system with a general matrix, by elimination with row exchanges
    pure subroutine solve_band(band, width, b, solved)
       !> Element (i, j), |i - j| <= width, in row 2 width + 1 + i - j of column j; 3 width + 1 rows, of which the first `width`
-      !> are filled by the exchange of rows
+      !> are filled by row exchanges
       real(wp), intent(inout) :: band(:, :)
-      !> Number of diagonals on each side of the main one
+      !> Number of diagonals on either side of the main diagonal
       integer, intent(in) :: width
       !> Right-hand sides (unknown, function), on exit the solutions
       real(wp), intent(inout) :: b(:, :)
-      !> False when the matrix is singular
+      !> False if the matrix is singular
       logical, intent(out) :: solved
       real(wp) :: factor, row(size(b, 2)), kept
       integer :: d, n, i, j, k, pivot, last

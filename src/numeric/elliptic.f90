@@ -1,7 +1,7 @@
 !> Complete elliptic integrals, as functions of the complementary modulus g
 !>
-!> In contact mechanics g is the ratio of the semi-axes of an ellipse, and narrow ellipses
-!> need its accuracy near zero; hence g is the argument, not the modulus k with k**2 = 1 - g**2.
+!> In contact mechanics g is the ratio of the semi-axes of an ellipse. Slender ellipses need accuracy near g = 0; hence the
+!> argument is g, not the modulus k with k**2 = 1 - g**2.
 module contact_numeric_elliptic
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -24,11 +24,10 @@ module contact_numeric_elliptic
 
 contains
 
-   !> All four integrals to full precision, for every g from the smallest number to 1 and above.
+   !> All four integrals to full precision, for any g from the smallest number to 1 and above
    !>
-   !> B and D come first and are sums of positive terms, so that K = B + D and E = B + g**2 D
-   !> lose no digit at either end. K and D grow like log(4/g); g below the smallest normal
-   !> number is taken as that number, so that the values stay finite.
+   !> B and D are computed first, as sums of positive terms, so that K = B + D and E = B + g**2 D lose no digits at either end.
+   !> K and D grow like log(4/g); g below the smallest normal number is replaced by that number, so that the values are finite.
    elemental function complete_elliptic(g) result(integrals)
       !> Complementary modulus [-], sign ignored
       real(wp), intent(in) :: g
@@ -44,8 +43,8 @@ contains
 
    !> Integral of (a cos(phi)**2 + b sin(phi)**2)/sqrt(cos(phi)**2 + g**2 sin(phi)**2), phi = 0...pi/2.
    !>
-   !> Arithmetic-geometric mean with the transformation of Bartky, after Bulirsch (1965),
-   !> procedure cel2. The error is squared in each step.
+   !> Arithmetic-geometric mean with the transformation of Bartky, after Bulirsch (1965), procedure cel2. Convergence is
+   !> quadratic.
    elemental function bartky_sum(g, a, b) result(integral)
       !> Complementary modulus [-], positive
       real(wp), intent(in) :: g

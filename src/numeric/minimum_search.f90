@@ -1,14 +1,15 @@
-!> Minimum of a function of one variable x >= 0 that falls at first, by questions and answers
+!> Minimum of a function of one variable x >= 0 that decreases initially, with reverse communication
 !>
-!> The caller owns the function; the search says where it wants to know it next:
+!> The caller evaluates the function at the abscissae that the search requests:
 !>
 !>     call search%start(first, tolerance)
 !>     do while (.not. search%finished)
 !>        call search%answer(f(search%x))
 !>     end do
 !>
-!> From 0 it looks for three points of which the middle one has the least value, by steps that grow or shrink by a factor.
-!> Between the outer ones follow parabolas and golden sections after Brent (1973), chapter 5. It always ends.
+!> Starting from 0 the search finds three points of which the middle one has the lowest value, by steps that grow or shrink by a
+!> constant factor. It then continues between the outer points by parabolas and golden sections after Brent (1973), chapter 5.
+!> It always terminates.
 module contact_numeric_minimum_search
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -17,23 +18,23 @@ module contact_numeric_minimum_search
    public :: minimum_search
 
    type :: minimum_search
-      !> Where the function is wanted next
+      !> Abscissa of the next evaluation
       real(wp) :: x = 0.0_wp
-      !> The point of least value so far
+      !> Abscissa of the lowest value so far
       real(wp) :: best = 0.0_wp
-      !> No more questions
+      !> No further evaluations are needed
       logical :: finished = .false.
-      !> Number of answers
+      !> Number of evaluations
       integer :: evaluations = 0
       !> Member of stage
       integer, private :: stage = 0
-      !> First step, and tolerance relative to the minimum
+      !> First step, and relative tolerance of the minimum
       real(wp), private :: first = 1.0_wp, tolerance = 1.0e-3_wp
-      !> Interval that holds the minimum
+      !> Interval that contains the minimum
       real(wp), private :: a = 0.0_wp, c = 0.0_wp
-      !> Value at 0; value at `best`; second and third best points and their values
+      !> Value at 0; value at `best`; second and third lowest points and their values
       real(wp), private :: f0 = 0.0_wp, fx = 0.0_wp, w = 0.0_wp, fw = 0.0_wp, v = 0.0_wp, fv = 0.0_wp
-      !> Last step, and the one before
+      !> Last step, and the previous one
       real(wp), private :: step = 0.0_wp, last_step = 0.0_wp
    contains
       procedure :: start
@@ -43,23 +44,23 @@ module contact_numeric_minimum_search
    type :: stage_list
       integer :: zero = 0, first = 1, shrinking = 2, growing = 3, inside = 4
    end type stage_list
-   !> What the last question was about
+   !> Stages of the search
    type(stage_list), parameter :: stage = stage_list()
 
-   !> Factor between the points before three are known, and questions that may be asked about it; chosen
+   !> Growth factor of the steps before a bracket is found, and maximum number of such evaluations; chosen
    real(wp), parameter :: growth = 3.0_wp
    integer, parameter :: max_outside = 25
-   !> All questions; as in CONTACT's GDsteady
+   !> Maximum number of evaluations, as in CONTACT's GDsteady
    integer, parameter :: max_evaluations = 99
-   !> Golden section, (3 - sqrt(5))/2 to the digits that matter
+   !> Golden section, (3 - sqrt(5))/2 to the digits needed
    real(wp), parameter :: golden = 0.381966_wp
 
 contains
 
-   !> Begin anew
+   !> Start a search
    pure subroutine start(self, first, tolerance)
       class(minimum_search), intent(inout) :: self
-      !> First step (positive); tolerance of the minimum, relative
+      !> First step, positive; relative tolerance of the minimum
       real(wp), intent(in) :: first, tolerance
 
       self%first = first
@@ -73,7 +74,7 @@ contains
       self%stage = stage%zero
    end subroutine start
 
-   !> Take the value of the function at x, and choose the next question
+   !> Process the value of the function at x, and choose the next abscissa
    pure subroutine answer(self, f)
       class(minimum_search), intent(inout) :: self
       !> Value of the function at `x`
@@ -107,7 +108,7 @@ contains
       end select
    end subroutine answer
 
-   !> Smaller steps until one has a value below that of 0
+   !> Reduce the step until the value is below that at 0
    pure subroutine shrink(self)
       class(minimum_search), intent(inout) :: self
 
@@ -119,7 +120,7 @@ contains
       end if
    end subroutine shrink
 
-   !> Larger steps until the value rises
+   !> Increase the step until the value rises
    pure subroutine grow(self, f)
       class(minimum_search), intent(inout) :: self
       real(wp), intent(in) :: f
@@ -135,7 +136,7 @@ contains
       end if
    end subroutine grow
 
-   !> Three points are known
+   !> Three bracketing points are known
    pure subroutine go_inside(self)
       class(minimum_search), intent(inout) :: self
 
@@ -147,8 +148,8 @@ contains
       call propose(self)
    end subroutine go_inside
 
-   !> The next point between a and c: the minimum of a parabola through the three best points where that is usable, or a golden
-   !> section of the longer part
+   !> The next point between a and c: the minimum of the parabola through the three lowest points if it is usable, otherwise a
+   !> golden section of the longer part
    pure subroutine propose(self)
       class(minimum_search), intent(inout) :: self
       real(wp) :: middle, tolerance, numerator, denominator, before
@@ -180,7 +181,7 @@ contains
       end associate
    end subroutine propose
 
-   !> Take a value inside
+   !> Process a value within the bracket
    pure subroutine narrow(self, f)
       class(minimum_search), intent(inout) :: self
       real(wp), intent(in) :: f

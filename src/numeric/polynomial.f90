@@ -1,4 +1,4 @@
-!> Roots of low polynomials on an interval
+!> Roots of polynomials of low degree on an interval
 module contact_numeric_polynomial
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -6,14 +6,14 @@ module contact_numeric_polynomial
 
    public :: quadratic_roots, monotone_cubic_root
 
-   !> A quotient whose divisor is smaller than this part might overflow: the root is beyond any interval
+   !> If the divisor is smaller than this fraction the quotient might overflow: the root is outside any interval
    real(wp), parameter :: overflows = 1.0e-200_wp
 
 contains
 
-   !> Real roots of c + b x + a x**2 strictly inside an interval, in rising order
+   !> Real roots of c + b x + a x**2 strictly within an interval, in increasing order
    pure subroutine quadratic_roots(a, b, c, low, high, roots, n)
-      !> Coefficients of x**2, of x, and without x; any of them may be zero
+      !> Coefficients of x**2, x and 1; any of them may be zero
       real(wp), intent(in) :: a, b, c
       !> Ends of the interval
       real(wp), intent(in) :: low, high
@@ -28,7 +28,7 @@ contains
       n = 0
       discriminant = b**2 - 4.0_wp*a*c
       if (discriminant < 0.0_wp) return
-      ! Without cancellation: the larger root first, the other from the product of both
+      ! without cancellation: the larger root first, the other from the product of both
       q = -0.5_wp*(b + sign(sqrt(discriminant), b))
       candidates = high
       if (abs(a) > overflows*abs(q)) candidates(1) = q/a
@@ -44,14 +44,14 @@ contains
       end do
    end subroutine quadratic_roots
 
-   !> Where a cubic that rises or falls on [low, high] takes a value: Newton's method inside a bracket
+   !> Argument at which a cubic that is monotonic on [low, high] has a given value, by Newton's method within a bracket
    !>
-   !> A step that leaves the bracket, or does not halve the one before, is replaced by bisection. When
-   !> the value is not between those at the ends, the nearer end is the answer.
+   !> A step that leaves the bracket, or does not halve the previous one, is replaced by bisection. If the value is outside the
+   !> range of the cubic, the nearer end is returned.
    pure real(wp) function monotone_cubic_root(c, low, high, value) result(x)
       !> Coefficients of the powers 0 to 3
       real(wp), intent(in) :: c(0:3)
-      !> Ends of the interval, and the value that is looked for
+      !> Ends of the interval, and the given value
       real(wp), intent(in) :: low, high, value
       real(wp) :: a, b, residual, slope, step, direction, from_low, from_high, bend, precision
       logical :: newton
@@ -91,7 +91,8 @@ contains
          end if
          x = x + step
          if (abs(step) <= precision) return
-         ! a step of Newton's method leaves at most bend/slope times its square; twice that for the slope's own change
+         ! the remaining error after a Newton step is at most bend/slope times its square; doubled for the change of the slope
+         ! itself
          if (newton .and. 2.0_wp*bend*step**2 <= precision*slope) return
       end do
    end function monotone_cubic_root

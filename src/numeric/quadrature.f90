@@ -11,7 +11,7 @@ contains
 
    !> Abscissae and weights on (0, 1), by Newton's method on the Legendre polynomial
    pure subroutine gauss_legendre(x, w)
-      !> Abscissae, increasing, and weights; any number, both of the same size
+      !> Abscissae, increasing, and weights; any number of points, same size
       real(wp), intent(out) :: x(:), w(:)
       real(wp) :: z, step, p, p_before, p_new, slope
       integer :: n, i, k, iteration

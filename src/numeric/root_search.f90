@@ -1,16 +1,15 @@
-!> Root of a function of one variable that mostly falls, by questions and answers
+!> Root of a function of one variable that mostly decreases, with reverse communication
 !>
-!> The caller owns the function; the search says where it wants to know it next:
+!> The caller evaluates the function at the abscissae that the search requests:
 !>
 !>     call search%start(x, step, tolerance)
 !>     do while (.not. search%finished)
 !>        call search%answer(f(search%x), saturated)
 !>     end do
 !>
-!> From the start it walks downhill in growing steps until the sign changes, then it keeps the
-!> root between two points (regula falsi with the Illinois rule, Dowell and Jarratt 1971, and
-!> halving when three steps of it did not halve the interval). It always ends: with a root, with
-!> a jump across zero, or without a change of sign.
+!> From the start the search moves downhill in growing steps until the sign changes. It then keeps the root bracketed (regula
+!> falsi with the Illinois rule, Dowell and Jarratt 1971, and bisection when three steps did not halve the interval). It always
+!> terminates: with a root, with a jump across zero, or without a change of sign.
 module contact_numeric_root_search
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -19,22 +18,22 @@ module contact_numeric_root_search
    public :: root_search
 
    type :: root_search
-      !> Where the function is wanted next
+      !> Abscissa of the next evaluation
       real(wp) :: x = 0.0_wp
-      !> The best point so far and the value there
+      !> Best point so far, and its value
       real(wp) :: best = 0.0_wp, best_value = huge(1.0_wp)
-      !> No more questions; a root was found within the tolerance; the sign changed
+      !> Finished; a root was found within the tolerance; the sign changed
       logical :: finished = .false., found = .false., bracketed = .false.
-      !> Number of answers
+      !> Number of evaluations
       integer :: evaluations = 0
-      !> Intervals this short count as a point; set it after the start
+      !> Intervals up to this length are treated as a point; set after the start
       real(wp) :: resolution = 0.0_wp
-      !> Shorter steps than this tell nothing of a saturated function; set it after the start
+      !> Steps up to this length give no information on a saturated function; set after the start
       real(wp) :: reach = 0.0_wp
-      !> Two points with values of different sign once bracketed; before, the last one is a
+      !> Two points with values of opposite sign once bracketed; before, a is the last point
       real(wp), private :: a = 0.0_wp, fa = 0.0_wp, b = 0.0_wp, fb = 0.0_wp
       real(wp), private :: step = 1.0_wp, tolerance = 0.0_wp
-      !> Length of the interval some steps ago, and how many
+      !> Length of the interval some steps ago, and number of these steps
       real(wp), private :: length = 0.0_wp
       integer, private :: steps = 0
    contains
@@ -42,19 +41,19 @@ module contact_numeric_root_search
       procedure :: answer
    end type root_search
 
-   !> Growth of the steps of the walk
+   !> Growth factor of the steps before a bracket is found
    real(wp), parameter :: growth = 1.6_wp
    integer, parameter :: max_evaluations = 200
 
-   !> A saturated function that changes by less than this part of the tolerance from step to step does not change; chosen
+   !> A saturated function that changes by less than this fraction of the tolerance per step is regarded as constant; chosen
    real(wp), parameter :: no_change = 0.1_wp
 
 contains
 
-   !> Begin anew
+   !> Start a search
    pure subroutine start(self, x, step, tolerance)
       class(root_search), intent(inout) :: self
-      !> First point, length of the first step (positive), value that counts as zero
+      !> First point, length of the first step (positive), tolerance of the value
       real(wp), intent(in) :: x, step, tolerance
 
       self%x = x
@@ -70,12 +69,12 @@ contains
       self%reach = 0.0_wp
    end subroutine start
 
-   !> Take the value of the function at x, and think of the next question
+   !> Process the value of the function at x, and choose the next abscissa
    pure subroutine answer(self, f, saturated)
       class(root_search), intent(inout) :: self
       !> Value of the function at `x` of the search
       real(wp), intent(in) :: f
-      !> Can the function only change slowly from here on? The walk then ends when it does
+      !> Can the function change only slowly from here on? The search for a bracket then ends when it is constant
       logical, intent(in) :: saturated
 
       self%evaluations = self%evaluations + 1
@@ -93,7 +92,7 @@ contains
       end if
    end subroutine answer
 
-   !> Look for a change of sign
+   !> Search for a change of sign
    pure subroutine walk(self, f, saturated)
       class(root_search), intent(inout) :: self
       real(wp), intent(in) :: f
@@ -123,7 +122,7 @@ contains
       self%x = self%a + sign(self%step, f)
    end subroutine walk
 
-   !> Keep the root between a and b
+   !> Reduce the bracket a, b
    pure subroutine narrow(self, f)
       class(root_search), intent(inout) :: self
       real(wp), intent(in) :: f
@@ -139,7 +138,7 @@ contains
       call next_inside(self)
    end subroutine narrow
 
-   !> Where the chord crosses zero, or half way; finished when no number is left in between
+   !> Next abscissa: zero of the chord, or the midpoint; finished if there is no number in between
    pure subroutine next_inside(self)
       class(root_search), intent(inout) :: self
 

@@ -1,7 +1,7 @@
-!> Cubic splines in pieces of polynomials: interpolation and smoothing of one or several functions
+!> Cubic splines as polynomial pieces: interpolation and smoothing of one or several functions
 !>
-!> Debian holds no Fortran library of smoothing splines with weights and kinks, so the few lines that
-!> set up the systems are our own; the systems are solved by LAPACK. doc/theory/profiles.md.
+!> There is no packaged Fortran library of smoothing splines with weights and kinks, so the systems are set up here. See
+!> doc/theory/profiles.md.
 module contact_numeric_spline
    use contact_base_kinds, only : wp
    use contact_numeric_banded, only : solve_positive_band
@@ -10,35 +10,36 @@ module contact_numeric_spline
 
    public :: cubic_spline, smoothing_splines, natural_splines, local_splines, piece_of
 
-   !> A function of s in cubic pieces
+   !> A piecewise cubic function of s
    type :: cubic_spline
       !> Ends of the pieces [mm], strictly increasing
       real(wp), allocatable :: s(:)
       !> Coefficients (0:3, piece) of powers of s - s(piece)
       real(wp), allocatable :: c(:, :)
    contains
-      !> Value, first and second derivative; beyond the ends those of the nearest end
+      !> Value, first and second derivative; beyond the ends constant as at the nearest end
       procedure :: value => spline_value
       procedure :: slope => spline_slope
       procedure :: bend => spline_bend
-      !> Piece and place in it, and value and slope there: one search for several splines with the same pieces
+      !> Piece that contains an abscissa and position in it, and value and slope there: one search serves several splines on the
+      !> same pieces
       procedure :: place => place_in_piece
       procedure :: in_piece
-      !> Values at all ends of pieces, and the smallest and the largest one of them
+      !> Values at the ends of all pieces, and their smallest and largest value
       procedure :: nodes => spline_nodes
       procedure :: node_range
    end type cubic_spline
 
 contains
 
-   !> Number of the piece that holds s; the first and the last reach to infinity
+   !> Index of the piece that contains s; the first and the last piece extend to infinity
    !>
-   !> Profiles have fairly even points: from where an even division has the piece, the search doubles its steps
-   !> until they enclose s, and bisects.
+   !> As points of profiles are nearly evenly spaced, the search starts at the piece expected for even spacing, doubles its
+   !> steps until they enclose s, and bisects.
    pure integer function piece_of(breaks, s) result(piece)
       !> Ends of the pieces, increasing; at least two
       real(wp), intent(in) :: breaks(:)
-      !> Argument, in the unit of the ends
+      !> Abscissa, in the unit of the ends
       real(wp), intent(in) :: s
       integer :: high, middle, n, step
 
@@ -126,12 +127,12 @@ contains
       range = [min(minval(self%c(0, :)), last), max(maxval(self%c(0, :)), last)]
    end function node_range
 
-   !> Piece and place in it, the place kept between the ends of the spline
+   !> Piece and position in it; the position is limited to the range of the spline
    pure subroutine place_in_piece(self, s, piece, t)
       class(cubic_spline), intent(in) :: self
       !> Argument [mm]
       real(wp), intent(in) :: s
-      !> Number of the piece, from 1
+      !> Index of the piece, from 1
       integer, intent(out) :: piece
       !> Distance from the start of the piece [mm]
       real(wp), intent(out) :: t
@@ -142,11 +143,11 @@ contains
 
    pure subroutine in_piece(self, piece, t, value, slope)
       class(cubic_spline), intent(in) :: self
-      !> From place_in_piece
+      !> Piece from place_in_piece
       integer, intent(in) :: piece
       !> Distance from the start of the piece [mm]
       real(wp), intent(in) :: t
-      !> Value, and its derivative by s
+      !> Value, and derivative with respect to s
       real(wp), intent(out) :: value, slope
 
       value = self%c(0, piece) + t*(self%c(1, piece) + t*(self%c(2, piece) + t*self%c(3, piece)))
@@ -155,10 +156,10 @@ contains
 
    !> Natural splines through all points, several functions at once
    !>
-   !> The equations of `smoothing_splines` without smoothing. Sections of varying profiles are made of thousands of
-   !> them: one elimination that carries all functions along takes a third of the time that a system of each one takes.
+   !> Solves the equations of `smoothing_splines` without smoothing. Sections of varying profiles need thousands of them: one
+   !> elimination for all functions takes a third of the time of separate systems.
    pure subroutine natural_splines(s, f, splines, is_kink)
-      !> Places of the points [mm], strictly increasing, at least two
+      !> Abscissae of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
@@ -166,9 +167,9 @@ contains
       type(cubic_spline), intent(out) :: splines(:)
       !> Points where the slope may jump; the ends need not be marked
       logical, intent(in), optional :: is_kink(:)
-      !> Half the second derivatives, functions first, and the slopes of the chords
+      !> Half the second derivatives, functions first, and slopes of the chords
       real(wp) :: b(size(f, 2), size(s)), chord(size(f, 2), size(s) - 1)
-      !> Lengths of the pieces, and what eliminates the next unknown
+      !> Lengths of the pieces, and factors of the elimination
       real(wp) :: h(size(s) - 1), upper(size(s)), pivot
       logical :: free(size(s))
       integer :: n, j, k
@@ -202,27 +203,26 @@ contains
 
    !> Smoothing splines of several functions on the same points
    !>
-   !> Each minimises sum(w (f(s_i) - f_i)**2) + lambda integral(f''**2) with natural ends (Reinsch
-   !> 1967). Unknowns are half the second derivatives b; the equations are
-   !> (R + 2/3 lambda Q' W**-1 Q) b = Q' f and the smoothed values f - 2/3 lambda W**-1 Q b, with five
-   !> diagonals. At a kink the second derivative is zero from both sides and the slope is free, so
-   !> that sections between kinks share nothing but the point; its equation is b = 0.
+   !> Each minimises sum(w (f(s_i) - f_i)**2) + lambda integral(f''**2) with natural ends (Reinsch 1967). Unknowns are half the
+   !> second derivatives b; the equations are (R + 2/3 lambda Q' W**-1 Q) b = Q' f, with five diagonals, and the smoothed values
+   !> are f - 2/3 lambda W**-1 Q b. At a kink the second derivative is zero on both sides and the slope is free, so that
+   !> sections between kinks share only the point; its equation is b = 0.
    subroutine smoothing_splines(s, f, weights, lambda, splines, solved, is_kink)
-      !> Places of the points [mm], strictly increasing, at least two
+      !> Abscissae of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
       !> Weights of the points, positive
       real(wp), intent(in) :: weights(:)
-      !> Weight of the bending, positive; without it there is `natural_splines`
+      !> Weight of the curvature, positive; for zero use `natural_splines`
       real(wp), intent(in) :: lambda
       !> One spline per function
       type(cubic_spline), allocatable, intent(out) :: splines(:)
-      !> False when the matrix is not positive definite within the precision of the machine
+      !> False if the matrix is not numerically positive definite
       logical, intent(out) :: solved
       !> Points where the slope may jump; the ends need not be marked
       logical, intent(in), optional :: is_kink(:)
-      !> Band of the matrix, diagonal in row 3
+      !> Band of the matrix, main diagonal in row 3
       real(wp), allocatable :: band(:, :), b(:, :), a(:, :), q(:, :)
       real(wp) :: h(size(s) - 1), strength(size(s))
       logical :: free(size(s))
@@ -236,7 +236,7 @@ contains
       if (present(is_kink)) free = free .and. .not. is_kink
       strength = 2.0_wp/3.0_wp*lambda/weights
 
-      ! Column j of Q: rows j-1, j, j+1
+      ! column j of Q: rows j-1, j, j+1
       allocate(q(-1:1, n), band(3, n), b(n, size(f, 2)))
       q = 0.0_wp
       band = 0.0_wp
@@ -268,11 +268,11 @@ contains
       end do
    end subroutine smoothing_splines
 
-   !> Cubics that depend on four points each: Hermite's, with the slopes of parabolas through three points (Overhauser 1968)
+   !> Cubic Hermite splines with slopes of parabolas through three points (Overhauser 1968), each piece depending on four points
    !>
-   !> Of order 3 where a natural spline has 4, but a corner between the points disturbs two pieces on either side only.
+   !> Third order instead of fourth as for a natural spline, but a corner between points affects only two pieces on either side.
    pure subroutine local_splines(s, f, splines, is_kink)
-      !> Places of the points [mm], strictly increasing, at least two
+      !> Abscissae of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
@@ -297,7 +297,7 @@ contains
          slope = 0.0_wp
          slope(2:n - 1) = (h(2:)*chord(:n - 2) + h(:n - 2)*chord(2:))/(h(:n - 2) + h(2:))
          do i = 1, n - 1
-            ! At an end the parabola of the other point goes on; between two ends the piece is straight
+            ! at an end the parabola of the other point is extended; between two ends the piece is straight
             left = merge(chord(i), slope(i), ends(i))
             right = merge(chord(i), slope(i + 1), ends(i + 1))
             if (ends(i) .and. .not. ends(i + 1)) left = 2.0_wp*chord(i) - right

@@ -1,7 +1,7 @@
 !> Sums and inner products of long vectors
 !>
-!> Several sums in turn, which a processor adds at once: one after the other each addition waits for the one before. The loops are
-!> in vectors.c.
+!> Several partial sums are accumulated alternately, so that the processor can overlap them instead of waiting for the previous
+!> addition. The loops are in vectors.c.
 module contact_numeric_vectors
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    implicit none (type, external)
@@ -15,7 +15,7 @@ module contact_numeric_vectors
          import :: c_double, c_int
          !> Length
          integer(c_int), value :: n
-         !> The vectors, or one of them twice
+         !> Vectors, or the same one twice
          real(c_double), intent(in) :: a(n), b(n)
       end function inner
 
@@ -24,11 +24,11 @@ module contact_numeric_vectors
          import :: c_double, c_int
          !> Length
          integer(c_int), value :: n
-         !> What a is multiplied with
+         !> Multiplies a
          real(c_double), value :: factor
-         !> What is added
+         !> Vector to add
          real(c_double), intent(in) :: a(n)
-         !> What it is added to
+         !> Vector that is changed
          real(c_double), intent(inout) :: b(n)
       end subroutine add
    end interface
