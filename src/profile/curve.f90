@@ -1,7 +1,7 @@
-!> A prepared profile: smooth functions y(s), z(s) of the length along the curve, and the way back from y
+!> A prepared profile: smooth functions y(s), z(s) of the arc length, and the inverse s(y)
 !>
-!> Lateral coordinate y, z down, canonical order (contact_profile_points). Rails are looked at from above,
-!> wheels from below: of several places with the same y only the one that is seen counts.
+!> Lateral coordinate y, z downwards, canonical order (contact_profile_points). Rails are viewed from above, wheels from below:
+!> of several points with the same y only the visible one is used.
 module contact_profile_curve
    use contact_base_kinds, only : long, wp
    use contact_numeric_polynomial, only : quadratic_roots
@@ -14,11 +14,11 @@ module contact_profile_curve
 
    public :: profile_curve, new_curve, find_visible
 
-   !> A visible part between two values of y on which y rises or falls with s
+   !> A visible part between two values of y, on which y is monotonic in s
    type :: visible_part
-      !> Its ends in y, the lower first
+      !> Range of y, lower end first
       real(wp) :: low, high
-      !> What it is cut from
+      !> Stretch of the curve to which it belongs
       type(stretch) :: along
    end type visible_part
 
@@ -26,53 +26,54 @@ module contact_profile_curve
    type :: profile_curve
       !> Member of profile_side
       integer :: side = profile_side%rail
-      !> Given to a curve by the store that holds it, and to its copies: two with the same number are the same. 0: none
+      !> Identifier assigned by the store that holds the curve, kept by copies: curves with the same number are identical. 0:
+      !> none
       integer(long) :: number = 0
-      !> Coordinates [mm] as functions of s [mm]; both have the same pieces
+      !> Coordinates [mm] as functions of s [mm], on the same pieces
       type(cubic_spline) :: y, z
-      !> What is seen, in rising order of y, without overlap
+      !> Visible parts, in increasing order of y, without overlap
       type(visible_part), allocatable, private :: parts(:)
    contains
-      !> Ends of the range of s, and of the visible range of y
+      !> Range of s, and visible range of y
       procedure :: s_range
       procedure :: y_range
-      !> Place s of the visible point with a given y
+      !> Arc length s of the visible point with a given y
       procedure :: s_at => place_at
-      !> The same, when there is one
+      !> The same, if there is such a point
       procedure :: find => find_point
-      !> The same by the piece of the splines and the place in it
+      !> The same, as piece of the splines and position in it
       procedure :: locate
-      !> Both coordinates at s with their slopes
+      !> Both coordinates at s, with slopes
       procedure :: point => point_at
       !> Is there a visible point with this y?
       procedure :: has => has_point
       !> Height of the visible point
       procedure :: height
-      !> Heights of visible points in rising order of y
+      !> Heights of visible points, in increasing order of y
       procedure :: heights
-      !> Inclination of the surface [rad], positive where it falls towards larger y
+      !> Inclination of the surface [rad], positive where it descends towards larger y
       procedure :: inclination
-      !> Unit normal (y, z) out of the body
+      !> Outward unit normal (y, z)
       procedure :: normal
-      !> Part of the length that is not seen, 0...1
+      !> Hidden fraction of the arc length, 0...1
       procedure :: hidden_part
-      !> The same curve in axes that are moved and rotated
+      !> The same curve in shifted and rotated axes
       procedure :: seen_from
-      !> The point with the smallest z of a rail
+      !> The point of a rail with the smallest z
       procedure :: top
-      !> Is another curve the same, bit by bit?
+      !> Is another curve identical, bit by bit?
       procedure :: same_as
    end type profile_curve
 
-   !> Stretches of y shorter than this are vertical [mm]
+   !> Ranges of y shorter than this are treated as vertical [mm]
    real(wp), parameter :: vertical = 1.0e-9_wp
 
 contains
 
-   !> Is another curve the same, bit by bit?
+   !> Is another curve identical, bit by bit?
    pure logical function same_as(self, other)
       class(profile_curve), intent(in) :: self
-      !> What it is compared with
+      !> Curve to compare with
       type(profile_curve), intent(in) :: other
 
       same_as = self%number > 0 .and. self%number == other%number
@@ -82,11 +83,11 @@ contains
       if (same_as) same_as = all(self%y%s == other%y%s) .and. all(self%y%c == other%y%c) .and. all(self%z%c == other%z%c)
    end function same_as
 
-   !> A curve from its coordinates
+   !> Create a curve from its coordinates
    function new_curve(side, y, z) result(curve)
       !> Member of profile_side
       integer, intent(in) :: side
-      !> With the same ends of pieces
+      !> Coordinates on the same pieces
       type(cubic_spline), intent(in) :: y, z
       type(profile_curve) :: curve
 
@@ -96,11 +97,11 @@ contains
       call find_visible(curve)
    end function new_curve
 
-   !> Cut the curve where y turns round, and keep at each y what is seen
+   !> Split the curve where y reverses, and keep the visible part at each y
    subroutine find_visible(curve, around)
-      !> Splines and pieces on entry; visible parts are set
+      !> Splines on entry; visible parts are set
       type(profile_curve), intent(inout) :: curve
-      !> Places s [mm]: only the stretches that hold one of them are looked at; default all
+      !> Arc lengths s [mm]: only stretches that contain one of them are considered; default: all
       real(wp), intent(in), optional :: around(:)
       real(wp), allocatable :: turns(:), ends(:), low(:), high(:)
       type(stretch), allocatable :: stretches(:)
@@ -124,7 +125,7 @@ contains
       if (present(around)) then
          do j = 1, n
             if (any(around >= turns(j) .and. around <= turns(j + 1))) cycle
-            ! an empty range of y holds no point
+            ! an empty range of y contains no point
             low(j) = huge(low)
             high(j) = -huge(high)
          end do
@@ -159,7 +160,7 @@ contains
       end do
    end subroutine find_visible
 
-   !> A curve along which y rises or falls throughout
+   !> Mark a curve on which y is monotonic as visible throughout
    subroutine see_all(curve)
       type(profile_curve), intent(inout) :: curve
       type(stretch) :: along
@@ -173,7 +174,7 @@ contains
       curve%parts = visible_part(minval(y), maxval(y), along)
    end subroutine see_all
 
-   !> Close a gap in y before the last part that is no wider than vertical stretches are
+   !> Close a gap in y before the last part if it is not wider than a vertical stretch
    pure subroutine close_gap(parts)
       type(visible_part), intent(inout) :: parts(:)
       integer :: n
@@ -197,7 +198,7 @@ contains
       range = [self%parts(1)%low, self%parts(size(self%parts))%high]
    end function y_range
 
-   !> Number of the visible part with a given y; 0 when there is none
+   !> Index of the visible part with a given y; 0 if there is none
    pure integer function part_of(self, y) result(part)
       type(profile_curve), intent(in) :: self
       real(wp), intent(in) :: y
@@ -219,7 +220,7 @@ contains
       end do
    end function part_of
 
-   !> Beyond the visible range of y that of its nearer end; in a gap between visible parts that of the part below
+   !> Beyond the visible range of y the value at its nearer end; in a gap between visible parts that of the part below
    elemental real(wp) function place_at(self, y) result(s)
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
@@ -239,12 +240,12 @@ contains
       end associate
    end function place_at
 
-   !> Place of the visible point with a given y
+   !> Arc length of the visible point with a given y
    pure subroutine find_point(self, y, s, found)
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
-      !> Unchanged when there is none
+      !> Unchanged if there is no visible point
       real(wp), intent(inout) :: s
       !> Is there a visible point?
       logical, intent(out) :: found
@@ -255,14 +256,14 @@ contains
       if (found) s = place_in_stretch(self%y, self%parts(part)%along, y)
    end subroutine find_point
 
-   !> Piece of the splines that holds the visible point with a given y, and the place in it
+   !> Piece of the splines that contains the visible point with a given y, and the position in it
    pure subroutine locate(self, y, piece, place, found)
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
-      !> The one that is looked at first, or 0; unchanged when there is no point
+      !> Piece to be tried first, or 0; unchanged if there is no visible point
       integer, intent(inout) :: piece
-      !> From the beginning of the piece [mm]
+      !> Distance from the start of the piece [mm]
       real(wp), intent(out) :: place
       !> Is there a visible point?
       logical, intent(out) :: found
@@ -276,12 +277,12 @@ contains
       place = place_in_piece(self%y, self%parts(part)%along, piece, y)
    end subroutine locate
 
-   !> Coordinates at a place and their slopes; beyond the ends those of the nearest end
+   !> Coordinates at an arc length, with slopes; beyond the ends those of the nearest end
    pure subroutine point_at(self, s, y, z, y_s, z_s)
       class(profile_curve), intent(in) :: self
       !> Arc length [mm]
       real(wp), intent(in) :: s
-      !> [mm], [-]
+      !> Coordinates [mm], slopes [-]
       real(wp), intent(out) :: y, z, y_s, z_s
       real(wp) :: t
       integer :: j
@@ -307,10 +308,10 @@ contains
       height = self%z%value(self%s_at(y))
    end function height
 
-   !> Heights of visible points in rising order of y: the search for parts and pieces goes on from point to point
+   !> Heights of visible points in increasing order of y; the search for parts and pieces continues from point to point
    pure subroutine heights(self, y, z, found)
       class(profile_curve), intent(in) :: self
-      !> Rising
+      !> Increasing
       real(wp), intent(in) :: y(:)
       !> 0 where there is no visible point
       real(wp), intent(out) :: z(:)
@@ -389,16 +390,16 @@ contains
       hidden = max(0.0_wp, 1.0_wp - seen/(range(2) - range(1)))
    end function hidden_part
 
-   !> The curve in axes with another origin that are rolled by an angle; lateral coordinate along the rolled
-   !> y axis, height along the rolled z axis. The pieces are transformed, not fitted again.
+   !> The curve in axes with another origin, rolled by an angle: lateral coordinate along the rolled y axis, height along the
+   !> rolled z axis. The pieces are transformed, not fitted again.
    function seen_from(self, origin, angle, range, around) result(curve)
       class(profile_curve), intent(in) :: self
-      !> Origin (y, z) [mm] and roll angle [rad] of the new axes in those of the curve
+      !> Origin (y, z) [mm] and roll angle [rad] of the new axes, in those of the curve
       real(wp), intent(in) :: origin(2), angle
-      !> Only the pieces that this range of s touches
+      !> Restrict the curve to the pieces that overlap this range of s
       real(wp), intent(in), optional :: range(2)
-      !> Places s: only what is reached from one of them without the new lateral coordinate turning round counts as seen.
-      !> Default: whatever is on top
+      !> Arc lengths s: only stretches reached from one of them without a reversal of the new lateral coordinate are visible.
+      !> Default: the topmost ones
       real(wp), intent(in), optional :: around(:)
       type(profile_curve) :: curve
       type(cubic_spline) :: y, z
@@ -423,7 +424,7 @@ contains
       call find_visible(curve, around)
    end function seen_from
 
-   !> Place s and height z of the point with the smallest z
+   !> Arc length s and height z of the point with the smallest z
    pure subroutine top(self, s, z)
       class(profile_curve), intent(in) :: self
       !> Arc length, and coordinate z, down [mm]

@@ -10,21 +10,21 @@ module contact_profile_line
 
    public :: end_of_values, split_assignment, leading_numbers, read_row, file_place, max_columns, point_list
 
-   !> Numbers of a row that are looked at
+   !> Maximum number of values of a row that are evaluated
    integer, parameter :: max_columns = 12
    character(len=*), parameter :: blanks = " ,"
 
-   !> Where a row stands
+   !> Position of a row
    type :: file_place
       character(len=:), allocatable :: file
       integer :: line = 0
    end type file_place
 
-   !> Points that are being collected
+   !> Points collected while reading
    type :: point_list
       integer :: n = 0
       real(wp), allocatable :: y(:), z(:)
-      !> Where each of them stands in its file
+      !> Line of each point in its file
       integer, allocatable :: line(:)
    contains
       procedure :: add => add_point
@@ -33,11 +33,11 @@ module contact_profile_line
 
 contains
 
-   !> The last column before the first comment mark outside of single quotes
+   !> The last column before the first comment character outside single quotes
    pure integer function end_of_values(line, marks) result(last)
       !> Line of a profile file
       character(len=*), intent(in) :: line
-      !> Characters that begin a comment
+      !> Characters that start a comment
       character(len=*), intent(in) :: marks
       logical :: quoted
       integer :: i
@@ -50,11 +50,11 @@ contains
       last = i - 1
    end function end_of_values
 
-   !> Parts before and behind the first equals sign, without blanks around; is there one?
+   !> Parts before and after the first equals sign, without surrounding blanks
    pure subroutine split_assignment(line, key, value, found)
       !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
-      !> Texts before and behind the sign; unallocated without one
+      !> Texts before and after the sign; unallocated without one
       character(len=:), allocatable, intent(out) :: key, value
       !> Is there an equals sign?
       logical, intent(out) :: found
@@ -66,13 +66,13 @@ contains
       value = trim(adjustl(line(i + 1:)))
    end subroutine split_assignment
 
-   !> How many numbers does a line begin with, and does text follow them?
+   !> Count the numbers at the start of a line, and check for text after them
    pure subroutine leading_numbers(line, n, text_follows)
       !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
-      !> Numbers before anything else
+      !> Number of leading numbers
       integer, intent(out) :: n
-      !> Is there a word behind them that is no number?
+      !> Are they followed by a word that is not a number?
       logical, intent(out) :: text_follows
       real(wp) :: value
       integer :: first, last, state
@@ -90,21 +90,21 @@ contains
       end do
    end subroutine leading_numbers
 
-   !> All numbers of a line; a word that is none is an error
+   !> Read all numbers of a line; any other word is an error
    subroutine read_row(line, place, expected, row, n, error, enough)
       !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
       !> File and line, for messages
       type(file_place), intent(in) :: place
-      !> What should stand here, for messages
+      !> Expected content, for messages
       character(len=*), intent(in) :: expected
-      !> The first numbers
+      !> The first max_columns numbers
       real(wp), intent(out) :: row(max_columns)
-      !> How many there are, also beyond the last that is kept
+      !> Number of values, including those not stored
       integer, intent(out) :: n
-      !> Names file, line, column, what stands there and what should
+      !> Gives file, line, column, what was found and what was expected
       type(error_type), allocatable, intent(out) :: error
-      !> Behind so many numbers text is ignored; default: nowhere
+      !> Text after this many numbers is ignored; default: never
       integer, intent(in), optional :: enough
       character(len=:), allocatable :: breach
       real(wp) :: value
@@ -151,7 +151,7 @@ contains
       end select
    end function complaint
 
-   !> The next word from a position on; first = 0 when there is none
+   !> The next word from a position on; first = 0 if there is none
    pure subroutine next_word(line, from, first, last)
       character(len=*), intent(in) :: line
       integer, intent(in) :: from
@@ -170,9 +170,9 @@ contains
 
    pure subroutine add_point(self, y, z, line)
       class(point_list), intent(inout) :: self
-      !> Coordinates as they stand in the file
+      !> Coordinates as in the file
       real(wp), intent(in) :: y, z
-      !> Number of the line they stand in
+      !> Line number
       integer, intent(in) :: line
 
       if (.not. allocated(self%y)) allocate(self%y(256), self%z(256), self%line(256))
@@ -187,12 +187,12 @@ contains
       self%line(self%n) = line
    end subroutine add_point
 
-   !> Take the points that were collected
+   !> Get the collected points
    pure subroutine take_points(self, y, z, line)
       class(point_list), intent(in) :: self
-      !> Coordinates as they stand in the file, shape (number of points)
+      !> Coordinates as in the file, shape (number of points)
       real(wp), allocatable, intent(out) :: y(:), z(:)
-      !> Number of the line that each stands in, of the same shape
+      !> Line of each point, same shape
       integer, allocatable, intent(out) :: line(:)
 
       if (self%n == 0) then

@@ -1,8 +1,8 @@
 !> Miniprof profiles, .ban for rails and .whl for wheels, and plain tables of two columns
 !>
-!> Lines KEY=value up to the first blank line, then rows of numbers; text behind the numbers of a row is ignored. A header of
-!> another kind begins with a line of text without "="; all up to the next blank line belongs to it. A file without a header is a
-!> table. Comments begin with ! " % or #.
+!> Lines KEY=value up to the first blank line, followed by rows of numbers; text after the numbers of a row is ignored. A header
+!> of another kind starts with a line of text without "=" and extends to the next blank line. A file without a header is a
+!> table. Comments start with ! " % or #.
 module contact_profile_miniprof
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -17,21 +17,21 @@ module contact_profile_miniprof
 
    public :: read_miniprof
 
-   !> Messages of one kind per file
+   !> Maximum number of messages of one kind per file
    integer, parameter :: max_messages = 4
-   !> What columns may hold: lateral, vertical, angle, curvature, number, yield strength
+   !> Permitted columns: lateral, vertical, angle, curvature, number, yield strength
    character(len=*), parameter :: column_letters = "XYACNK"
 
 contains
 
    subroutine read_miniprof(text, profile, log, error)
-      !> The file, read as a whole
+      !> The complete file
       type(input_lexer), intent(in) :: text
-      !> Points with their lines, and what the header prescribes
+      !> Points with their lines, and settings of the header
       type(profile_file), intent(out) :: profile
-      !> Takes warnings of headers that are not used
+      !> Receives warnings about unused header entries
       type(log_type), intent(inout) :: log
-      !> Names file, line and what would be accepted
+      !> Gives file, line and what is accepted
       type(error_type), allocatable, intent(out) :: error
       type(file_place) :: place
       type(point_list) :: points
@@ -57,7 +57,7 @@ contains
          if (len_trim(line) == 0 .or. place%line < header_end) cycle
          call split_assignment(line, key, value, assigned)
          call leading_numbers(line, n, text_follows)
-         ! text behind the numbers of a point may hold anything
+         ! any text may follow the numbers of a point
          assigned = assigned .and. .not. (points%n > 0 .and. n >= 2)
          if (assigned) then
             if (points%n > 0) then
@@ -88,8 +88,8 @@ contains
 
    contains
 
-      !> A line of text begins a header: where it ends. A heading of a table, after which no blank line separates points, is but
-      !> this line
+      !> Find the end of a header that starts with a line of text. The heading of a table, not separated from the points by a
+      !> blank line, is that line only
       subroutine find_header_end()
          character(len=:), allocatable :: later
          integer :: i, rows, numbers
@@ -108,7 +108,7 @@ contains
             call leading_numbers(later, n, more)
             if (n >= 2) rows = rows + 1
          end do
-         ! rows behind the blank line are the points
+         ! the rows after the blank line are the points
          if (header_end == 0) return
          if (rows == 0) then
             header_end = 0

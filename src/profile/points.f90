@@ -1,7 +1,7 @@
-!> Points of a profile in order: close points, zig-zags, direction, loops, kinks
+!> Operations on the points of a profile: close points, zig-zags, direction, loops, kinks
 !>
-!> In canonical form z points down, the lateral coordinate of rails rises along the list (gauge side
-!> first), that of wheels falls (flange last).
+!> In canonical order z points down; the lateral coordinate of a rail increases along the list (gauge side first), that of a
+!> wheel decreases (flange last).
 module contact_profile_points
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -12,16 +12,16 @@ module contact_profile_points
    public :: drop_close_points, remove_zig_zags, keep_points, needs_mirror_z, needs_reversal, runs_backwards
    public :: chord_lengths, find_loop, find_kinks, find_spike, find_outlier, find_hole, turning_angles
 
-   !> Tables with fewer points than this are drawn by hand, and may have any shape
+   !> Tables with fewer points are drawn by hand and may have any shape
    integer, parameter :: few_points = 6
 
 contains
 
-   !> Drop every point that is nearer than a distance to the last one kept
+   !> Drop points that are closer than a given distance to the last point kept
    pure subroutine drop_close_points(y, z, nearest)
       !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
-      !> Smallest distance of two points [mm]
+      !> Minimum distance between points [mm]
       real(wp), intent(in) :: nearest
       logical :: keep(size(y))
       integer :: i, last
@@ -38,7 +38,7 @@ contains
    pure subroutine keep_points(y, z, keep)
       !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
-      !> Which points stay, of the same shape
+      !> Points to keep, same shape
       logical, intent(in) :: keep(:)
 
       if (all(keep)) return
@@ -62,14 +62,14 @@ contains
       end do
    end function turning_angles
 
-   !> The first point where the line goes out and comes back beside itself; 0 when there is none
+   !> The first spike, where the line goes out and returns beside itself; 0 if there is none
    !>
-   !> Without it the way from the point before to the point behind is shorter than half of either side of the spike: its angle is
-   !> below 29 degrees. Neither corners nor sections that overlap look like that.
+   !> At a spike the distance between the points before and after it is shorter than half of either of its sides: its angle is
+   !> less than 29 degrees. This is not so for corners and overlapping sections.
    pure integer function find_spike(y, z, height) result(first)
-      !> [mm]
+      !> Coordinates [mm]
       real(wp), intent(in) :: y(:), z(:)
-      !> Least length of the spike [mm]
+      !> Minimum length of the spike [mm]
       real(wp), intent(in) :: height
       integer :: n
 
@@ -82,7 +82,7 @@ contains
       first = 0
    end function find_spike
 
-   !> Is the second of three points the end of a spike?
+   !> Is the second of three points the tip of a spike?
    pure logical function is_spike(y, z, height)
       !> See find_spike
       real(wp), intent(in) :: y(3), z(3), height
@@ -92,16 +92,16 @@ contains
       is_spike = shorter >= height .and. hypot(y(3) - y(1), z(3) - z(1)) < 0.5_wp*shorter
    end function is_spike
 
-   !> The first point that stands out of the line of its neighbours; 0 when there is none
+   !> The first point that deviates from the line of its neighbours; 0 if there is none
    !>
-   !> It is a spike, or the line turns to one side there and to the other side at both neighbours. Corners, also coarse ones,
-   !> have no such neighbours.
+   !> It is a spike, or the line turns to one side at the point and to the other side at both neighbours. Corners, even coarse
+   !> ones, have no such neighbours.
    pure integer function find_outlier(y, z, height) result(first)
-      !> [mm]
+      !> Coordinates [mm]
       real(wp), intent(in) :: y(:), z(:)
-      !> Least distance from the line through the neighbours [mm]
+      !> Minimum distance from the line through the neighbours [mm]
       real(wp), intent(in) :: height
-      !> Least angles of the point and of the line beside it [rad]
+      !> Minimum angles at the point and at its neighbours [rad]
       real(wp), parameter :: sharp = pi/3.0_wp, turned = pi/9.0_wp
       real(wp) :: turn(size(y)), shorter, chord, distance
       integer :: i, n
@@ -115,7 +115,7 @@ contains
          if (is_spike(y(i - 1:i + 1), z(i - 1:i + 1), height)) return
          if (abs(turn(i)) < sharp) cycle
          if (any(-turn([max(2, i - 1), min(n - 1, i + 1)])*sign(1.0_wp, turn(i)) < turned)) cycle
-         ! twice the area of the triangle over its base, or the shorter side
+         ! twice the area of the triangle divided by its base, or the shorter side
          shorter = min(hypot(y(i) - y(i - 1), z(i) - z(i - 1)), hypot(y(i + 1) - y(i), z(i + 1) - z(i)))
          chord = hypot(y(i + 1) - y(i - 1), z(i + 1) - z(i - 1))
          if (.not. chord > 0.0_wp) cycle
@@ -125,11 +125,11 @@ contains
       first = 0
    end function find_outlier
 
-   !> The first point behind which the next one is very far away, compared with the usual distance; 0 when there is none
+   !> The first point followed by a gap that is very large compared with the usual distance; 0 if there is none
    pure integer function find_hole(y, z, least, ratio) result(first)
-      !> [mm]
+      !> Coordinates [mm]
       real(wp), intent(in) :: y(:), z(:)
-      !> Least distance [mm], and relative to the mean without the largest distance
+      !> Minimum gap [mm], and relative to the mean distance without the largest one
       real(wp), intent(in) :: least, ratio
       real(wp) :: step(size(y) - 1), usual
       integer :: n
@@ -142,9 +142,9 @@ contains
       first = findloc(step > max(least, ratio*usual), .true., 1)
    end function find_hole
 
-   !> Replace the two ends of a segment that runs backwards by their mean
+   !> Replace the two ends of a segment that runs backwards by their midpoint
    !>
-   !> A zig-zag is a segment with sharp turns at both ends, as it comes from two sections that overlap.
+   !> A zig-zag is a segment with sharp turns at both ends, as results from two overlapping sections.
    pure subroutine remove_zig_zags(y, z, threshold, count)
       !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
@@ -174,7 +174,7 @@ contains
       call keep_points(y, z, keep)
    end subroutine remove_zig_zags
 
-   !> Does z point up? Found from the side faces
+   !> Does z point upwards? Determined from the side faces
    pure logical function needs_mirror_z(side, z) result(mirror)
       !> Member of profile_side
       integer, intent(in) :: side
@@ -188,12 +188,12 @@ contains
       end if
    end function needs_mirror_z
 
-   !> The sides of a rail hang down: z falls from either end inwards
+   !> The side faces of a rail hang down: z decreases inwards from either end
    pure logical function rail_is_upside_down(z) result(mirror)
       real(wp), intent(in) :: z(:)
-      !> Of the points at either end
+      !> Fraction of the points considered at either end
       real(wp), parameter :: zone = 0.10_wp
-      !> What counts as a difference, of the range of z
+      !> Significant difference, relative to the range of z
       real(wp), parameter :: visible = 0.001_wp
       real(wp) :: difference
       integer :: n, near, left, right, i, lowest
@@ -208,7 +208,7 @@ contains
          if (right == 0 .and. abs(z(n + 1 - i) - z(n)) > difference) right = merge(1, -1, z(n + 1 - i) < z(n))
       end do
       if (left == 0 .and. right == 0) then
-         ! Nothing but the place of the lowest z is left to tell; a plane is taken as it is
+         ! only the position of the lowest z is left as a criterion; a horizontal line is accepted as it is
          lowest = minloc(z, 1)
          mirror = (lowest <= near .or. lowest > n - near) .and. difference > 0.0_wp
       else
@@ -216,7 +216,7 @@ contains
       end if
    end function rail_is_upside_down
 
-   !> The flange of a wheel hangs down, and the field side has the lowest z of all
+   !> The flange of a wheel hangs down, and the field side has the lowest z
    pure logical function wheel_is_upside_down(z) result(mirror)
       real(wp), intent(in) :: z(:)
       real(wp), parameter :: zone = 0.05_wp
@@ -235,7 +235,7 @@ contains
       end if
    end function wheel_is_upside_down
 
-   !> Must the list be reversed? Found from the steps at the highest place of a rail and at the tip of a flange
+   !> Must the order be reversed? Determined from the steps at the top of a rail and at the tip of a flange
    pure logical function needs_reversal(side, y, z) result(reverse)
       !> Member of profile_side
       integer, intent(in) :: side
@@ -268,7 +268,7 @@ contains
       end if
    end function needs_reversal
 
-   !> Is the overall direction wrong? Rails must end at a larger y than they begin, wheels at a smaller one
+   !> Is the overall direction wrong? y must increase along a rail and decrease along a wheel
    pure logical function runs_backwards(side, y) result(backwards)
       !> Member of profile_side
       integer, intent(in) :: side
@@ -282,7 +282,7 @@ contains
       end if
    end function runs_backwards
 
-   !> Sums of chords from the first point on [mm]
+   !> Cumulative chord lengths from the first point [mm]
    pure function chord_lengths(y, z) result(s)
       !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
@@ -295,15 +295,15 @@ contains
       end do
    end function chord_lengths
 
-   !> The first two segments that cross though they are not neighbours
+   !> The first two segments that cross and are not neighbours
    !>
-   !> Boxes around groups of segments keep the work far below that of all pairs.
+   !> Bounding boxes of groups of segments reduce the work far below that of all pairs.
    pure subroutine find_loop(y, z, first, second)
       !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
-      !> Numbers of the points where the segments begin; 0 when there is no loop
+      !> Indices of the first points of the segments; 0 if there is no loop
       integer, intent(out) :: first, second
-      !> Segments of a group; two that only just touch do not cross
+      !> Number of segments of a group; segments that only touch do not cross
       integer, parameter :: group = 16
       real(wp), parameter :: touch = 1.0e-9_wp
       real(wp), allocatable :: box(:, :)
@@ -341,10 +341,10 @@ contains
       apart = a(1) > b(2) .or. b(1) > a(2) .or. a(3) > b(4) .or. b(3) > a(4)
    end function apart
 
-   !> Do the segments 1-2 and 3-4 cross, each strictly inside the other?
+   !> Do the segments 1-2 and 3-4 cross in the interior of both?
    pure logical function segments_cross(y, z, touch) result(cross)
       real(wp), intent(in) :: y(4), z(4)
-      !> Distance [mm] below which an end lies on the other segment
+      !> An end closer than this to the other segment lies on it [mm]
       real(wp), intent(in) :: touch
 
       cross = .false.
@@ -354,7 +354,7 @@ contains
          & on_both_sides(y(3:4), z(3:4), y(1:2), z(1:2), touch)
    end function segments_cross
 
-   !> Do the points p, q of (ys, zs) lie on both sides of a line, farther than `touch` from it?
+   !> Are the points p, q of (ys, zs) on opposite sides of a line, and farther than `touch` from it?
    pure logical function on_both_sides(yl, zl, ys, zs, touch) result(both)
       real(wp), intent(in) :: yl(2), zl(2), ys(2), zs(2), touch
       real(wp) :: distance(2), length
@@ -364,13 +364,13 @@ contains
       both = minval(distance) < -touch .and. maxval(distance) > touch
    end function on_both_sides
 
-   !> True corners: sharp turns with nothing like a turn around them
+   !> True corners: sharp turns without other significant turns nearby
    !>
-   !> Two corners with one point between them make that point a corner too.
+   !> A single point between two corners is a corner too.
    pure function find_kinks(y, z, high, low, width) result(is_kink)
       !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
-      !> Turning angle of a corner, largest one nearby [rad], and what is nearby [mm]
+      !> Minimum turning angle of a corner, maximum turning angle nearby [rad], and range of "nearby" [mm]
       real(wp), intent(in) :: high, low, width
       logical :: is_kink(size(y))
       real(wp) :: turn(size(y)), s(size(y))

@@ -1,4 +1,4 @@
-!> From a file to a prepared profile
+!> Reading and preparation of a profile
 module contact_profile_prepare
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, fatal_error
@@ -19,25 +19,25 @@ module contact_profile_prepare
 
    public :: read_profile, prepare_points, extension_of, length_origin
 
-   !> Lengths [mm] that a profile in millimetres can have
+   !> Range of profile lengths in millimetres [mm]; excludes files in other units
    real(wp), parameter :: shortest = 5.0_wp, longest = 500.0_wp
-   !> Corners of a profile
+   !> Maximum number of kinks of a profile
    integer, parameter :: max_kinks = 99
 
-   !> From this part on nothing of a profile is visible, whatever the request accepts
+   !> From this hidden fraction on practically nothing of a profile is visible, whatever the request permits
    real(wp), parameter :: all_hidden = 0.999_wp
 
 contains
 
-   !> Read and prepare a profile; what becomes of warnings is the user's choice
+   !> Read and prepare a profile; warnings are treated as requested by the user
    subroutine read_profile(request, curve, log, error)
-      !> Which file, and how it is to be read and smoothed
+      !> File, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
       !> Splines, visible parts and statistics
       type(profile_curve), intent(out) :: curve
-      !> Takes warnings
+      !> Receives warnings
       type(log_type), intent(inout) :: log
-      !> Names file, line and what is wrong with it
+      !> Gives file, line and what is wrong
       type(error_type), allocatable, intent(out) :: error
       type(log_type) :: unheard
       character(len=:), allocatable :: name
@@ -55,7 +55,7 @@ contains
       end if
    end subroutine read_profile
 
-   !> What messages call the profile
+   !> Name of the profile in messages
    pure subroutine take_name(request, name)
       type(profile_request), intent(in) :: request
       character(len=:), allocatable, intent(out) :: name
@@ -64,7 +64,7 @@ contains
       if (allocated(request%file)) name = request%file
    end subroutine take_name
 
-   !> Read, clean and smooth the profile of a file, or of points in its place
+   !> Read, clean and smooth a profile from a file, or from given points
    subroutine clean_profile(request, curve, log, error)
       type(profile_request), intent(in) :: request
       type(profile_curve), intent(out) :: curve
@@ -92,7 +92,7 @@ contains
       if (.not. allocated(error)) call prepare_points(request, y, z, curve, error)
    end subroutine clean_profile
 
-   !> Small letters behind the last dot of the file name, at most four, of known kinds three
+   !> Lower-case extension of a file name, at most four letters; known kinds have three
    pure function extension_of(file) result(extension)
       !> Path as the user gave it
       character(len=*), intent(in) :: file
@@ -109,7 +109,7 @@ contains
       if (any(extension(:3) == ["prr", "prw", "ban", "whl"])) extension = extension(:3)
    end function extension_of
 
-   !> A file whose extension names the other body is a mistake of the user
+   !> Refuse a file whose extension belongs to the other body
    subroutine refuse_extension(request, error)
       type(profile_request), intent(in) :: request
       type(error_type), allocatable, intent(out) :: error
@@ -124,7 +124,7 @@ contains
       end select
    end subroutine refuse_extension
 
-   !> Points in millimetres and canonical order
+   !> Points in millimetres in canonical order
    subroutine normalise(file, request, y, z, log, error)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
@@ -173,7 +173,7 @@ contains
       end if
 
       reverse = file%inversion == 1
-      ! What the file says of its order holds for y as the file mirrors it
+      ! the order given by the file refers to y after the mirroring requested by the file
       if (file%inversion < 0 .or. (mirrors_y(file, request) .neqv. file%mirror_y)) reverse = needs_reversal(request%side, y, z)
       if (reverse) then
          y = y(size(y):1:-1)
@@ -210,7 +210,7 @@ contains
       reverse = runs_backwards(side, y) .or. needs_reversal(side, y, z)
    end function runs_in_reverse
 
-   !> Turn points about the x axis, from y towards z
+   !> Rotate points about the x axis, from y towards z
    pure subroutine rotate(y, z, angle)
       real(wp), intent(inout) :: y(:), z(:)
       !> [rad]
@@ -222,7 +222,7 @@ contains
       z = sin(angle)*before + cos(angle)*z
    end subroutine rotate
 
-   !> A file in another unit needs a factor
+   !> Refuse a file in another unit without a scale factor
    subroutine refuse_units(file, request, error)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
@@ -233,15 +233,15 @@ contains
          &millimetres as SCALEYZ", file=request%file, line=file%unit_line)
    end subroutine refuse_units
 
-   !> Points that no wheel or rail has: refuse a spike, warn of what else stands out, and of a hole between two points
+   !> Check for implausible points: refuse a spike, warn about outliers and about a large gap
    subroutine doubt_points(file, request, y, z, log, error)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
-      !> The points without zig-zags, in the unit of the file
+      !> Points without zig-zags, in the unit of the file
       real(wp), intent(in) :: y(:), z(:)
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> Height of a spike [mm]; length of a hole [mm], and relative to the usual distance of points
+      !> Height of a spike [mm]; length of a gap [mm], and relative to the usual distance between points
       real(wp), parameter :: spike = 1.0_wp, hole = 10.0_wp, hole_ratio = 20.0_wp
       real(wp) :: factor
       integer :: i
@@ -279,7 +279,7 @@ contains
             & line=line)
       end subroutine refuse_spike
 
-      !> Warn of a point
+      !> Issue a warning about a point
       subroutine warn(i, what)
          integer, intent(in) :: i
          character(len=*), intent(in) :: what
@@ -292,7 +292,7 @@ contains
       end subroutine warn
    end subroutine doubt_points
 
-   !> Two requests cancel each other, and "no" of the user cancels that of the file
+   !> Mirroring requested by both the user and the file cancels; "no" of the user overrides the file
    pure logical function mirrors_y(file, request) result(mirror)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
@@ -300,7 +300,7 @@ contains
       mirror = request%mirror_y + merge(1, 0, file%mirror_y) == 1
    end function mirrors_y
 
-   !> As for y; where the file cannot tell, the shape decides unless the user does
+   !> As for y; if the file leaves it open, it is determined from the shape unless the user sets it
    pure logical function mirrors_z(file, request, z) result(mirror)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
@@ -310,7 +310,7 @@ contains
       if (file%guess_z .and. request%mirror_z == 0) mirror = needs_mirror_z(request%side, z)
    end function mirrors_z
 
-   !> Smooth points in canonical order and find out what is seen of the curve
+   !> Smooth points in canonical order, and determine the visible parts of the curve
    subroutine prepare_points(request, y, z, curve, error)
       !> Side and smoothing
       type(profile_request), intent(in) :: request
@@ -318,7 +318,7 @@ contains
       real(wp), intent(in) :: y(:), z(:)
       !> Splines and visible parts
       type(profile_curve), intent(out) :: curve
-      !> Why the points make no profile
+      !> Why the points do not form a profile
       type(error_type), allocatable, intent(out) :: error
       type(cubic_spline), allocatable :: splines(:)
       real(wp), allocatable :: s(:)
@@ -348,22 +348,22 @@ contains
       end if
    end subroutine prepare_points
 
-   !> The chosen smoothing of both coordinates
+   !> Smooth both coordinates by the selected method
    subroutine smooth_points(request, s, y, z, is_kink, splines, solved)
       type(profile_request), intent(in) :: request
       real(wp), intent(in) :: s(:), y(:), z(:)
       logical, intent(in) :: is_kink(:)
       type(cubic_spline), allocatable, intent(out) :: splines(:)
       logical, intent(out) :: solved
-      !> Weights of kinks, and of ends for the weighted methods
+      !> Weights of kinks, and for the weighted methods of ends
       real(wp), parameter :: kink_weight = 100.0_wp, end_weight = 20.0_wp
-      !> Less smoothing than this is none [mm4], [mm6]
+      !> Smaller values mean interpolation [mm4], [mm6]
       real(wp), parameter :: min_fourth = 1.0e-10_wp, min_sixth = 1.0e-6_wp
-      !> Of the largest to the smallest eigenvalue of smoothing by B-splines
+      !> Ratio of the largest to the smallest eigenvalue in smoothing by B-splines
       real(wp), parameter :: conditioning = 20.0e-6_wp
       real(wp) :: weights(size(s)), points(size(s), 2), lambda, spacing
       integer :: n
-      !> Smallest distance of knots [mm], finer than any measurement; largest number of intervals between them
+      !> Minimum distance between knots [mm], finer than any measurement; maximum number of intervals
       real(wp), parameter :: min_spacing = 0.001_wp
       integer, parameter :: max_intervals = 4998
 
@@ -400,7 +400,7 @@ contains
       end if
    end subroutine smooth_points
 
-   !> Where s is to be zero: at y = 0 when y is monotone, otherwise at the point nearest to the origin
+   !> Arc length of the origin of s: at y = 0 if y is monotonic, otherwise at the point nearest to (0, 0)
    pure real(wp) function length_origin(s, y, z) result(origin)
       !> Arc length, and coordinates of the points [mm], all of one shape
       real(wp), intent(in) :: s(:), y(:), z(:)

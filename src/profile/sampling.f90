@@ -9,26 +9,26 @@ module contact_profile_sampling
    public :: curve_positions, line_kind, line_point, no_point, no_point_along
 
    type :: line_kind_list
-      !> At one u with v running, at one v or one y with u running
+      !> Constant u with v varying; constant v or constant y with u varying
       integer :: at_u = 1, at_v = 2, at_y = 3
    end type line_kind_list
    !> Lines on a surface
    type(line_kind_list), parameter :: line_kind = line_kind_list()
 
-   !> Stands for points that are not there, on lines of constant u and on others [mm]
+   !> Placeholders for missing points, on lines of constant u and on others [mm]
    real(wp), parameter :: no_point_along = 99.0e9_wp, no_point = 999.0_wp
 
 contains
 
    !> Arc lengths of points along a curve [mm]
    pure subroutine curve_positions(curve, parts, step, s)
-      !> Curve whose pieces are divided
+      !> Curve whose pieces are subdivided
       type(profile_curve), intent(in) :: curve
-      !> Parts of each piece of the spline; 1: even steps instead, 0 and less: the ends of the pieces
+      !> Number of parts of each piece of the spline; 1: constant steps instead; 0 and less: the ends of the pieces
       integer, intent(in) :: parts
-      !> Even step [mm]
+      !> Constant step [mm]
       real(wp), intent(in) :: step
-      !> Rising, from the first end on [mm]
+      !> Increasing, from the first end on [mm]
       real(wp), allocatable, intent(out) :: s(:)
       integer :: i, n
 
@@ -49,15 +49,15 @@ contains
       end associate
    end subroutine curve_positions
 
-   !> One point of a line on a surface
+   !> A point of a line on a surface
    subroutine line_point(surface, kind, place, position, y, z)
       !> Surface through the slices of a rail or a wheel
       type(profile_surface), intent(in) :: surface
       !> Member of line_kind
       integer, intent(in) :: kind
-      !> What is constant, and what runs
+      !> Constant and varying coordinate
       real(wp), intent(in) :: place, position
-      !> [mm]; what stands for no point when there is none
+      !> Coordinates [mm]; placeholder if there is no point
       real(wp), intent(out) :: y, z
       type(surface_cut) :: section
       logical :: found

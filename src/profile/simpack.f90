@@ -1,7 +1,7 @@
 !> Simpack profiles: .prr for rails, .prw for wheels
 !>
-!> A block header.begin ... header.end, a block spline.begin ... spline.end with the processing, in it a
-!> block point.begin ... point.end with rows y z [weight]. Comments begin with ! or %.
+!> A block header.begin ... header.end, and a block spline.begin ... spline.end with the processing, which contains a block
+!> point.begin ... point.end with rows y z [weight]. Comments start with ! or %.
 module contact_profile_simpack
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, fatal_error
@@ -22,24 +22,24 @@ module contact_profile_simpack
    type(section_list), parameter :: section = section_list()
    character(len=*), parameter :: section_names(0:3) = [character(len=6) :: "", "header", "spline", "point"]
 
-   !> Smallest distance of points that a file may ask for
+   !> Minimum distance between points that a file may request
    real(wp), parameter :: smallest_distance = 1.0e-6_wp
-   !> Messages of one kind per file
+   !> Maximum number of messages of one kind per file
    integer, parameter :: max_messages = 4
 
 contains
 
-   !> Read the points and the processing
+   !> Read the points and the prescribed processing
    subroutine read_simpack(text, side, profile, log, error)
-      !> The file, read as a whole
+      !> The complete file
       type(input_lexer), intent(in) :: text
       !> Member of profile_side
       integer, intent(in) :: side
-      !> Points with their lines, and the processing that the file prescribes
+      !> Points with their lines, and the prescribed processing
       type(profile_file), intent(out) :: profile
-      !> Takes warnings of keywords that are not used
+      !> Receives warnings about unused keywords
       type(log_type), intent(inout) :: log
-      !> Names file, line and what would be accepted
+      !> Gives file, line and what is accepted
       type(error_type), allocatable, intent(out) :: error
       type(file_place) :: place
       type(point_list) :: points

@@ -1,4 +1,4 @@
-!> Slices files: where the slices of a variable profile stand, their files, and the features that belong together
+!> Slices files: positions of the slices of a variable profile, their files, and corresponding features
 !>
 !>     U_OFFSET  U_SCALE
 !>     NSLC
@@ -21,42 +21,42 @@ module contact_profile_slices_file
 
    public :: slices_list, slice_entry, read_slices_file
 
-   !> One slice
+   !> A slice
    type :: slice_entry
       !> Position: along the track [mm], or angle around the wheel [rad]
       real(wp) :: u = 0.0_wp
-      !> File as it is to be opened, and its line in the slices file
+      !> Path of its file, and line in the slices file
       character(len=:), allocatable :: file
       integer :: line = 0
    end type slice_entry
 
-   !> What a slices file says
+   !> Content of a slices file
    type :: slices_list
       type(slice_entry), allocatable :: slices(:)
       !> Are the slices control points (approximating) rather than interpolated?
       logical :: approximating = .false.
-      !> Places of the features [mm] from the first point on, (feature, slice); negative when absent
+      !> Arc lengths of the features [mm] from the first point, (feature, slice); negative if absent
       real(wp), allocatable :: features(:, :)
       !> Is there a kink at the feature?
       logical, allocatable :: is_kink(:)
    end type slices_list
 
    integer, parameter :: max_slices = 4999, max_features = 999
-   !> Least distance of slices in units of u, and of features [mm]
+   !> Minimum distance between slices in units of u, and between features [mm]
    real(wp), parameter :: min_distance = 1.0e-3_wp, min_feature = 1.0e-6_wp
-   !> Features at the ends when the file names none [mm]
+   !> Positions of the end features if the file names none [mm]
    real(wp), parameter :: far = 1.0e6_wp
 
 contains
 
    subroutine read_slices_file(text, side, list, error)
-      !> The file, read as a whole; the place in it moves on
+      !> The complete file; its reading position is advanced
       type(input_lexer), intent(inout) :: text
       !> Member of profile_side
       integer, intent(in) :: side
-      !> Positions and names of the files of the slices, features, kinks
+      !> Positions and files of the slices, features, kinks
       type(slices_list), intent(out) :: list
-      !> Names file, line and what would be accepted
+      !> Gives file, line and what is accepted
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(3)
       real(wp) :: offset, scale
@@ -160,7 +160,7 @@ contains
          end do
       end subroutine read_features
 
-      !> Present features are neighbours, at least two, in rising order
+      !> Check that the features present are contiguous, at least two, and increasing
       subroutine check_features(s, slice, line)
          real(wp), intent(in) :: s(:)
          integer, intent(in) :: slice, line
@@ -185,7 +185,7 @@ contains
       end subroutine check_features
    end subroutine read_slices_file
 
-   !> Angles lie within one and a half turns, and go beyond one turn at both ends or at none
+   !> Check that angles are within one and a half turns, and exceed one turn at both ends or at neither
    subroutine check_angles(list, file, error)
       type(slices_list), intent(in) :: list
       character(len=*), intent(in) :: file
@@ -204,7 +204,7 @@ contains
       end if
    end subroutine check_angles
 
-   !> A name relative to the folder of another file
+   !> A file name relative to the folder of another file
    pure subroutine place_beside(file, name, path)
       character(len=*), intent(in) :: file, name
       character(len=:), allocatable, intent(out) :: path

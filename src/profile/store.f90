@@ -1,9 +1,9 @@
-!> Profiles that are ready for use, each prepared once
+!> Store of prepared profiles
 !>
-!> Whoever runs the cases owns one store. A profile stays until the store is released or, when more than
-!> `max_profiles` are in use, until it is the one that was asked for longest ago. A file that has
-!> changed since is read again: the text is compared by its length and a hash. A file whose number, length and times of change are
-!> those of before, and were older than a tick of its clock when it was read, is not even opened.
+!> The code that runs the cases owns one store. A profile is kept until the store is released or, when more than `max_profiles`
+!> are in use, until it is the least recently used one. A file that has changed is read again: its text is compared by length
+!> and hash. A file whose number, length and time stamps are unchanged, and were older than the clock resolution when it was
+!> read, is not opened again.
 module contact_profile_store
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : long, wp
@@ -21,41 +21,41 @@ module contact_profile_store
 
    public :: profile_store, prepared_profile, load_profile
 
-   !> What a file holds: one curve, or a surface through slices
+   !> Content of a profile file: one curve, or a surface through slices
    type :: prepared_profile
       type(profile_request) :: request
-      !> The curve; of a surface the first slice
+      !> The curve; for a surface its first slice
       type(profile_curve) :: curve
       !> Allocated for slices files
       type(profile_surface), allocatable :: surface
    end type prepared_profile
 
-   !> A file that a profile was read from
+   !> A file from which a profile was read
    type :: watched_file
       character(len=:), allocatable :: name
-      !> Taken before it was read
+      !> Stamp taken before it was read
       type(file_stamp) :: stamp
    end type watched_file
 
    type :: store_entry
-      !> Owned by the store, stays in its place while the list of entries grows
+      !> Owned by the store; its address is stable while the list of entries grows
       type(prepared_profile), pointer :: profile => null()
       integer(long) :: fingerprint = 0
       integer(long) :: last_use = 0
-      !> What the fingerprint was made of; none for a profile that is given by points, or confined to a folder
+      !> Files on which the fingerprint is based; none for a profile given by points, or confined to a folder
       type(watched_file), allocatable :: files(:)
    end type store_entry
 
    type :: profile_store
-      !> Profiles that are kept
+      !> Maximum number of profiles kept
       integer :: max_profiles = 20
-      !> Are files looked at again when their profile is there already?
+      !> Are files checked again if their profile is in the store?
       logical :: watches_files = .true.
-      !> Files that were read, for tests and timing
+      !> Number of profiles read, for tests and timing
       integer :: loads = 0
-      !> Times that the files of a profile were read to compare them, for tests and timing
+      !> Number of times that the files of a profile were read for comparison, for tests and timing
       integer :: comparisons = 0
-      !> Hash of all files that were read, in their order
+      !> Hash of all files read, in order
       integer(long) :: history = 0
       type(store_entry), allocatable, private :: entries(:)
       integer(long), private :: clock = 0
@@ -65,21 +65,21 @@ module contact_profile_store
       procedure :: release
    end type profile_store
 
-   !> Number of the last curve that was prepared in this process, counted atomically
+   !> Number of the last curve prepared in this process; incremented atomically
    integer(long) :: last_number = 0
 
 contains
 
-   !> The profile for a request, from the store or from its file
+   !> Get a profile from the store or from its file
    subroutine get(self, request, profile, log, error)
       class(profile_store), intent(inout) :: self
-      !> Which file, and how it is to be read and smoothed
+      !> File, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
-      !> Belongs to the store; valid until `max_profiles` others were asked for. Null on errors
+      !> Owned by the store; valid until `max_profiles` others are requested. Null on errors
       type(prepared_profile), pointer, intent(out) :: profile
-      !> Takes warnings of a profile that is read; one from the store has had its say
+      !> Receives warnings when a profile is read; they are not repeated for one from the store
       type(log_type), intent(inout) :: log
-      !> Names the file and what is wrong with it
+      !> Gives the file and what is wrong
       type(error_type), allocatable, intent(out) :: error
       type(watched_file), allocatable :: files(:)
       integer(long) :: fingerprint
@@ -131,7 +131,7 @@ contains
       self%entries(slot)%last_use = self%clock
    end subroutine get
 
-   !> A number that no other curve of the process has
+   !> A number that is unique in this process
    integer(long) function next_number()
       !$omp atomic capture
       last_number = last_number + 1
@@ -139,7 +139,7 @@ contains
       !$omp end atomic
    end function next_number
 
-   !> Forget the profiles of one body, so that their files are read again
+   !> Remove the profiles of one body, so that their files are read again
    subroutine forget(self, side)
       class(profile_store), intent(inout) :: self
       !> Member of profile_side
@@ -156,7 +156,7 @@ contains
       end do
    end subroutine forget
 
-   !> Forget all profiles
+   !> Remove all profiles
    subroutine release(self)
       class(profile_store), intent(inout) :: self
       integer :: k
@@ -168,15 +168,15 @@ contains
       deallocate(self%entries)
    end subroutine release
 
-   !> Read a profile or all slices of a variable one
+   !> Read a profile, or all slices of a variable one
    subroutine load_profile(request, profile, log, error)
-      !> Which file, and how it is to be read and smoothed
+      !> File, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
       !> The curve, or the surface through all slices
       type(prepared_profile), intent(out) :: profile
-      !> Takes warnings
+      !> Receives warnings
       type(log_type), intent(inout) :: log
-      !> Names the file and what is wrong with it
+      !> Gives the file and what is wrong
       type(error_type), allocatable, intent(out) :: error
       type(input_lexer) :: text
       type(slices_list) :: list
@@ -206,10 +206,10 @@ contains
       if (.not. allocated(error)) call warn_of_swing(profile%surface, list, curves, request%file, log)
    end subroutine load_profile
 
-   !> Tell where the surface swings away from the slices on both sides, half way between them
+   !> Warn if the surface, half-way between two slices, deviates from both of them
    !>
-   !> Splines along u through slices whose outlines differ suddenly, without a feature where a part begins or ends, leave both of
-   !> them by many times what these differ.
+   !> Splines along u overshoot between slices whose outlines differ abruptly without a feature that marks where a part begins
+   !> or ends, by many times the difference of the slices.
    subroutine warn_of_swing(surface, list, curves, file, log)
       type(profile_surface), intent(in) :: surface
       type(slices_list), intent(in) :: list
@@ -217,7 +217,7 @@ contains
       type(profile_curve), intent(in) :: curves(:)
       character(len=*), intent(in) :: file
       type(log_type), intent(inout) :: log
-      !> Swings that count, relative to what the slices differ [-]; places across the profile
+      !> Threshold of the overshoot, relative to the difference of the slices [-]; number of positions across the profile
       real(wp), parameter :: relative = 1.0_wp
       integer, parameter :: places = 15
       type(surface_cut) :: section
@@ -262,9 +262,9 @@ contains
       is_slices_file = extension_of(request%file) == "slcs" .or. extension_of(request%file) == "slcw"
    end function is_slices_file
 
-   !> Are all files as they were when they were read, as far as the file system tells?
+   !> Are all files unchanged since they were read, according to the file system?
    logical function are_untouched(files)
-      !> Unallocated where this is not known
+      !> Unallocated if this is unknown
       type(watched_file), intent(in), allocatable :: files(:)
       type(file_stamp) :: now
       integer :: k
@@ -278,11 +278,11 @@ contains
       are_untouched = .true.
    end function are_untouched
 
-   !> Hash of the file, and of all slices when it names some
+   !> Hash of the file, and of all slices that it names
    subroutine fingerprint_of(request, fingerprint, files, error)
       type(profile_request), intent(in) :: request
       integer(long), intent(out) :: fingerprint
-      !> What was read; unallocated where only reading tells whether it is the same, and on errors
+      !> Files that were read; unallocated if changes can only be detected by reading them, and on errors
       type(watched_file), allocatable, intent(out) :: files(:)
       type(error_type), allocatable, intent(out) :: error
       type(file_stamp) :: stamp
@@ -317,7 +317,7 @@ contains
          if (allocated(error)) return
          fingerprint = modulo(31_long*fingerprint + slice%fingerprint(), modulus)
       end do
-      ! where a link leads is looked at each time
+      ! the target of a symbolic link is checked each time
       if (allocated(request%below)) deallocate(files)
    end subroutine fingerprint_of
 end module contact_profile_store

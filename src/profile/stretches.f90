@@ -1,4 +1,4 @@
-!> Stretches of a curve in which y rises or falls throughout, and the way back from y to the place in one
+!> Stretches of a curve on which y is monotonic, and the inverse s(y) on them
 module contact_profile_stretches
    use contact_base_kinds, only : wp
    use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
@@ -8,23 +8,23 @@ module contact_profile_stretches
 
    public :: find_turns, holds, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, stretch_between
 
-   !> A range of s in which y rises or falls throughout
+   !> A range of s on which y is monotonic
    type :: stretch
-      !> Its ends
+      !> Ends of the range
       real(wp) :: s_low, s_high
-      !> The pieces that hold them
+      !> Pieces that contain the ends
       integer :: first, last
-      !> Does y rise with s?
+      !> Does y increase with s?
       logical :: rises
    end type stretch
 
 contains
 
-   !> Ends of the stretches of s in which y rises or falls throughout
+   !> Ends of the stretches of s on which y is monotonic
    subroutine find_turns(y, turns)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Rising, the ends of the curve first and last [mm]
+      !> Increasing; the first and last are the ends of the curve [mm]
       real(wp), allocatable, intent(out) :: turns(:)
       real(wp) :: roots(2), h, before, between, behind
       integer :: i, k, n, pieces, count
@@ -37,7 +37,7 @@ contains
       do i = 1, pieces
          h = y%s(i + 1) - y%s(i)
          before = y%c(1, i) + h*(2.0_wp*y%c(2, i) + 3.0_wp*h*y%c(3, i))
-         ! A parabola has no zero when its two values at the ends and the crossing of its tangents there have one sign
+         ! a parabola has no zero if its values at both ends and the intersection of its end tangents have the same sign
          between = y%c(1, i) + h*y%c(2, i)
          if (.not. (before*between > 0.0_wp .and. y%c(1, i)*between > 0.0_wp)) then
             call quadratic_roots(3.0_wp*y%c(3, i), 2.0_wp*y%c(2, i), y%c(1, i), 0.0_wp, h, roots, n)
@@ -47,7 +47,7 @@ contains
             end do
          end if
          if (i == pieces) exit
-         ! At an end of pieces y turns round in a corner, or where the slope is exactly zero
+         ! at the end of a piece y reverses at a corner, or where the slope is exactly zero
          behind = y%c(1, i + 1)
          if (before*behind > 0.0_wp) cycle
          count = count + 1
@@ -56,11 +56,11 @@ contains
       turns = [found(:count), y%s(pieces + 1)]
    end subroutine find_turns
 
-   !> The stretch between two places
+   !> The stretch between two arc lengths
    pure function stretch_between(y, s_low, s_high) result(along)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Ends of the stretch [mm], between two turns
+      !> Ends of the stretch [mm], between two reversals
       real(wp), intent(in) :: s_low, s_high
       type(stretch) :: along
 
@@ -71,13 +71,13 @@ contains
       along%rises = y%value(s_high) > y%value(s_low)
    end function stretch_between
 
-   !> Place with a given y in a stretch where y is monotone; the nearer end when there is none
+   !> Arc length of a given y in a stretch where y is monotonic; the nearer end if there is none
    pure real(wp) function place_in_stretch(y, along, target) result(s)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Where y is monotone
+      !> Stretch where y is monotonic
       type(stretch), intent(in) :: along
-      !> Value of y that is looked for [mm]
+      !> Value of y [mm]
       real(wp), intent(in) :: target
       integer :: piece
 
@@ -85,13 +85,13 @@ contains
       s = y%s(piece) + place_in_piece(y, along, piece, target)
    end function place_in_stretch
 
-   !> Number of the piece of a stretch that holds a value of y
+   !> Index of the piece of a stretch that contains a value of y
    pure integer function piece_in_stretch(y, along, target) result(first)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Where y is monotone
+      !> Stretch where y is monotonic
       type(stretch), intent(in) :: along
-      !> Value of y that is looked for [mm]
+      !> Value of y [mm]
       real(wp), intent(in) :: target
       integer :: last, middle
 
@@ -107,15 +107,15 @@ contains
       end do
    end function piece_in_stretch
 
-   !> Does a piece of a stretch hold a value of y, as `piece_in_stretch` would find?
+   !> Does a piece of a stretch contain a value of y, as found by `piece_in_stretch`?
    pure logical function holds(y, along, piece, target)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Where y is monotone
+      !> Stretch where y is monotonic
       type(stretch), intent(in) :: along
       !> Any number
       integer, intent(in) :: piece
-      !> Value of y that is looked for [mm]
+      !> Value of y [mm]
       real(wp), intent(in) :: target
 
       holds = piece >= along%first .and. piece <= along%last
@@ -123,15 +123,15 @@ contains
       if (holds .and. piece < along%last) holds = .not. (y%c(0, piece + 1) < target .eqv. along%rises)
    end function holds
 
-   !> Place with a given y in a piece of a stretch, from the beginning of the piece
+   !> Position of a given y in a piece of a stretch, from the start of the piece
    pure real(wp) function place_in_piece(y, along, piece, target) result(place)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
-      !> Where y is monotone
+      !> Stretch where y is monotonic
       type(stretch), intent(in) :: along
       !> From `piece_in_stretch`
       integer, intent(in) :: piece
-      !> Value of y that is looked for [mm]
+      !> Value of y [mm]
       real(wp), intent(in) :: target
 
       associate (start => y%s(piece))
@@ -140,7 +140,7 @@ contains
       end associate
    end function place_in_piece
 
-   !> Numbers in rising order (heap sort)
+   !> Values in increasing order (heap sort)
    pure function sorted(values) result(order)
       !> Any numbers
       real(wp), intent(in) :: values(:)

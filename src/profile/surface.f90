@@ -1,10 +1,9 @@
-!> A variable profile: a surface through slices, cut at any position along the track or around the wheel
+!> A variable profile: a surface through slices, which can be cut at any position along the track or around the wheel
 !>
-!> Each slice is divided at its features into parts, each part evenly into the same number of intervals in
-!> all slices. Points with the same number lie on one line along u; a line is a cubic spline in u over the
-!> slices that have it. A cut gathers the lines that exist at its position and makes a curve of them. As
-!> interpolation along the lines and across them commute, this is the tensor-product spline. Across wheels the cubics
-!> between the lines are local ones, as in the original program.
+!> Each slice is divided at its features into parts, and each part into the same number of equal intervals in all slices. Points
+!> with the same number form a line along u: a cubic spline in u over the slices that contain it. A cut evaluates the lines at
+!> its position and forms a curve of them. As interpolations along and across the lines commute, this is the tensor-product
+!> spline. Across wheels local cubics are used between the lines, as in the original program.
 module contact_profile_surface
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, fatal_error
@@ -21,7 +20,7 @@ module contact_profile_surface
 
    public :: profile_surface, surface_cut, line_group, new_surface
 
-   !> Lines that exist in one unbroken row of slices
+   !> Lines that exist in the same contiguous sequence of slices
    type :: line_group
       !> Range of u, and of line numbers
       real(wp) :: low, high
@@ -38,27 +37,27 @@ module contact_profile_surface
       real(wp) :: u_range(2) = 0.0_wp
       !> Positions of the slices
       real(wp), allocatable :: slices(:)
-      !> Lines; those at kinks
+      !> Number of lines; lines at kinks
       integer :: lines = 0
       logical, allocatable, private :: is_kink(:)
       type(line_group), allocatable :: groups(:)
    contains
       !> The section at a position
       procedure :: cut
-      !> The same where a rail that has ended, or a wheel that is not given there, goes on as at its nearest slice
+      !> The same, but a rail beyond its ends, and a wheel where it is not given, continue with the nearest slice
       procedure :: continued
-      !> Part of a stretch of rail that no slice describes
+      !> Fraction of a stretch of rail outside the range of the slices
       procedure :: part_beyond
    end type profile_surface
 
    !> A section of the surface across u
    type :: surface_cut
-      !> Is there any surface at this position?
+      !> Does the surface exist at this position?
       logical :: present = .false.
-      !> Its nodes are lines of the surface; number of the first
+      !> Its nodes are lines of the surface; index of the first
       type(profile_curve) :: curve
       integer, private :: first_line = 1
-      !> Derivatives along u on the lines, as functions of the curve's s
+      !> Derivatives along u on the lines, as functions of the s of the curve
       type(cubic_spline), private :: y_u, z_u
    contains
       !> Point at a coordinate v
@@ -69,23 +68,23 @@ module contact_profile_surface
       procedure :: at
    end type surface_cut
 
-   !> Distance of lines across the profile [mm]
+   !> Distance between lines across the profile [mm]
    real(wp), parameter :: line_distance = 0.5_wp
-   !> A surface that leaves the slices on both sides by more than this is told when it is read [mm]
+   !> A surface that deviates by more than this from the slices on both sides gives a warning when it is read [mm]
    real(wp), parameter, public :: large_swing = 0.5_wp
-   !> Least dy/ds where slopes are asked for; vertical walls have none
+   !> Minimum dy/ds for slopes; vertical walls have none
    real(wp), parameter :: vertical = 1.0e-6_wp
-   !> What rounding may do to the ends of the range, of its length
+   !> Tolerance at the ends of the range, relative to its length
    real(wp), parameter :: rounding = 1.0e-9_wp
-   !> Slices that a spline along u needs
+   !> Minimum number of slices for a spline along u
    integer, parameter :: fewest_slices = 4
 
-   !> Features at less than this distance before the start of a slice are at its start [mm]; -1 says that there is none
+   !> Features less than this before the start of a slice are at its start [mm]; -1 means absent
    real(wp), parameter :: at_start = 1.0e-6_wp
 
 contains
 
-   !> Build the surface from prepared slices
+   !> Create the surface from prepared slices
    subroutine new_surface(side, list, curves, file, surface, error)
       !> Member of profile_side
       integer, intent(in) :: side
@@ -97,7 +96,7 @@ contains
       character(len=*), intent(in) :: file
       !> Splines through the points of all slices
       type(profile_surface), intent(out) :: surface
-      !> Names the file, and the slice that does not fit the others
+      !> Gives the file, and the slice that does not match the others
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: features(:, :), y(:, :), z(:, :), u(:)
       integer, allocatable :: first_line(:)
@@ -117,7 +116,7 @@ contains
       call limit_features(list, curves, file, features, error)
       if (allocated(error)) return
 
-      ! Numbers of the lines at features
+      ! indices of the lines at features
       allocate(first_line(parts + 1))
       first_line(1) = 1
       do f = 1, parts
@@ -144,7 +143,7 @@ contains
 
    contains
 
-      !> A group for each unbroken row of slices that have the lines
+      !> Add a group for each contiguous sequence of slices that contain the lines
       subroutine add_groups(surface, there, first, last)
          type(profile_surface), intent(inout) :: surface
          logical, intent(in) :: there(:)
@@ -184,7 +183,7 @@ contains
       end subroutine add_groups
    end subroutine new_surface
 
-   !> Features cut off at the end of each slice; -1 where a feature is absent
+   !> Features limited to the end of each slice; -1 where a feature is absent
    subroutine limit_features(list, curves, file, features, error)
       type(slices_list), intent(in) :: list
       type(profile_curve), intent(in) :: curves(:)
@@ -224,7 +223,7 @@ contains
       end do
    end function longest_part
 
-   !> Points of a slice on all lines that it has
+   !> Points of a slice on all its lines
    pure subroutine sample(curve, features, first_line, y, z)
       type(profile_curve), intent(in) :: curve
       real(wp), intent(in) :: features(:)
@@ -248,8 +247,8 @@ contains
 
    !> Coefficients along u from the points of the slices
    !>
-   !> Approximating, the points are the control points themselves, with one more at each end on the straight
-   !> line through the last two: a slice counts one sixth for its neighbours, four sixths for itself.
+   !> For approximation the points are the control points, with an additional one at each end by linear extrapolation from the
+   !> last two: a slice has weight four sixths, each of its neighbours one sixth.
    subroutine spline_along(u, approximating, group)
       real(wp), intent(in) :: u(:)
       logical, intent(in) :: approximating
@@ -261,7 +260,7 @@ contains
       n = size(u)
       if (.not. approximating) then
          group%t = interpolation_knots(u)
-         ! Sites rise and the knots are made of them: the systems are not singular
+         ! sites increase and determine the knots, so that the systems are not singular
          call interpolate_sites(group%t, u, group%y, solved)
          call interpolate_sites(group%t, u, group%z, solved)
          return
@@ -282,18 +281,18 @@ contains
       longer(n + 2, :) = 2.0_wp*points(n, :) - points(n - 1, :)
    end function with_phantoms
 
-   !> The section at a position; without surface there when `section%present` is false
+   !> The section at a position; `section%present` is false where there is no surface
    !>
-   !> Angles around a wheel are taken modulo one turn. A wheel that is not given all around goes on beyond
-   !> its first and last slice as it is there; a rail ends.
+   !> Angles around a wheel are taken modulo one turn. A wheel that is not given all around is continued beyond its first and
+   !> last slice; a rail ends there.
    subroutine cut(self, position, section, axes)
       class(profile_surface), intent(in) :: self
-      !> [mm] or [rad]
+      !> Position [mm] or [rad]
       real(wp), intent(in) :: position
       !> The section: lines, coordinates and derivatives along u
       type(surface_cut), intent(out) :: section
-      !> Where the section is seen from: origin (y, z) [mm] and roll angle [rad] in the axes of the surface. Splines through
-      !> points that are moved and rolled are the moved and rolled splines
+      !> Axes of the section: origin (y, z) [mm] and roll angle [rad] in the axes of the surface. Splines through shifted and
+      !> rolled points equal the shifted and rolled splines
       real(wp), intent(in), optional :: axes(3)
       real(wp) :: u
       real(wp) :: points(self%lines, 4), b(4), slope(4)
@@ -323,7 +322,7 @@ contains
       end do
       first = findloc(there, .true., 1)
       if (first == 0) return
-      ! A feature line may go on where both parts beside it have ended
+      ! a feature line may continue where both adjacent parts have ended
       last = first
       do while (last < self%lines)
          if (.not. there(last + 1)) exit
@@ -335,7 +334,7 @@ contains
       if (any(s(2:) <= s(:size(s) - 1))) return
       if (present(axes)) call turn(points(first:last, :), axes)
       if (self%side == profile_side%wheel) then
-         ! A flat ends in corners that run across the lines: splines would swing beside them
+         ! a flat ends in corners that cross the lines, next to which splines would overshoot
          call local_splines(s, points(first:last, :), splines, self%is_kink(first:last))
       else
          call natural_splines(s, points(first:last, :), splines, self%is_kink(first:last))
@@ -350,10 +349,10 @@ contains
       section%present = .true.
    end subroutine cut
 
-   !> The section at a position; beyond the first and the last slice the nearest one, without slope along u
+   !> The section at a position; beyond the first and the last slice the nearest one, with zero slope along u
    subroutine continued(self, position, section, axes)
       class(profile_surface), intent(in) :: self
-      !> [mm] or [rad]
+      !> Position [mm] or [rad]
       real(wp), intent(in) :: position
       !> The section; always present
       type(surface_cut), intent(out) :: section
@@ -368,10 +367,10 @@ contains
       section%z_u%c = 0.0_wp
    end subroutine continued
 
-   !> Part of a stretch of rail that lies before the first or behind the last slice, 0...1
+   !> Fraction of a stretch of rail before the first or after the last slice, 0...1
    pure real(wp) function part_beyond(self, range) result(part)
       class(profile_surface), intent(in) :: self
-      !> Rising [mm]
+      !> Increasing [mm]
       real(wp), intent(in) :: range(2)
 
       part = 1.0_wp - max(0.0_wp, min(range(2), self%u_range(2)) - max(range(1), self%u_range(1)))/(range(2) - range(1))
@@ -388,7 +387,7 @@ contains
       if (self%side == profile_side%wheel) u = u - 2.0_wp*pi*nint(u/(2.0_wp*pi))
    end function given_position
 
-   !> Points (y, z) and their derivatives along u (y, z) in other axes
+   !> Transform points (y, z) and their derivatives along u (y, z) to other axes
    pure subroutine turn(points, axes)
       real(wp), intent(inout) :: points(:, :)
       !> See `cut`
@@ -414,15 +413,15 @@ contains
       call move_alloc(from%c, to%c)
    end subroutine move_spline
 
-   !> The point at the second coordinate v of the surface: lines have whole numbers, the first one 0; between them v is
-   !> linear in the arc length
+   !> The point at the second coordinate v of the surface: lines have integer values, starting at 0; between them v is linear in
+   !> the arc length
    pure subroutine on_line(self, v, y, z, found)
       class(surface_cut), intent(in) :: self
       !> Second coordinate of the surface [-], from 0
       real(wp), intent(in) :: v
-      !> [mm]
+      !> Coordinates [mm]
       real(wp), intent(out) :: y, z
-      !> False where the section has no line there
+      !> False if the section has no line there
       logical, intent(out) :: found
       real(wp) :: place, s
       integer :: i
@@ -449,11 +448,11 @@ contains
       real(wp), intent(in) :: y
       !> Height [mm], and its derivatives along y [-] and along u, per mm or per rad
       real(wp), intent(out) :: z, z_y, z_u
-      !> False where the section has no point with this y
+      !> False if the section has no point with this y
       logical, intent(out) :: found
-      !> Piece of the section that is looked at first, and the one that holds the point
+      !> Piece of the section to be tried first; on exit the piece that contains the point
       integer, intent(inout) :: piece
-      !> How both derivatives change along y, per mm
+      !> Derivatives of both along y, per mm
       real(wp), intent(out), optional :: z_yy, z_uy
       real(wp) :: across, y_u, t, bend
 
@@ -475,7 +474,7 @@ contains
          y_u = cy_u(0, piece) + t*(cy_u(1, piece) + t*(cy_u(2, piece) + t*cy_u(3, piece)))
          z_u = z_u - z_y*y_u
          if (.not. (present(z_yy) .and. present(z_uy))) return
-         ! derivatives along the section, over dy/ds
+         ! derivatives along the section, divided by dy/ds
          bend = 2.0_wp*(cz(2, piece) + t*3.0_wp*cz(3, piece) - z_y*(cy(2, piece) + t*3.0_wp*cy(3, piece)))
          z_yy = bend/across**2
          z_uy = (cz_u(1, piece) + t*(2.0_wp*cz_u(2, piece) + t*3.0_wp*cz_u(3, piece)) &
@@ -483,7 +482,7 @@ contains
       end associate
    end subroutine at
 
-   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 where there is none
+   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 if there is none
    elemental real(wp) function slope_along(self, y) result(slope)
       class(surface_cut), intent(in) :: self
       !> Lateral coordinate [mm]

@@ -1,7 +1,8 @@
 !> Control points that enclose a part of a variable profile
 !>
-!> Along u each line of a surface is a cubic spline. On a stretch without knots it is one cubic, which lies within the convex hull
-!> of four control points. Bounds of a surface come from them without cuts at single positions, between which anything might be.
+!> Along u each line of a surface is a cubic spline. On a stretch without knots it is a single cubic, which lies within the
+!> convex hull of four control points. They give bounds of a surface without cuts at individual positions, between which it
+!> could be anywhere.
 module contact_profile_surface_hull
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -15,13 +16,13 @@ module contact_profile_surface_hull
 
 contains
 
-   !> Positions that divide a range into stretches without knots; ends of the surface are among them
+   !> Positions that divide a range into stretches without knots; they include the ends of the surface
    subroutine stretch_breaks(surface, range, breaks)
-      !> Surface whose knots along u count
+      !> Surface with knots along u
       type(profile_surface), intent(in) :: surface
-      !> Rising: along the track [mm], or around the wheel, less than one turn [rad]
+      !> Increasing: along the track [mm], or around the wheel, less than one turn [rad]
       real(wp), intent(in) :: range(2)
-      !> Rising, `range` first and last
+      !> Increasing, `range` first and last
       real(wp), allocatable, intent(out) :: breaks(:)
       real(wp) :: turn
       integer :: g, lap
@@ -37,12 +38,12 @@ contains
          end associate
       end do
       if (.not. turn > 0.0_wp) return
-      ! a wheel that is not given all around goes on from its last slice to half a turn, and from there to its first one
+      ! a wheel that is not given all around continues from its last slice to half a turn, and from there to its first one
       call add([-pi, pi])
 
    contains
 
-      !> Put in what is new and within the range
+      !> Insert positions that are new and within the range
       subroutine add(places)
          real(wp), intent(in) :: places(:)
          integer :: i, k
@@ -56,15 +57,15 @@ contains
       end subroutine add
    end subroutine stretch_breaks
 
-   !> Control points of all lines of a stretch; beyond the ends of the surface those of its end
+   !> Control points of all lines of a stretch; beyond the ends of the surface those at the end
    subroutine stretch_hull(surface, stretch, y, z, first, last)
       !> Surface with at least one line
       type(profile_surface), intent(in) :: surface
-      !> Between two neighbours of `stretch_breaks`
+      !> Between two consecutive values of `stretch_breaks`
       real(wp), intent(in) :: stretch(2)
-      !> Shape (lines, 4) [mm], in the coordinates of the surface; 0 on lines that are not there
+      !> Shape (lines, 4) [mm], in the coordinates of the surface; 0 on lines that do not exist there
       real(wp), intent(out) :: y(:, :), z(:, :)
-      !> The unbroken row of lines that a cut takes; `last` before `first` without any
+      !> Contiguous range of lines that a cut would use; `last` < `first` if there is none
       integer, intent(out) :: first, last
       real(wp) :: u(2), middle, h, b(4, 2), slope(4, 2), weights(4, 4)
       logical :: there(surface%lines)
