@@ -1,4 +1,4 @@
-!> Friction that changes with the surface temperature
+!> Friction that depends on the surface temperature
 !>
 !>     mu(T) = mu_cold + (mu_hot - mu_cold) min(1, max(0, (T - T_onset)/range))
 module contact_friction_heated
@@ -36,7 +36,7 @@ contains
       character(len=100) :: text
 
       text = ""
-      if (set%dtheat <= 0.0_wp) text = "the range of temperature in which friction changes must be positive"
+      if (set%dtheat <= 0.0_wp) text = "the temperature range in which friction changes must be positive"
    end function fault
 
    pure subroutine coefficient(self, cause, mu)
@@ -55,16 +55,15 @@ contains
 
    !> Coefficient of an element whose temperature rises with its own friction
    !>
-   !> Solves mu = theta mu_before + (1 - theta) mu(temperature + rise mu), which is linear on each of
-   !> the three pieces of the law. Where friction grows with temperature so fast that two solutions
-   !> are stable, the cold one is taken.
+   !> Solves mu = theta mu_before + (1 - theta) mu(temperature + rise mu), which is linear on each of the three pieces of the
+   !> law. Where friction increases so steeply with temperature that two solutions are stable, the cold one is taken.
    pure real(wp) function self_heated(self, iy, temperature, rise, theta, mu_before) result(mu)
       class(heated_law), intent(in) :: self
       !> Row of the element
       integer, intent(in) :: iy
-      !> Temperature without the heat of the element itself [degC], and what that adds per unit of mu, at least 0
+      !> Temperature without the heat of the element itself [degC], and temperature rise per unit of mu, at least 0
       real(wp), intent(in) :: temperature, rise
-      !> Weight of the coefficient that the particles bring with them, 0...1, and this coefficient [-]
+      !> Weight of the coefficient that particles had before, 0...1, and this coefficient [-]
       real(wp), intent(in) :: theta, mu_before
       real(wp) :: change, slope
 

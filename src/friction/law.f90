@@ -1,6 +1,6 @@
-!> What a friction law is: a coefficient per element, from the slip velocity or the temperature
+!> Friction laws: a coefficient per element, as a function of slip velocity or temperature
 !>
-!> A law works on whole fields of the grid; it holds one set of parameters, or one per row.
+!> A law operates on complete fields; it holds one set of parameters, or one per row of the grid.
 module contact_friction_law
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -8,27 +8,27 @@ module contact_friction_law
 
    public :: coulomb_law, friction_driver, friction_law, friction_set, mixed, title_length
 
-   !> Room for a law in words
+   !> Length of the title of a law
    integer, parameter :: title_length = 48
 
    type :: friction_driver_list
       integer :: none = 0, slip_speed = 1, temperature = 2
    end type friction_driver_list
-   !> What a law depends on
+   !> Quantity on which a law depends
    type(friction_driver_list), parameter :: friction_driver = friction_driver_list()
 
-   !> One set of friction parameters; a law uses those that it has
+   !> A set of friction parameters; each law uses some of them
    !>
-   !> All components are real numbers: `numbers` and `mixed` see them as one array.
+   !> All components are real numbers: `numbers` and `mixed` treat them as an array.
    type :: friction_set
-      !> Angle [rad] or position [mm] to which the set belongs, where friction varies along the rail
+      !> Angle [rad] or position [mm] of the set, if friction varies over the contact
       real(wp) :: position = 0.0_wp
-      !> Coefficient at rest or in the cold, and limit at high velocity or temperature [-]
+      !> Coefficient at rest or in the cold state, and limit at high velocity or temperature [-]
       real(wp) :: fstat = 0.3_wp, fkin = 0.3_wp
-      !> Contributions of two terms that vanish at high velocity [-] and the velocities [mm/s] at which half of them is left
+      !> Two terms that vanish at high velocity [-], and the velocities at which they have decreased by half [mm/s]
       real(wp) :: coef1 = 0.0_wp, sabsh1 = 1.0_wp, coef2 = 0.0_wp, sabsh2 = 1.0_wp
-      !> Temperature dependence: coefficient in the cold [-], temperature at which friction begins to change [degC], change [-],
-      !> and range over which it does [degC]
+      !> Temperature dependence: coefficient in the cold state [-], temperature at which friction starts to change [degC],
+      !> change [-], and temperature range of the change [degC]
       real(wp) :: fref = 0.3_wp, tref = 0.0_wp, dfheat = -0.1_wp, dtheat = 800.0_wp
    contains
       !> All components as an array
@@ -40,17 +40,17 @@ module contact_friction_law
       !> One set, or one per row of the grid
       type(friction_set), allocatable :: sets(:)
    contains
-      !> Coefficient in every element
+      !> Coefficient of each element
       procedure(coefficient_interface), deferred :: coefficient
-      !> The law in words, with blanks behind
+      !> Title of the law, padded with blanks
       procedure(title_interface), deferred, nopass :: title
       !> Member of friction_driver
       procedure, nopass :: driver => no_driver
-      !> What is wrong with a set of parameters, beyond what is wrong with it in every law; blank when nothing is
+      !> What is wrong with a set of parameters for this law; blank if nothing
       procedure, nopass :: fault => no_fault
-      !> Coefficient at rest and in the cold in every element
+      !> Coefficient of each element at rest and in the cold state
       procedure, non_overridable :: at_rest
-      !> Number of the set of a row
+      !> Index of the set of a row
       procedure, non_overridable :: set_of_row
       !> Does friction differ between rows?
       procedure, non_overridable :: varies_by_row
@@ -61,7 +61,7 @@ module contact_friction_law
          import :: friction_law, wp
          implicit none (type, external)
          class(friction_law), intent(in) :: self
-         !> Slip velocity [mm/s] or temperature [degC], shape (mx, my); without meaning for Coulomb's law
+         !> Slip velocity [mm/s] or temperature [degC], shape (mx, my); unused by Coulomb's law
          real(wp), contiguous, intent(in) :: cause(:, :)
          !> Coefficient of friction [-], shape (mx, my)
          real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -74,7 +74,7 @@ module contact_friction_law
       end function title_interface
    end interface
 
-   !> Coulomb's law: one coefficient, whatever slip and temperature
+   !> Coulomb's law: a constant coefficient
    type, extends(friction_law) :: coulomb_law
    contains
       procedure :: coefficient => coulomb_coefficient
@@ -93,25 +93,25 @@ contains
       list = transfer(set, list)
    end function numbers
 
-   !> Parameters between two sets, by linear interpolation
+   !> Parameters by linear interpolation between two sets
    pure function mixed(a, b, t) result(set)
       !> Parameters at the two ends
       type(friction_set), intent(in) :: a, b
-      !> Share of b, 0...1
+      !> Weight of b, 0...1
       real(wp), intent(in) :: t
       type(friction_set) :: set
 
       set = transfer((1.0_wp - t)*a%numbers() + t*b%numbers(), set)
    end function mixed
 
-   !> A law that depends on nothing
+   !> Driver of a constant law
    pure integer function no_driver() result(driver)
       driver = friction_driver%none
    end function no_driver
 
-   !> Laws without limits of their own
+   !> Check of laws without parameter limits of their own
    pure function no_fault(set) result(text)
-      !> Parameters, which any law could have
+      !> Parameters of any law
       type(friction_set), intent(in) :: set
       character(len=100) :: text
 
@@ -120,7 +120,7 @@ contains
       end associate
    end function no_fault
 
-   !> Number of the set that belongs to a row
+   !> Index of the set of a row
    pure integer function set_of_row(self, iy) result(number)
       class(friction_law), intent(in) :: self
       !> Row of the grid, from 1
@@ -128,7 +128,7 @@ contains
       number = min(iy, size(self%sets))
    end function set_of_row
 
-   !> Coefficient without slip and in the cold
+   !> Coefficient without slip and in the cold state
    pure subroutine at_rest(self, mu)
       class(friction_law), intent(in) :: self
       !> [-], shape (mx, my)

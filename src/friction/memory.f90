@@ -1,7 +1,7 @@
 !> Friction memory: the coefficient follows the law with a delay
 !>
-!> Particles bring a coefficient with them; over a distance slipped of the order of the memory
-!> distance it becomes the one of the law,
+!> Particles carry a coefficient with them. Over a slipped distance of the order of the memory distance it approaches that of
+!> the law,
 !>
 !>     mu = theta mu_before + (1 - theta) mu_law,   theta = d/(d + dt max(s, s_0)),
 !>
@@ -15,22 +15,22 @@ module contact_friction_memory
    public :: friction_memory
 
    type :: friction_memory
-      !> Memory distance [mm]; shorter ones than 1e-9 mean none
+      !> Memory distance [mm]; below 1e-9: no memory
       real(wp) :: distance = 0.0_wp
-      !> Lowest slip velocity of the adaptation [mm/s]
+      !> Minimum slip velocity of the adaptation [mm/s]
       real(wp) :: lowest_speed = 0.0_wp
    contains
-      !> Does the past matter?
+      !> Is there any memory?
       procedure :: acts
-      !> Weight theta of the past
+      !> Weight theta of the previous coefficient
       procedure :: weight
-      !> Coefficients in a time step, from those of the same particles at the previous time
+      !> Coefficients in a time step, from those of the same particles in the previous step
       procedure :: step
-      !> Coefficients in steady rolling, from the element that a particle leaves
+      !> Coefficients in steady rolling, from the upstream neighbour
       procedure :: march
    end type friction_memory
 
-   !> Memory distances below this value are none [mm]
+   !> Smaller memory distances mean no memory [mm]
    real(wp), parameter :: no_distance = 1.0e-9_wp
 
 contains
@@ -40,7 +40,7 @@ contains
       acts = self%distance > no_distance
    end function acts
 
-   !> Weight of the past in an element, 0 (none) to 1 (nothing changes)
+   !> Weight of the previous coefficient in an element, from 0 (no memory) to 1 (no change)
    pure elemental real(wp) function weight(self, speed, dt) result(theta)
       class(friction_memory), intent(in) :: self
       !> Slip velocity [mm/s] and time step [s]
@@ -56,7 +56,7 @@ contains
       real(wp), contiguous, intent(in) :: speed(:, :)
       !> Time step [s]
       real(wp), intent(in) :: dt
-      !> Coefficients of the same particles at the previous time [-], shape (mx, my)
+      !> Coefficients of the same particles in the previous time step [-], shape (mx, my)
       real(wp), contiguous, intent(in) :: before(:, :)
       !> Coefficients of the law on entry, with memory on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -80,7 +80,7 @@ contains
       real(wp), intent(in) :: dt
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
-      !> Coefficients of particles that enter the window [-], size my
+      !> Coefficients of particles that enter the grid [-], size my
       real(wp), intent(in) :: inflow(:)
       !> Coefficients of the law on entry, with memory on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)

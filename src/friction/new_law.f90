@@ -1,4 +1,4 @@
-!> Makes friction laws: the one place that knows which law belongs to which choice
+!> Factory of friction laws: the only place that maps choices to laws
 module contact_friction_new_law
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -19,13 +19,13 @@ module contact_friction_new_law
 
 contains
 
-   !> The law of a number: whether there is one, whether its coefficient changes, and the law without parameters on request
+   !> Look up a law: whether it exists, whether its coefficient varies, and optionally the law without parameters
    subroutine find_law(choice, is_law, varies, law)
-      !> Member of friction_model, or any other number
+      !> Member of friction_model, or any other value
       integer, intent(in) :: choice
-      !> Is there such a law, and does its coefficient change with slip or temperature?
+      !> Does the law exist, and does its coefficient vary with slip or temperature?
       logical, intent(out) :: is_law, varies
-      !> Unallocated where there is none
+      !> Unallocated if it does not exist
       class(friction_law), allocatable, intent(out), optional :: law
 
       is_law = .true.
@@ -41,7 +41,7 @@ contains
 
    contains
 
-      !> Answer for a law; nothing is taken from the heap but the law itself
+      !> Set the results for a law; only the law itself is allocated
       subroutine take(kind)
          class(friction_law), intent(in) :: kind
 
@@ -50,40 +50,40 @@ contains
       end subroutine take
    end subroutine find_law
 
-   !> Is there a law of this number?
+   !> Is there a law for this choice?
    logical function is_friction_law(choice) result(is_law)
-      !> Member of friction_model, or any other number
+      !> Member of friction_model, or any other value
       integer, intent(in) :: choice
       logical :: varies
 
       call find_law(choice, is_law, varies)
    end function is_friction_law
 
-   !> Does the coefficient of a law change with slip or temperature? Not where there is no such law
+   !> Does the coefficient of a law vary with slip or temperature? False if there is no such law
    logical function is_varying_law(choice) result(varies)
-      !> Member of friction_model, or any other number
+      !> Member of friction_model, or any other value
       integer, intent(in) :: choice
       logical :: is_law
 
       call find_law(choice, is_law, varies)
    end function is_varying_law
 
-   !> Law with one set of parameters, or one per row of the grid
+   !> Create a law with one set of parameters, or one per row of the grid
    subroutine new_friction_law(choice, sets, law, error)
       !> Member of friction_model
       integer, intent(in) :: choice
       !> Parameters: one set, or one per row of the grid, shape (my)
       type(friction_set), intent(in) :: sets(:)
-      !> Of the type that belongs to the choice
+      !> Law of the type that belongs to the choice
       class(friction_law), allocatable, intent(out) :: law
-      !> Allocated when no law has this number
+      !> Allocated if there is no such law
       type(error_type), allocatable, intent(out) :: error
       logical :: is_law, varies
       integer :: k
 
       call find_law(choice, is_law, varies, law)
       if (.not. is_law) then
-         call fatal_error(error, "there is no friction law of this number", error_kind%input)
+         call fatal_error(error, "there is no friction law with this number", error_kind%input)
          return
       end if
       law%sets = sets
@@ -91,7 +91,7 @@ contains
       do k = 1, size(sets)
          if (allocated(error)) return
          associate (set => law%sets(k))
-            ! a term that is not there may have any velocity
+            ! an absent term may have any velocity
             if (abs(set%coef1) <= 0.0_wp) set%sabsh1 = 1.0_wp
             if (abs(set%coef2) <= 0.0_wp) set%sabsh2 = 1.0_wp
             if (.not. all(ieee_is_finite(set%numbers()))) then

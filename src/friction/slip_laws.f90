@@ -1,12 +1,12 @@
-!> Friction that falls with the slip velocity: piecewise linear, rational, exponential
+!> Friction that decreases with slip velocity: piecewise linear, rational, exponential
 !>
-!> mu(s) = mu_kinetic + the sum of two terms that have fallen to one half at their velocity s_h:
+!> mu(s) = mu_kinetic + the sum of two terms that decrease to one half at their velocity s_h:
 !>
 !>     linear       c max(0, 1 - s/(2 s_h))
 !>     rational     c1/(1 + s/s_h1) + c2/(1 + (s/s_h2)**2)
 !>     exponential  c 2**(-s/s_h)
 !>
-!> See Vollebregt and Schuttelaars (2012) for what they do to contact problems.
+!> See Vollebregt and Schuttelaars (2012) for their effect on contact problems.
 module contact_friction_slip_laws
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver, friction_law, friction_set, title_length
@@ -15,7 +15,7 @@ module contact_friction_slip_laws
 
    public :: exponential_law, linear_law, rational_law
 
-   !> Laws that depend on the slip velocity, in terms with a velocity each
+   !> Laws that depend on slip velocity, with terms that each have a velocity
    type, abstract, extends(friction_law) :: slip_law
    contains
       procedure, nopass :: driver => slip_speed
@@ -46,7 +46,7 @@ contains
       driver = friction_driver%slip_speed
    end function slip_speed
 
-   !> Velocities of the terms must be positive
+   !> The velocities of the terms must be positive
    pure function fault_of_speeds(set) result(text)
       type(friction_set), intent(in) :: set
       character(len=100) :: text

@@ -25,9 +25,9 @@ contains
       coarse_size = (n + coarsening_factor(n) - 1)/coarsening_factor(n)
    end function coarse_size
 
-   !> The two coarse elements between whose centres fine element i lies, and the weight of the second
+   !> The two coarse elements whose centres enclose that of fine element i, and the weight of the second
    pure subroutine coarse_neighbours(i, n, first, second, weight)
-      !> Number of the fine element and number of fine elements in this direction
+      !> Index of the fine element, and number of fine elements in this direction
       integer, intent(in) :: i, n
       !> Coarse elements; equal at the ends
       integer, intent(out) :: first, second

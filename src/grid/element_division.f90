@@ -1,4 +1,4 @@
-!> States of the elements: the element division
+!> Element division: states of the elements
 module contact_grid_element_division
    implicit none (type, external)
    private
@@ -8,17 +8,17 @@ module contact_grid_element_division
    type :: element_list
       integer :: exterior = 0, adhesion = 1, slip = 2, plastic = 3
    end type element_list
-   !> Names of the element states; every state above exterior is in contact
+   !> Element states; all states above exterior are in contact
    type(element_list), parameter :: element = element_list()
 
-   !> Index ranges of the smallest rectangle that holds the contact area; empty if ix0 > ix1
+   !> Index ranges of the smallest rectangle that contains the contact area; empty if ix0 > ix1
    type :: bounding_box
       integer :: ix0 = 1, ix1 = 0, iy0 = 1, iy1 = 0
    end type bounding_box
 
 contains
 
-   !> Smallest rectangle that holds all elements in contact
+   !> Smallest rectangle that contains all elements in contact
    pure function contact_box(division) result(box)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)

@@ -1,4 +1,4 @@
-!> Picture of the element division in characters
+!> Text picture of the element division
 module contact_grid_picture
    use contact_base_choices, only : motion
    use contact_base_constants, only : pi
@@ -13,22 +13,22 @@ module contact_grid_picture
    !> Flow trace level of intermediate element divisions
    integer, parameter :: picture_level = 9
 
-   !> Up to so many columns are shown with a blank before each symbol
+   !> Maximum number of columns shown with a blank before each symbol
    integer, parameter :: spaced_columns = 46
-   !> Contact that starts and ends within so many columns of the border shows the full range
+   !> If the contact starts and ends within this number of columns of the border, the full range is shown
    integer, parameter :: near_border = 5
-   !> Half the number of columns around the middle that are shown when there is no contact
+   !> Half the number of columns shown around the middle if there is no contact
    integer, parameter :: empty_half = 5
 
 contains
 
-   !> Picture of a solution, with its title and the rolling direction
+   !> Write the picture of a solution, with its title and the rolling direction
    subroutine write_picture(log, division, motion_kind, chi)
-      !> The picture goes to the .out file only
+      !> The picture is written to the .out file only
       type(log_type), intent(inout) :: log
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
-      !> Member of motion: rolling shows the rolling direction
+      !> Member of motion; the rolling direction is shown for rolling
       integer, intent(in) :: motion_kind
       !> Rolling direction [rad]
       real(wp), intent(in) :: chi
@@ -48,9 +48,9 @@ contains
       call log%line(trim(last_line))
    end subroutine write_picture
 
-   !> An intermediate element division, for the most detailed flow trace
+   !> Write an intermediate element division, for the most detailed flow trace
    subroutine trace_picture(log, division)
-      !> Sees the picture from flow-trace level 9 on
+      !> Written from flow-trace level 9 on
       type(log_type), intent(inout) :: log
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
@@ -64,7 +64,7 @@ contains
       end do
    end subroutine trace_picture
 
-   !> Rows of the picture, highest first, and the column numbers below them
+   !> Rows of the picture, topmost first, and the column numbers below them
    pure subroutine draw(division, lines)
       integer, intent(in) :: division(:, :)
       character(len=:), allocatable, intent(out) :: lines(:)
@@ -111,7 +111,7 @@ contains
       end if
    end function picture_window
 
-   !> Add a border of one; show everything when the contact nearly fills the range
+   !> Extend the range by one on each side; use the full range if the contact nearly fills it
    pure subroutine widen(size, first, last)
       integer, intent(in) :: size
       integer, intent(inout) :: first, last
@@ -125,7 +125,7 @@ contains
       end if
    end subroutine widen
 
-   !> A few around the middle
+   !> A small range around the middle
    pure subroutine around_middle(size, first, last)
       integer, intent(in) :: size
       integer, intent(out) :: first, last
@@ -134,10 +134,10 @@ contains
       last = min(size, (size + 1)/2 + empty_half)
    end subroutine around_middle
 
-   !> One decimal of the column numbers, shown where the lower decimals are zero
+   !> One decimal digit of the column numbers, shown where the lower digits are zero
    pure function column_digits(window, step, unit) result(line)
       type(bounding_box), intent(in) :: window
-      !> Columns of text per element; 1, 10 or 100
+      !> Text columns per element; 1, 10 or 100
       integer, intent(in) :: step, unit
       character(len=step*(window%ix1 - window%ix0 + 1)) :: line
       integer :: ix, position

@@ -6,11 +6,11 @@ module contact_grid_potential_contact
 
    public :: fit_field, is_same_side, potential_contact
 
-   !> Sides of elements that differ by less, relative, are equal, and shifts that differ by less from a whole number of elements,
-   !> in elements, are whole ones: looser than the established program, as the user guide says
+   !> Element sides whose relative difference is smaller are equal, and shifts that differ less from an integer number of
+   !> elements, in elements, are integer: less strict than the established program, see the user guide
    real(wp), parameter :: same_side = 1.0e-4_wp, same_place = 1.0e-3_wp
 
-   !> A grid of mx by my rectangular elements; element (ix, iy) has number ix + mx (iy - 1)
+   !> A grid of mx by my rectangular elements; element (ix, iy) has index ix + mx (iy - 1)
    type :: potential_contact
       !> Number of elements along and across the rolling direction
       integer :: mx = 0, my = 0
@@ -27,7 +27,7 @@ module contact_grid_potential_contact
       procedure :: npot => number_of_elements
       !> Distance of the lower corner from that of another grid, in elements [-]
       procedure :: offset
-      !> Are there the same elements as in another grid, as far as both reach?
+      !> Do the elements coincide with those of another grid, where both overlap?
       procedure :: continues
    end type potential_contact
 
@@ -35,21 +35,21 @@ contains
 
    elemental real(wp) function centre_x(self, ix) result(x)
       class(potential_contact), intent(in) :: self
-      !> Column, from 1 at the smallest x; columns outside the grid are continued
+      !> Column, from 1 at the smallest x; extrapolated outside the grid
       integer, intent(in) :: ix
       x = self%xl + (real(ix, wp) - 0.5_wp)*self%dx
    end function centre_x
 
    elemental real(wp) function centre_y(self, iy) result(y)
       class(potential_contact), intent(in) :: self
-      !> Row, from 1 at the smallest y; rows outside the grid are continued
+      !> Row, from 1 at the smallest y; extrapolated outside the grid
       integer, intent(in) :: iy
       y = self%yl + (real(iy, wp) - 0.5_wp)*self%dy
    end function centre_y
 
-   !> Are the sides of elements equal, so that solutions go over from one to the other?
+   !> Are element sides equal, so that solutions can be transferred from one grid to the other?
    elemental logical function is_same_side(side, other)
-      !> [mm]
+      !> Element sides [mm]
       real(wp), intent(in) :: side, other
 
       is_same_side = abs(side - other) <= same_side*other
@@ -57,7 +57,7 @@ contains
 
    pure function offset(self, other)
       class(potential_contact), intent(in) :: self
-      !> Grid whose first corner the distance is counted from, in elements of `self`
+      !> Grid from whose lower corner the distance is measured, in elements of `self`
       class(potential_contact), intent(in) :: other
       real(wp) :: offset(2)
 
@@ -66,16 +66,16 @@ contains
 
    pure logical function continues(self, other)
       class(potential_contact), intent(in) :: self
-      !> Grid with elements that may be the same ones
+      !> Grid whose elements may coincide
       class(potential_contact), intent(in) :: other
 
       continues = is_same_side(self%dx, other%dx) .and. is_same_side(self%dy, other%dy)
       if (continues) continues = all(abs(self%offset(other) - anint(self%offset(other))) <= same_place)
    end function continues
 
-   !> Room for one value per element; kept with its values when the shape is right
+   !> Allocate one value per element; kept with its values if the shape is right
    pure subroutine fit_field(grid, field)
-      !> Grid whose size the field gets
+      !> Grid that gives the size
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: field(:, :)

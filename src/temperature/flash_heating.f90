@@ -1,13 +1,13 @@
-!> Surface temperatures of two rolling bodies: conduction between them and heat of friction
+!> Surface temperatures of two rolling bodies: conduction between them and frictional heat
 !>
-!> Fast particles carry heat away before it spreads sideways: under every element there is
-!> one-dimensional conduction into a half-space, Carslaw and Jaeger (1959), Ertz and Knothe (2002).
-!> A heat flux q(x) that enters a body of effusivity beta, passed at velocity V, makes
+!> Fast particles carry heat away before it spreads laterally: below each element there is one-dimensional conduction into a
+!> half-space, Carslaw and Jaeger (1959), Ertz and Knothe (2002). A heat flux q(x) into a body of effusivity beta that moves at
+!> velocity V gives
 !>
 !>     T(x) = T_0 + 1/(beta sqrt(pi V)) * integral of q(x')/sqrt(|x - x'|) over all x' upstream.
 !>
-!> Surfaces in contact have the same temperature; that divides the heat of friction in proportion
-!> to the effusivities, so both surfaces get warmer by the same amount.
+!> Surfaces in contact have the same temperature. Frictional heat is therefore divided in proportion to the effusivities, and
+!> both surfaces have the same temperature rise.
 module contact_temperature_flash_heating
    use contact_base_choices, only : heat_source
    use contact_base_constants, only : pi
@@ -19,7 +19,7 @@ module contact_temperature_flash_heating
 
    public :: body_pair, heat_passage, min_peclet_number, new_body_pair
 
-   !> From this Peclet number on, conduction along the surface changes the highest temperature by less than 3 %
+   !> Above this Peclet number, conduction along the surface changes the maximum temperature by less than 3 %
    real(wp), parameter :: min_peclet_number = 10.0_wp
 
    !> Thermal constants of both bodies
@@ -30,32 +30,32 @@ module contact_temperature_flash_heating
       real(wp) :: effusivity(2) = 1.0_wp
       !> Thermal diffusivities lambda/(rho c) [mm2/s]
       real(wp) :: diffusivity(2) = 0.0_wp
-      !> Share of the plastic work that becomes heat [-]
+      !> Fraction of the plastic work converted into heat [-]
       real(wp) :: plastic_share = 1.0_wp
       !> Member of heat_source
       integer :: source = heat_source%established
    contains
       !> Ratio of transport along the surface to conduction
       procedure :: peclet_number
-      !> Temperature at which bodies of bulk temperature touch
+      !> Common temperature of bodies in contact, without friction
       procedure :: interface_temperature
    end type body_pair
 
-   !> What the surfaces meet on their way through the grid
+   !> State of the surfaces along their path through the grid
    type :: heat_passage
       type(body_pair) :: bodies
       !> Side of the elements along x [mm], velocity [mm/s]
       real(wp) :: dx = 1.0_wp, veloc = 1.0_wp
-      !> Rolling towards increasing (+1) or decreasing (-1) x; particles go the other way
+      !> Rolling towards increasing (+1) or decreasing (-1) x; particles move in the opposite direction
       integer :: direction = 1
       !> Elements in contact, shape (mx, my)
       logical, allocatable :: contact(:, :)
    contains
       !> Temperatures without friction
       procedure :: conduct
-      !> Temperatures with a given heat of friction
+      !> Temperatures for a given frictional heat
       procedure :: surface_temperatures
-      !> Friction coefficients that agree with the temperatures they make
+      !> Friction coefficients consistent with the temperatures they cause
       procedure :: heat_by_friction
       procedure, private :: weights
       procedure, private :: rise_per_heat
@@ -63,11 +63,11 @@ module contact_temperature_flash_heating
 
 contains
 
-   !> From bulk temperatures [degC], specific heats [J/(kg degC)], conductivities [W/(mm degC)], densities [kg/mm3]
+   !> Create from bulk temperatures [degC], specific heats [J/(kg degC)], conductivities [W/(mm degC)], densities [kg/mm3]
    pure function new_body_pair(bulk, specific_heat, conductivity, density, plastic_share) result(bodies)
-      !> Values of body 1 and body 2 in these units
+      !> Values of bodies 1 and 2 in these units
       real(wp), intent(in) :: bulk(2), specific_heat(2), conductivity(2), density(2)
-      !> Share of the plastic work that becomes heat [-]
+      !> Fraction of the plastic work converted into heat [-]
       real(wp), intent(in) :: plastic_share
       type(body_pair) :: bodies
       !> N mm per J
@@ -80,7 +80,7 @@ contains
       bodies%plastic_share = plastic_share
    end function new_body_pair
 
-   !> V a/(2 kappa) [-], the smaller one of both bodies
+   !> Peclet number V a/(2 kappa) [-], the smaller value of both bodies
    pure real(wp) function peclet_number(self, half_length, veloc) result(number)
       class(body_pair), intent(in) :: self
       !> Half the length of the source along x [mm], velocity [mm/s]
@@ -91,8 +91,7 @@ contains
 
    !> Mean of the bulk temperatures, weighted by the effusivities
    !>
-   !> Differs from the original program, which weights them the other way round; the same for equal
-   !> effusivities.
+   !> The original program exchanges the weights; for equal effusivities there is no difference.
    pure real(wp) function interface_temperature(self) result(temperature)
       class(body_pair), intent(in) :: self
       temperature = dot_product(self%effusivity, self%bulk)/sum(self%effusivity)
@@ -100,9 +99,8 @@ contains
 
    !> Temperatures [degC] by conduction between bodies of different bulk temperature
    !>
-   !> In contact both surfaces have the interface temperature. Behind it a surface cools: a surface that
-   !> was kept at T_m while it passed a length l has T_0 + (T_m - T_0)(2/pi) asin(sqrt(l/d)) at the distance
-   !> d > l from the leading edge.
+   !> In contact both surfaces have the interface temperature. Behind the contact a surface cools: if it was held at T_m over a
+   !> length l, it has T_0 + (T_m - T_0)(2/pi) asin(sqrt(l/d)) at distance d > l from the leading edge.
    pure subroutine conduct(self, t1, t2)
       class(heat_passage), intent(in) :: self
       !> Temperatures of bodies 1 and 2 [degC], shape (mx, my)
@@ -114,7 +112,7 @@ contains
       first = merge(size(t1, 1), 1, self%direction > 0)
       last = size(t1, 1) + 1 - first
       do iy = 1, size(t1, 2)
-         ! numbers of elements since the leading edge, and up to the end of the contact so far
+         ! number of elements since the leading edge, and up to the end of the contact so far
          passed = 0
          length = 0
          do ix = first, last, -self%direction
@@ -132,10 +130,10 @@ contains
       end do
    end subroutine conduct
 
-   !> Temperatures [degC] with the heat of friction
+   !> Temperatures [degC] for a given frictional heat
    pure subroutine surface_temperatures(self, heat, t1, t2)
       class(heat_passage), intent(in) :: self
-      !> Heat that friction releases [N/(mm s)], shape (mx, my)
+      !> Frictional heat [N/(mm s)], shape (mx, my)
       real(wp), contiguous, intent(in) :: heat(:, :)
       !> Temperatures of bodies 1 and 2 [degC], shape (mx, my)
       real(wp), contiguous, intent(inout) :: t1(:, :), t2(:, :)
@@ -150,7 +148,7 @@ contains
       last = m + 1 - first
       do iy = 1, size(heat, 2)
          if (.not. any(heat(:, iy) > 0.0_wp)) cycle
-         ! rise(k): k elements from where particles enter
+         ! rise(k): k elements from the leading edge
          rise = 0.0_wp
          jx = 0
          do ix = first, last, -self%direction
@@ -164,25 +162,25 @@ contains
       end do
    end subroutine surface_temperatures
 
-   !> Coefficients of friction and temperatures that belong together, for a given slip velocity
+   !> Consistent coefficients of friction and temperatures for a given slip velocity
    !>
-   !> What is warm depends on what lies upstream and on the element itself, nothing else. A march
-   !> along with the particles therefore solves for both at once, where alternating between them
-   !> oscillates as soon as friction falls steeply with temperature. Memory does not follow the slip
-   !> velocity here but its lower bound, as in the original program.
+   !> The temperature of an element depends only on upstream elements and on the element itself. Marching with the particles
+   !> therefore solves for both at once, whereas alternating between them oscillates if friction decreases steeply with
+   !> temperature. The memory uses the lower bound of the slip velocity instead of the slip velocity itself, as in the original
+   !> program.
    subroutine heat_by_friction(self, law, memory, pn, speed, heat, dt, mu, t1)
       class(heat_passage), intent(in) :: self
-      !> Law whose coefficient falls with temperature
+      !> Law whose coefficient depends on temperature
       type(heated_law), intent(in) :: law
-      !> Adaptation of the coefficients along the way of the particles; its slip velocity is the lower bound
+      !> Adaptation of the coefficients along the path of the particles; its slip velocity is the lower bound
       type(friction_memory), intent(in) :: memory
-      !> Pressure [N/mm2], and slip velocity [mm/s] of elements whose traction is mu pn, shapes (mx, my)
+      !> Pressure [N/mm2], and slip velocity [mm/s] of elements whose traction is mu pn, shape (mx, my)
       real(wp), contiguous, intent(in) :: pn(:, :), speed(:, :)
       !> Heat from other sources [N/(mm s)], shape (mx, my)
       real(wp), contiguous, intent(in) :: heat(:, :)
       !> Time in which particles pass one element [s]
       real(wp), intent(in) :: dt
-      !> Coefficients [-] and temperatures of body 1 [degC], shapes (mx, my)
+      !> Coefficients [-] and temperatures of body 1 [degC], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :), t1(:, :)
       real(wp), allocatable :: weight(:), rise(:), t2(:, :)
       real(wp) :: before, own, given, released, per_heat, cold, theta
@@ -214,10 +212,10 @@ contains
       end do
    end subroutine heat_by_friction
 
-   !> Integrals of 1/(2 sqrt(distance)) over elements 0, 1, ... m - 1 places upstream [sqrt(mm)]
+   !> Integrals of 1/(2 sqrt(distance)) over elements 0, 1, ... m - 1 positions upstream [sqrt(mm)]
    !>
-   !> Particles at the centre of an element have felt the heat of half of it. The established program takes that twice,
-   !> which makes temperatures higher by a term of the order of sqrt(dx).
+   !> Particles at the centre of an element have received the heat of half of it. The established program counts this twice,
+   !> which increases temperatures by a term of the order of sqrt(dx).
    pure function weights(self, m) result(weight)
       class(heat_passage), intent(in) :: self
       integer, intent(in) :: m
@@ -227,12 +225,12 @@ contains
       weight(1) = sqrt(0.5_wp*self%dx)
       if (self%bodies%source == heat_source%established) weight(1) = 2.0_wp*weight(1)
       do k = 2, m
-         ! the difference of two roots without cancellation
+         ! difference of two roots, without cancellation
          weight(k) = sqrt(self%dx)/(sqrt(k - 0.5_wp) + sqrt(k - 1.5_wp))
       end do
    end function weights
 
-   !> Temperature by heat and weight [degC/(N/(mm s))/sqrt(mm)]
+   !> Temperature rise per heat and weight [degC/(N/(mm s))/sqrt(mm)]
    pure real(wp) function rise_per_heat(self) result(rise)
       class(heat_passage), intent(in) :: self
       rise = 2.0_wp/(sum(self%bodies%effusivity)*sqrt(pi*self%veloc))
