@@ -1,4 +1,4 @@
-!> One axis of a table: cubic B-splines over knots that need not be equidistant, as polynomials that are ready to be evaluated
+!> An axis of a table: cubic B-splines on knots that need not be equidistant, stored as polynomials
 module contact_tables_axis
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values
@@ -7,37 +7,37 @@ module contact_tables_axis
 
    public :: spline_axis, make_axis, find_basis
 
-   !> Basis functions that are not zero in an interval
+   !> Number of basis functions that are non-zero in an interval
    integer, parameter, public :: order = 4
-   !> Buckets for each interval, through which the interval of an argument is found; chosen, one or two steps are left
+   !> Buckets per interval, used to find the interval of an argument; chosen so that one or two steps remain
    integer, parameter :: buckets_per_interval = 4
 
-   !> An axis. With one coefficient nothing varies along it
+   !> An axis. If it has a single coefficient, nothing varies along it
    type :: spline_axis
-      !> Coefficients along the axis
+      !> Number of coefficients along the axis
       integer :: count = 1
       !> Range of the argument
       real(wp) :: low = 0.0_wp, high = 0.0_wp
-      !> Buckets for each unit of the argument, and the interval in which each of them begins
+      !> Buckets per unit of the argument, and the interval in which each bucket starts
       real(wp), private :: buckets_per_unit = 0.0_wp
       integer, allocatable, private :: bucket(:)
-      !> Where intervals begin; the last value is where the last one ends
+      !> Starts of the intervals; the last value is the end of the last interval
       real(wp), allocatable, private :: start(:)
-      !> Basis functions of each interval by powers of the distance from its beginning, shape (functions, powers, intervals)
+      !> Basis functions of each interval, by powers of the distance from its start, shape (functions, powers, intervals)
       real(wp), allocatable, private :: powers(:, :, :)
    end type spline_axis
 
 contains
 
-   !> Prepare an axis; `is_good` is false when knots are no numbers that increase
+   !> Create an axis; `is_good` is false if the knots are not finite and increasing
    subroutine make_axis(axis, count, knots, is_good)
-      !> Gets range, intervals and their polynomials
+      !> Receives range, intervals and polynomials
       type(spline_axis), intent(inout) :: axis
-      !> Coefficients along the axis; 1, or at least 4
+      !> Number of coefficients along the axis: 1, or at least 4
       integer, intent(in) :: count
-      !> Knots, 4 more than coefficients; not looked at for one coefficient
+      !> Knots, 4 more than coefficients; unused for a single coefficient
       real(wp), intent(in) :: knots(:)
-      !> Can the axis be used?
+      !> Is the axis valid?
       logical, intent(out) :: is_good
       real(wp), dimension(order) :: bend, bend_at_end, value, slope
       real(wp) :: width
@@ -74,13 +74,13 @@ contains
       end do
    end subroutine make_axis
 
-   !> Basis functions at a place and their slopes, zero but for the first one where the axis has a single coefficient
+   !> Basis functions and their slopes at an argument; for an axis with a single coefficient only the first is non-zero
    pure subroutine find_basis(axis, place, first, value, slope)
       !> From make_axis
       type(spline_axis), intent(in) :: axis
-      !> Argument; beyond the ends of the axis its ends
+      !> Argument; limited to the range of the axis
       real(wp), intent(in) :: place
-      !> Coefficient that belongs to the first function
+      !> Coefficient of the first function
       integer, intent(out) :: first
       !> Functions and their slopes
       real(wp), intent(out) :: value(order), slope(order)
@@ -100,7 +100,7 @@ contains
       do while (at >= axis%start(first + 1) .and. first < size(axis%start) - 1)
          first = first + 1
       end do
-      ! rounding of the place of a bucket
+      ! correction for round-off in the index of a bucket
       if (at < axis%start(first) .and. first > 1) first = first - 1
       d = at - axis%start(first)
       associate (p => axis%powers(:, :, first))

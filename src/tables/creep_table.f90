@@ -1,26 +1,26 @@
-!> Creep forces from a table: cubic splines over shape and creepages, once continuously differentiable and never above mu Fn
+!> Creep forces from a table: cubic splines of shape and creepages, continuously differentiable and never above mu Fn
 !>
-!> Half-spaces of one material with a Hertzian pressure have forces that depend on few numbers (Kalker 1967; 1996). With
+!> For half-spaces of the same material with Hertzian pressure, forces depend on a few parameters only (Kalker 1967; 1996). With
 !> semi-axes a along rolling and b across, g = a/b, c = sqrt(a b), q = G a b/(mu Fn),
 !>
 !>     Fx, Fy, Mz/c = mu Fn f(u, g),   u = q (KX xi, KY eta, c KP phi),
 !>
-!> where KX, KY, KP are about C11/3, C22/3, C23 of Kalker's linear theory: u1 of 1 is where the creep curve of Vermeulen and
-!> Johnson, 1 - (1 - u1)**3, ends. All creepages up to infinite ones fit into
+!> where KX, KY, KP are about C11/3, C22/3, C23 of Kalker's linear theory: the creep curve of Vermeulen and Johnson, 1 - (1 -
+!> u1)**3, saturates at u1 = 1. The full range of creepages, up to infinity, is mapped to
 !>
 !>     v1 = u1/sqrt(1 + (k1 u3)**2),  v2 = u2/sqrt(1 + (k2 u3)**2),   k1 = KX/(sqrt(g) KP),  k2 = sqrt(g) KY/KP,
 !>     x = v1/(1 + r),  y = v2/(1 + r),  z = u3/(1 + |u3|),   r = (v1**4 + v2**4)**(1/4):
 !>
-!> in which that curve begins without a quadratic term. r without end is sliding without spin, z = 1 spin without end. There
-!> sliding turns round the point where (v2, v1) are its coordinates along and across, relative to the semi-axes; where it leaves
-!> the contact, forces bend: at x and y of 1/2. Strips of a contact leave adhesion at u3 of about 1 (Kalker's strip theory),
-!> where forces bend sharply: near a plane of constant z.
+!> in which that curve starts without a quadratic term. Infinite r is sliding without spin, z = 1 is infinite spin; the slip
+!> then rotates about the point with coordinates (v2, v1) along and across, relative to the semi-axes. The forces have a bend
+!> where this point leaves the contact, at x and y of 1/2. Strips of a contact lose adhesion at u3 of about 1 (Kalker's strip
+!> theory), where forces have a sharp bend near a plane of constant z.
 !>
-!> Creepages and moment of half ellipses are taken about the middle of their pressures: there sliding without spin has no
-!> moment, and forces of fast sliding are even functions of 1/r, as they are in ellipses.
+!> Creepages and moment of half ellipses refer to the centre of pressure: there sliding without spin has no moment, and forces
+!> at large creepages are even functions of 1/r, as for ellipses.
 !>
-!> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
-!> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
+!> f is a spline for u1 >= 0 and u3 >= 0. The other values follow from two symmetries: all creepages and forces change sign
+!> together, and the mirror image y -> -y changes the sign of eta, phi, Fy, Mz and of the offset of half ellipses.
 module contact_tables_creep_table
    use, intrinsic :: iso_c_binding, only : c_double, c_float, c_int
    use, intrinsic :: iso_fortran_env, only : real32
@@ -31,22 +31,22 @@ module contact_tables_creep_table
 
    public :: creep_table, find_creep_force, most_spin, scaled_creepages
 
-   !> Values for each node: Fx, Fy, Mz
+   !> Values per node: Fx, Fy, Mz
    integer, parameter, public :: values_per_node = 3
-   !> Values of one stretch of nodes along z
+   !> Number of values of a row of nodes along z
    integer, parameter :: stretch = values_per_node*order
-   !> Scaled creepages beyond this are as good as infinite, and their fourth powers are numbers [-]
+   !> Scaled creepages beyond this are practically infinite, and their fourth powers do not overflow [-]
    real(wp), parameter :: endless = 1.0e15_wp
-   !> A shape that is this little beyond the border of a table is on it: rounding of ratios [-]
+   !> A shape that exceeds the range of a table by less than this is on its border: round-off of ratios [-]
    real(wp), parameter :: edge = 1.0e-9_wp
-   !> KX, KY and KP by powers of g: Kalker's C11/3, C22/3 and C23 for a Poisson ratio of 1/4 to some per cent for 0.1 <= g <= 10.
-   !> They are scales only, and part of the format of files
+   !> KX, KY and KP as polynomials of g: Kalker's C11/3, C22/3 and C23 for a Poisson ratio of 1/4, within some per cent for 0.1
+   !> <= g <= 10. They serve as scales only, and are part of the file format
    real(wp), parameter :: scale_x(3) = [1.0964_wp, 0.325_wp, -0.004_wp], scale_y(3) = [0.8005_wp, 0.4393_wp, -0.0067_wp], &
       & scale_spin(4) = [0.4147_wp, 1.0184_wp, 0.0565_wp, -0.0013_wp]
 
-   !> What a look-up ends with
+   !> Outcome of a look-up
    type :: answer_list
-      !> Within the table; beyond its shapes, where those at its border act; numbers without meaning, no forces
+      !> Within the table; outside its range of shapes, where the nearest shape is used; invalid arguments, no forces
       integer :: inside = 0, outside = 1, wrong = 2
    end type answer_list
    !> Members of answer_list
@@ -54,40 +54,41 @@ module contact_tables_creep_table
 
    !> A table
    type :: creep_table
-      !> Of two half ellipses, and not of ellipses?
+      !> Is it for half ellipses rather than for ellipses?
       logical :: has_offset = .false.
       !> Poisson ratio of the bodies [-]
       real(wp) :: nu = 0.0_wp
-      !> Forces up to 1 - band are as in the spline, those above are led to 1, in units of mu Fn [-]
+      !> Forces up to 1 - band are those of the spline, larger ones are smoothly limited to 1, in units of mu Fn [-]
       real(wp) :: band = 0.0_wp
-      !> Largest errors that were asked for, and found at points that the table was not made of: of the forces relative to mu Fn,
-      !> of the moment to mu Fn c [-]; the number of these points
+      !> Requested bound of the errors, largest errors found at points that were not used to make the table, relative to mu Fn
+      !> for forces and to mu Fn c for the moment [-]; number of these points
       real(wp) :: asked = 0.0_wp, error_force = 0.0_wp, error_moment = 0.0_wp, checked = 0.0_wp
-      !> Largest difference to results with three times as many elements a side, forces and moment [-]
+      !> Largest difference from results with three times as many elements per side, forces and moment [-]
       real(wp) :: grid_force = 0.0_wp, grid_moment = 0.0_wp
-      !> Elements a side, and the order of their discretisation
+      !> Elements per side, and order of their discretisation
       integer :: elements = 0, discretisation = 0
       !> log(g), offset (bpos - bneg)/(bpos + bneg), x, y, z
       type(spline_axis) :: shape, offset, x, y, z
-      !> Coefficients: values of a node first, then along z, y, x, offset, shape; short, as memory is what look-ups wait for
+      !> Coefficients: values of a node first, then along z, y, x, offset, shape; single precision, as look-ups are limited by
+      !> memory access
       real(real32), allocatable :: coefficients(:)
    end type creep_table
 
    interface
-      !> Nodes along z summed over all other axes, in sums.c
+      !> Sum over nodes along all axes except z; in sums.c
       pure subroutine contact_sums_of_nodes(coefficients, blocks, start, weight, row, plane, x, y, sums, slope_x, slope_y) bind(c)
          import :: c_double, c_float, c_int, order, stretch
-         !> Of the table
+         !> Coefficients of the table
          real(c_float), intent(in) :: coefficients(*)
-         !> Blocks of nodes along x, y, z; coefficients before each, its weight
+         !> Number of blocks of nodes along x, y, z; number of coefficients before each block, and its weight
          integer(c_int), value :: blocks
          integer(c_int), intent(in) :: start(order**2)
          real(c_double), intent(in) :: weight(order**2)
-         !> Coefficients from one node along y, and along x, to the next
+         !> Stride in coefficients between nodes along y, and along x
          integer(c_int), value :: row, plane
          !> Basis functions along x and y
          real(c_double), intent(in) :: x(order), y(order)
-         !> The sums, and with slopes those for derivatives by x and y
+         !> Sums, and with slopes also those for the derivatives with respect to x and y
          real(c_double), intent(inout) :: sums(stretch, 3)
          !> Slopes of the basis functions; absent: no derivatives
          real(c_double), intent(in), optional :: slope_x(order), slope_y(order)
@@ -100,9 +101,10 @@ contains
    pure subroutine find_creep_force(table, fn, mu, gg, aa, bneg, bpos, creep, force, status, slopes)
       !> Splines over all axes, from read_table
       type(creep_table), intent(in) :: table
-      !> Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2]; without force or friction there is nothing
+      !> Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2]; forces are zero without normal force or
+      !> friction
       real(wp), intent(in) :: fn, mu, gg
-      !> Semi-axis along x, extents towards negative and positive y from the widest row [mm]
+      !> Semi-axis along x, extents towards negative and positive y from the longest row [mm]
       real(wp), intent(in) :: aa, bneg, bpos
       !> Longitudinal and lateral creepage [-], spin [rad/mm]
       real(wp), intent(in) :: creep(3)
@@ -110,7 +112,7 @@ contains
       real(wp), intent(out) :: force(3)
       !> Member of answer
       integer, intent(out) :: status
-      !> Derivatives of each force (first index) by each creepage; absent: they cost nothing
+      !> Derivatives of each force (first index) with respect to each creepage; absent: not computed
       real(wp), intent(out), optional :: slopes(3, 3)
       real(wp) :: bb, c, arm, offset, scale(3), factor(3), turn(2), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
       logical :: is_beyond
@@ -126,18 +128,18 @@ contains
       bb = 0.5_wp*(bneg + bpos)
       c = sqrt(aa*bb)
       offset = (bpos - bneg)/(bpos + bneg)
-      ! from the middle of both extents to that of the pressures, each half of which has its own at 3/8 of its extent
+      ! from the midpoint of the extents to the centre of pressure; that of each half is at 3/8 of its extent
       arm = (bneg - bpos)/8.0_wp
       scale = scaled_creepages(aa/bb)
       turn = [scale(1)*bb, scale(2)*aa]/(c*scale(3))
       factor = scale*(gg*aa*bb/(mu*fn))
       factor(3) = factor(3)*c
       u = min(max(factor*[creep(1) - arm*creep(3), creep(2:3)], -endless), endless)
-      ! into the part that the table has
+      ! map to the part covered by the table
       sign_x = sign(1.0_wp, u(1))
       sign_s = sign(1.0_wp, u(3))
       u = u*[sign_x, sign_s, sign_s]
-      ! a table up to some spin: beyond it forces do not change with spin
+      ! for a table with limited spin: forces are constant beyond it
       is_beyond = u(3) > most_spin(table)
       if (is_beyond) u(3) = most_spin(table)
       unit = mu*fn*[sign_x, sign_s, sign_s*c]
@@ -161,7 +163,7 @@ contains
       slopes(3, :) = slopes(3, :) - arm*slopes(1, :)
    end subroutine find_creep_force
 
-   !> Largest scaled spin of a table [-], huge where it has all
+   !> Maximum scaled spin of a table [-]; huge: unlimited
    pure real(wp) function most_spin(table)
       !> Splines over all axes, from read_table
       type(creep_table), intent(in) :: table
@@ -170,31 +172,31 @@ contains
       if (table%z%high < 1.0_wp) most_spin = table%z%high/(1.0_wp - table%z%high)
    end function most_spin
 
-   !> KX, KY and KP for a ratio of the semi-axes [-]
+   !> KX, KY and KP for a given ratio of semi-axes [-]
    pure function scaled_creepages(g) result(scales)
       !> a/b [-]
       real(wp), intent(in) :: g
       real(wp) :: scales(3), inside
       real(wp), parameter :: narrowest = 0.05_wp, widest = 20.0_wp
 
-      ! where the polynomials are what they stand for
+      ! within the range of validity of the polynomials
       inside = min(max(g, narrowest), widest)
       scales(1) = scale_x(1) + inside*(scale_x(2) + inside*scale_x(3))
       scales(2) = scale_y(1) + inside*(scale_y(2) + inside*scale_y(3))
       scales(3) = scale_spin(1) + inside*(scale_spin(2) + inside*(scale_spin(3) + inside*scale_spin(4)))
    end function scaled_creepages
 
-   !> The spline, and its derivatives by the scaled creepages
+   !> The spline, and its derivatives with respect to the scaled creepages
    pure subroutine evaluate(table, shape, offset, u, turn, f, status, df)
       type(creep_table), intent(in) :: table
-      !> log(g), offset, scaled creepages of which the first and third are not negative
+      !> log(g), offset, scaled creepages; the first and third are not negative
       real(wp), intent(in) :: shape, offset, u(3)
-      !> k1 and k2, how u1 and u2 are measured against spin
+      !> k1 and k2, the ratios of u1 and u2 to spin
       real(wp), intent(in) :: turn(2)
       !> Values
       real(wp), intent(out) :: f(3)
       integer, intent(inout) :: status
-      !> Derivatives of each value (first index) by each scaled creepage
+      !> Derivatives of each value (first index) with respect to each scaled creepage
       real(wp), intent(out), optional :: df(3, 3)
       real(wp) :: r, r1, r2, whole, largest, s(2), v(2), place(3), inner(3, 3)
       real(wp), dimension(values_per_node) :: by_x, by_y, by_z
@@ -227,7 +229,7 @@ contains
          return
       end if
       call sum_nodes(table, first, basis, slope, f, by_x, by_y, by_z)
-      ! derivatives of the place (first index) by v1, v2 and u3, then by u
+      ! derivatives of the arguments (first index) with respect to v1, v2 and u3, then to u
       inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
          & (1.0_wp - place(2)*r2)/whole, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
       inner(:, 3) = inner(:, 3) - matmul(inner(:, :2), v*(turn/s)**2)*u(3)
@@ -236,14 +238,15 @@ contains
       df = matmul(reshape([by_x, by_y, by_z], [3, 3]), inner)
    end subroutine evaluate
 
-   !> Where nodes around a place begin, and their weights along shape and offset, whose derivatives are not wanted
+   !> Starts of the blocks of nodes around an argument, and their weights along shape and offset, whose derivatives are not
+   !> needed
    pure subroutine find_blocks(table, first, basis, blocks, start, weight)
       type(creep_table), intent(in) :: table
-      !> First coefficient along shape, offset, x, y, z
+      !> Index of the first coefficient along shape, offset, x, y, z
       integer, intent(in) :: first(5)
       !> Basis functions along shape and offset
       real(wp), intent(in) :: basis(order, 2)
-      !> Blocks of nodes along x, y, z; coefficients before each, and its weight
+      !> Number of blocks of nodes along x, y, z; number of coefficients before each block, and its weight
       integer, intent(out) :: blocks, start(order**2)
       real(wp), intent(out) :: weight(order**2)
       integer :: l, m, plane
@@ -260,14 +263,14 @@ contains
       end do
    end subroutine find_blocks
 
-   !> The spline, and its derivatives where they are wanted
+   !> The spline, and optionally its derivatives
    pure subroutine sum_nodes(table, first, basis, slope, value, by_x, by_y, by_z)
       type(creep_table), intent(in) :: table
-      !> First coefficient along shape, offset, x, y, z
+      !> Index of the first coefficient along shape, offset, x, y, z
       integer, intent(in) :: first(5)
-      !> Basis functions along them and their slopes
+      !> Basis functions and slopes along all axes
       real(wp), intent(in) :: basis(order, 5), slope(order, 5)
-      !> Of all values: the spline and its derivatives by x, y, z
+      !> The spline and its derivatives with respect to x, y, z, for all values
       real(wp), intent(out) :: value(values_per_node)
       real(wp), dimension(values_per_node), intent(out), optional :: by_x, by_y, by_z
       real(wp) :: weight(order**2), sums(stretch, 3)
@@ -288,7 +291,7 @@ contains
       value = along_z(sums(:, 1), basis(:, 5))
    end subroutine sum_nodes
 
-   !> A stretch of nodes by functions along z
+   !> Combine a row of nodes with functions along z
    pure function along_z(sums, weight) result(value)
       !> Values of the nodes
       real(wp), intent(in) :: sums(values_per_node, order)
@@ -303,11 +306,11 @@ contains
       end do
    end function along_z
 
-   !> Lead forces above 1 - band to 1, with a continuous slope
+   !> Limit forces above 1 - band smoothly to 1, with continuous slope
    pure subroutine keep_below_friction(band, f, df)
       real(wp), intent(in) :: band
       real(wp), intent(inout) :: f(3)
-      !> Absent where nobody wants them
+      !> Derivatives; absent: not needed
       real(wp), intent(inout), optional :: df(3, 3)
       real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
       real(wp) :: size_, ratio, change, grows(3)
@@ -317,7 +320,7 @@ contains
       if (size_ <= 1.0_wp - band) return
       if (size_ < 1.0_wp + band) then
          ratio = (size_ - (size_ - 1.0_wp + band)**2/(4.0_wp*band))/size_
-         ! derivative of the ratio by the size
+         ! derivative of the ratio with respect to the magnitude
          change = ((1.0_wp - (size_ - 1.0_wp + band)/(2.0_wp*band)) - ratio)/size_
       else
          ratio = 1.0_wp/size_
@@ -330,7 +333,7 @@ contains
          end do
       end if
       f(:2) = ratio*f(:2)
-      ! rounding, here and where it is multiplied by the bound
+      ! allow for round-off, here and in the multiplication by the friction bound
       size_ = norm2(f(:2))
       if (size_ > 1.0_wp - rounding) f(:2) = f(:2)*((1.0_wp - rounding)/size_)
    end subroutine keep_below_friction

@@ -1,15 +1,15 @@
-/* Sums over the nodes around a place, most of the work of a look-up; called from creep_table.f90.
+/* Sums over the nodes around an argument, most of the work of a look-up; called from creep_table.f90.
  *
- * In C, as it is compiled twice: for all processors, and for those with AVX2 and FMA, which are asked when it runs. Both have the
- * same numbers but for rounding. Vectors are those of GCC and Clang. */
+ * In C, because it is compiled twice: for all processors, and for those with AVX2 and FMA, selected at run time. Both versions
+ * agree up to round-off. The vector types are extensions of GCC and Clang. */
 #include <stddef.h>
 #include <string.h>
 
-/* Nodes along an axis, values of a node, numbers of a stretch of nodes along z */
+/* Nodes along an axis, values of a node, number of values of a row of nodes along z */
 enum { ORDER = 4, VALUES = 3, STRETCH = ORDER * VALUES };
 
-/* What is summed: coefficients; the blocks of nodes along x, y, z, coefficients before the first node of each, its weight;
- * coefficients from one node along y, and along x, to the next; functions along x and y, and their slopes, null where not wanted */
+/* Data of the sum: coefficients; blocks of nodes along x, y, z, with the number of coefficients before each and its weight;
+ * strides in coefficients between nodes along y and along x; functions along x and y, and their slopes, null if not needed */
 typedef struct {
   const float *coefficients;
   int blocks;

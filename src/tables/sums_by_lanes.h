@@ -1,8 +1,9 @@
-/* A function of sums.c for registers of LANES numbers; SUM is its name, WIDENED makes numbers of double precision of so many */
+/* A function of sums.c for registers of LANES numbers; SUM is its name, WIDENED converts this number of values to double
+ * precision */
 static void SUM(const stretches *s, double *sums) {
   typedef double part __attribute__((vector_size(LANES * sizeof(double))));
   enum { PARTS = STRETCH / LANES };
-  /* the stretch summed over all else, and its slopes along x and y */
+  /* the row of nodes summed over all other axes, and its slopes along x and y */
   part whole[PARTS] = {{0.0}}, by_x[PARTS] = {{0.0}}, by_y[PARTS] = {{0.0}};
   for (int i = 0; i < ORDER; i++) {
     part along[PARTS] = {{0.0}}, slope[PARTS] = {{0.0}};

@@ -1,4 +1,4 @@
-!> The file of a table of creep forces; its layout is in doc/theory/tables.md
+!> Reader of the file of a table of creep forces; its layout is described in doc/theory/tables.md
 module contact_tables_table_file
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int32, int64, real32, real64
@@ -14,14 +14,14 @@ module contact_tables_table_file
 
    public :: read_table
 
-   !> First bytes of a file, and how its end is made
+   !> First bytes of a file, and length of the checksum at its end
    character(len=*), parameter :: magic = "CONTACT table 2" // new_line("a")
    integer, parameter :: digits = 64
-   !> Bytes before the knots; whole numbers and real ones in them
+   !> Bytes before the knots; number of integers and of real numbers in them
    integer, parameter :: head_bytes = 128, wholes = 8, reals = 9
-   !> Bytes of numbers
+   !> Bytes per number
    integer, parameter :: real_bytes = 8, short_bytes = 4
-   !> Longest file [bytes], most coefficients along an axis: what 32-bit numbers of coefficients allow
+   !> Maximum file size [bytes], maximum number of coefficients along an axis: limits of 32-bit indices
    integer(long), parameter :: longest = 2000000000_long
    integer, parameter :: most_along = 10000
 
@@ -29,9 +29,9 @@ contains
 
    !> Read a table
    subroutine read_table(file, table, error)
-      !> Its path
+      !> Path of the file
       character(len=*), intent(in) :: file
-      !> Splines over all axes, as the file has them
+      !> Splines over all axes, as in the file
       type(creep_table), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text, reason
@@ -55,11 +55,11 @@ contains
       if (allocated(reason)) call fatal_error(error, "the table " // file // " cannot be used: " // reason, kind=error_kind%file)
    end subroutine read_table
 
-   !> Take the bytes of a file
+   !> Parse the bytes of a file
    subroutine take_table(text, table, reason)
       character(len=*), intent(in) :: text
       type(creep_table), intent(inout) :: table
-      !> What is wrong; unallocated when nothing is
+      !> What is wrong; unallocated if nothing
       character(len=:), allocatable, intent(out) :: reason
       integer(int32) :: whole(wholes)
       integer(int64) :: length
@@ -70,13 +70,13 @@ contains
       if (len(text) < head_bytes + digits) then
          reason = "it is too short to be a table"
       else if (text(:len(magic)) /= magic) then
-         reason = "it does not begin as a table of this version, 'CONTACT table 2'"
+         reason = "it does not start like a table of this version, 'CONTACT table 2'"
       else
          length = transfer(text(49:56), length)
          if (length /= len(text)) then
-            reason = "it is damaged: it has " // integer_text(len(text)) // " bytes and not as many as it says"
+            reason = "it is damaged: it has " // integer_text(len(text)) // " bytes, which is not the size that it states"
          else if (sha256(text(:len(text) - digits)) /= text(len(text) - digits + 1:)) then
-            reason = "it is damaged: its checksum is not that of its content"
+            reason = "it is damaged: its checksum does not match its content"
          end if
       end if
       if (allocated(reason)) return
@@ -93,7 +93,7 @@ contains
       table%band = number(6)
       table%grid_force = number(7)
       table%grid_moment = number(8)
-      reason = "its content has no meaning; it was made by something else"
+      reason = "its content is invalid; it was not written by this program"
       if (any(whole(2:6) < 1 .or. whole(2:6) > most_along)) return
       if (.not. all(abs(number) <= huge(number)) .or. table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
       place = head_bytes
@@ -109,10 +109,10 @@ contains
       if (is_good(1)) deallocate(reason)
    end subroutine take_table
 
-   !> The knots of an axis
+   !> Parse the knots of an axis
    subroutine take_axis(text, place, count, axis, is_good)
       character(len=*), intent(in) :: text
-      !> Bytes that were taken before; grows
+      !> Position in the text [bytes]; advanced
       integer(long), intent(inout) :: place
       integer(int32), intent(in) :: count
       type(spline_axis), intent(inout) :: axis
@@ -129,12 +129,12 @@ contains
       place = place + length
    end subroutine take_axis
 
-   !> The coefficients
+   !> Parse the coefficients
    subroutine take_coefficients(text, place, length, table, is_good)
       character(len=*), intent(in) :: text
       integer(long), intent(in) :: place, length
       type(creep_table), intent(inout) :: table
-      !> Are all of them numbers?
+      !> Are all of them finite?
       logical, intent(out) :: is_good
       real(real32) :: node(values_per_node)
       integer(long) :: k, from, bytes
