@@ -1,11 +1,10 @@
-!> Fields in points anywhere, by closed forms
+!> Fields at arbitrary points, by closed-form expressions
 !>
-!> Since the field of an element is a difference over its corners, the sum over elements is
-!> rearranged into one over the corners of the grid, with the mixed jumps of traction between the
-!> four elements around a corner as loads: four times fewer logarithms, and none where the tractions
-!> do not change. For bilinear elements second differences at the centres take the place of the
-!> jumps. The rearranged sum loses digits far away from all loads; there each element is
-!> integrated by quadrature of the point load.
+!> As the field of an element is a difference over its corners, the sum over elements is rearranged into a sum over the corners
+!> of the grid, with the mixed jumps of traction between the four elements around a corner as loads: four times fewer
+!> logarithms, and none where the tractions are constant. For bilinear elements second differences at the centres replace the
+!> jumps. The rearranged sum loses digits far away from all loads; there each element is integrated by quadrature of the point
+!> load.
 module contact_subsurface_direct
    use contact_base_kinds, only : wp
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
@@ -16,15 +15,15 @@ module contact_subsurface_direct
 
    public :: sum_directly, number_of_terms
 
-   !> Loads of one kind, all in the coordinates of the contact
+   !> Loads of one kind, in the coordinates of the contact
    type :: load_list
-      !> Places on the surface [mm]
+      !> Positions on the surface [mm]
       real(wp), allocatable :: x(:), y(:)
       !> Loads px, py, pn, shape (3, n): jumps [N/mm2], second differences [N/mm4] or forces [N]
       real(wp), allocatable :: load(:, :)
    end type load_list
 
-   !> Rectangle that holds all loaded elements [mm]
+   !> Rectangle that contains all loaded elements [mm]
    type :: load_area
       real(wp) :: x0 = 0.0_wp, x1 = 0.0_wp, y0 = 0.0_wp, y1 = 0.0_wp
       !> Distance up to which the rearranged sum is used [mm]
@@ -33,16 +32,16 @@ module contact_subsurface_direct
 
 contains
 
-   !> Displacements and stresses in a list of points
+   !> Displacements and stresses at a list of points
    !>
-   !> Points with z >= 0 lie in body 1, those with z < 0 in body 2. Each point is summed in one
-   !> fixed order; results do not depend on the number of threads.
+   !> Points with z >= 0 are in body 1, those with z < 0 in body 2. The sum for each point has a fixed order; results do not
+   !> depend on the number of threads.
    subroutine sum_directly(load, position, displacement, stress)
-      !> Tractions of the surface and the constants of the bodies
+      !> Surface tractions and constants of the bodies
       type(surface_load), intent(in) :: load
       !> Points [mm], shape (3, n)
       real(wp), contiguous, intent(in) :: position(:, :)
-      !> Displacements of the body that the point belongs to [mm], shape (3, n)
+      !> Displacements of the body that contains the point [mm], shape (3, n)
       real(wp), contiguous, intent(out) :: displacement(:, :)
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz, shape (6, n)
       real(wp), contiguous, intent(out) :: stress(:, :)
@@ -76,9 +75,9 @@ contains
       !$omp end parallel do
    end subroutine sum_directly
 
-   !> Number of closed forms that are summed per point
+   !> Number of closed-form terms summed per point
    pure integer function number_of_terms(load) result(n)
-      !> Tractions of the surface; elements without load do not count
+      !> Surface tractions; unloaded elements are not counted
       type(surface_load), intent(in) :: load
       type(load_list) :: corners
 
@@ -86,11 +85,11 @@ contains
       n = size(corners%x)
    end function number_of_terms
 
-   !> Where the loads are, and where the rearranged sum is accurate
+   !> Extent of the loads, and range in which the rearranged sum is accurate
    pure subroutine find_area(load, area)
       type(surface_load), intent(in) :: load
       type(load_area), intent(out) :: area
-      !> Diagonals of the loaded area, for constant and for bilinear loads
+      !> Range in diagonals of the loaded area, for constant and for bilinear loads
       real(wp), parameter :: diagonals_constant = 2.0_wp, diagonals_bilinear = 1.0_wp
 
       associate (grid => load%grid, box => load%box)
@@ -103,10 +102,9 @@ contains
       end associate
    end subroutine find_area
 
-   !> Places at which the tractions, or their slopes, jump
+   !> Positions at which the tractions, or their slopes, jump
    !>
-   !> The columns of loads that do not act stay zero; places inside an area of constant, or linear,
-   !> traction drop out.
+   !> Columns of absent loads remain zero; positions within an area of constant, or linear, traction are omitted.
    pure subroutine collect_corners(load, corners)
       type(surface_load), intent(in) :: load
       type(load_list), intent(out) :: corners
@@ -115,7 +113,7 @@ contains
       integer :: ix, iy, last, n
 
       associate (grid => load%grid, box => load%box)
-         ! corner (ix, iy) lies at the upper end of element (ix, iy); a centre is half an element lower
+         ! corner (ix, iy) is at the upper end of element (ix, iy); the centre is half an element lower
          last = merge(1, 0, load%bilinear)
          shift = merge(0.0_wp, 0.5_wp, load%bilinear)
          allocate(padded(3, box%ix0 - 2:box%ix1 + 2, box%iy0 - 2:box%iy1 + 2), source=0.0_wp)
@@ -191,8 +189,8 @@ contains
 
    !> Sum over the corners
    !>
-   !> Turning the y-axis exchanges the corners of an element, which changes the sign of all jumps of
-   !> traction, but not of second differences.
+   !> Reversing the y-axis exchanges the corners of an element, which changes the sign of all jumps of traction, but not of
+   !> second differences.
    pure subroutine sum_corners(load, corners, position, total)
       type(surface_load), intent(in) :: load
       type(load_list), intent(in) :: corners
@@ -240,7 +238,7 @@ contains
       end do
    end subroutine sum_sources
 
-   !> The body that a point belongs to
+   !> The body that contains a point
    pure subroutine find_body(z, body, mirror)
       !> Depth [mm]
       real(wp), intent(in) :: z
@@ -253,7 +251,7 @@ contains
       mirror = merge(1.0_wp, -1.0_wp, body == 1)
    end subroutine find_body
 
-   !> Does a point lie so far from all loads that quadrature is the better way?
+   !> Is a point so far from all loads that quadrature is more accurate?
    pure logical function is_beyond(area, position) result(beyond)
       type(load_area), intent(in) :: area
       real(wp), intent(in) :: position(3)

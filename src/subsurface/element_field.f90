@@ -1,10 +1,9 @@
 !> Elastic field below one loaded element, from derivatives of one harmonic potential
 !>
-!> The displacements and stresses in a half-space under Boussinesq's and Cerruti's point loads
-!> follow from one potential A per element, with d2A/dxdy = z ln(z+R) - R for the point load.
-!> The 26 second, third and fourth derivatives that occur do not depend on the material. Integration
-!> over a rectangle turns a point load into a signed sum over four corners (Love 1929), a load that
-!> falls off linearly to all sides (bilinear element) into second differences over nine nodes. See
+!> The displacements and stresses in a half-space under the point loads of Boussinesq and Cerruti follow from a single potential
+!> A per element, with d2A/dxdy = z ln(z+R) - R for the point load. The 26 second, third and fourth derivatives required do not
+!> depend on the material. Integration over a rectangle turns a point load into a signed sum over four corners (Love 1929), and
+!> a load that decreases linearly in both directions (bilinear element) into second differences over nine nodes. See
 !> doc/theory/subsurface.md.
 !>
 !> Frame: the half-space is z >= 0, loads act on its surface, a normal load is positive into the
@@ -19,41 +18,41 @@ module contact_subsurface_element_field
    public :: corner_derivatives, node_derivatives, source_derivatives, element_derivatives, body_responses
    public :: load_quadrature, new_quadrature, far_distance
 
-   !> Number of derivatives: 6 second, 10 third, 10 fourth ones of which one is to z
+   !> Number of derivatives: 6 second, 10 third, and 10 fourth ones, the latter with at least one derivative to z
    integer, parameter :: n_derivatives = 26
    !> Number of fields: displacements x, y, z, then stresses xx, xy, xz, yy, yz, zz
    integer, parameter :: n_fields = 9
 
-   !> Numbers of the derivatives; the fourth ones are listed by the three directions besides z
+   !> Indices of the derivatives; the fourth ones are named by the three directions besides z
    integer, parameter :: xx = 1, xy = 2, xz = 3, yy = 4, yz = 5, zz = 6
    integer, parameter :: xxx = 7, xxy = 8, xxz = 9, xyy = 10, xyz = 11, xzz = 12, yyy = 13, yyz = 14, &
       & yzz = 15, zzz = 16
    integer, parameter :: xxxz = 17, xxyz = 18, xxzz = 19, xyyz = 20, xyzz = 21, xzzz = 22, yyyz = 23, &
       & yyzz = 24, yzzz = 25, zzzz = 26
 
-   !> Smallest distance to an edge or corner that is told apart, per side of an element; the stress
-   !> has a logarithmic singularity there if the load jumps
+   !> Minimum distance to an edge or corner, relative to the element side; the stress has a logarithmic singularity there if the
+   !> load jumps
    real(wp), parameter, public :: edge_ratio = 5.0e-7_wp
-   !> Beyond this many sides of an element quadrature is more accurate than differences of closed
-   !> forms, for constant and for bilinear loads
+   !> Beyond this distance in element sides, quadrature is more accurate than differences of closed forms; for constant and for
+   !> bilinear loads
    real(wp), parameter :: far_constant = 20.0_wp, far_bilinear = 6.0_wp
 
-   !> Farther away the fields vanish, and powers of distances would overflow [mm]
+   !> Beyond this distance the fields vanish, and powers of distances would overflow [mm]
    real(wp), parameter, public :: farthest_point = 1.0e60_wp
 
-   !> Weights and abscissae of the load on one element, in one direction; the weights add up to 1
+   !> Weights and abscissae of the load on an element in one direction; the weights sum to 1
    type :: load_quadrature
-      !> Abscissae per side of the element [-]
+      !> Abscissae relative to the element side [-]
       real(wp), allocatable :: point(:)
       real(wp), allocatable :: weight(:)
    end type load_quadrature
 
 contains
 
-   !> Quadrature for a unit load on an element: Gauss rules for constant weight on (-1/2, 1/2) and for
-   !> the weight 1 - |s| on (-1, 1)
+   !> Quadrature for a unit load on an element: Gauss rules for constant weight on (-1/2, 1/2), and for the weight 1 - |s| on
+   !> (-1, 1)
    pure function new_quadrature(bilinear) result(rule)
-      !> Does the load fall linearly to the centres of the neighbours? Otherwise it is constant on the element
+      !> Does the load decrease linearly to the centres of the neighbours? Otherwise it is constant on the element
       logical, intent(in) :: bilinear
       type(load_quadrature) :: rule
       real(wp), parameter :: root(2) = &
@@ -83,9 +82,9 @@ contains
       far_distance = merge(far_bilinear, far_constant, bilinear)*max(dx, dy)
    end function far_distance
 
-   !> Does a field change sign from x to -x, by a load in direction 1 (x), 2 or 3 at the origin?
+   !> Is a field odd in x, for a load in direction 1 (x), 2 or 3 at the origin?
    elemental logical function odd_in_x(field, load)
-      !> Number of the field, 1 to 9 (three displacements, six stresses), and direction of the load: 1 (x), 2 (y), 3 (pressure)
+      !> Index of the field, 1 to 9 (three displacements, six stresses), and direction of the load: 1 (x), 2 (y), 3 (pressure)
       integer, intent(in) :: field, load
       logical, parameter :: by_pressure(n_fields) = &
          & [.true., .false., .false., .false., .true., .true., .false., .false., .false.]
@@ -93,7 +92,7 @@ contains
       odd_in_x = by_pressure(field) .neqv. load == 1
    end function odd_in_x
 
-   !> The same from y to -y
+   !> Is it odd in y?
    elemental logical function odd_in_y(field, load)
       !> As for odd_in_x
       integer, intent(in) :: field, load
@@ -103,13 +102,13 @@ contains
       odd_in_y = by_pressure(field) .neqv. load == 2
    end function odd_in_y
 
-   !> Derivatives of the potential of a uniform unit load on the quadrant that starts in a corner
+   !> Derivatives of the potential of a uniform unit load on the quadrant that starts at a corner
    !>
-   !> Only signed sums over corners have a meaning.
+   !> Only signed sums over corners are meaningful.
    pure subroutine corner_derivatives(x, y, z, edge, d)
       !> Observation point relative to the corner [mm], z >= 0
       real(wp), intent(in) :: x, y, z
-      !> Smallest distance to the edges that is told apart [mm], positive, the same for all corners
+      !> Minimum distance to the edges [mm], positive, the same for all corners
       real(wp), intent(in) :: edge
       !> Derivatives [mm, 1, 1/mm]
       real(wp), intent(out) :: d(n_derivatives)
@@ -149,14 +148,14 @@ contains
       d(yyyz) = -d(xxyz) - d(yzzz)
    end subroutine corner_derivatives
 
-   !> Derivatives of the potential whose second differences belong to a bilinear load
+   !> Derivatives of the potential whose second differences give a bilinear load
    !>
-   !> The potential Q has Q_xy = A, so that its derivatives are integrals to x and y of those of A.
-   !> Only second differences in both directions have a meaning.
+   !> The potential Q has Q_xy = A, so that its derivatives are integrals of those of A over x and y. Only second differences in
+   !> both directions are meaningful.
    pure subroutine node_derivatives(x, y, z, edge, d)
       !> Observation point relative to the node [mm], z >= 0
       real(wp), intent(in) :: x, y, z
-      !> Smallest distance to the axes that is told apart [mm], positive, the same for all nodes
+      !> Minimum distance to the axes [mm], positive, the same for all nodes
       real(wp), intent(in) :: edge
       !> Derivatives [mm3, mm2, mm]
       real(wp), intent(out) :: d(n_derivatives)
@@ -202,14 +201,14 @@ contains
       d(yyyz) = x*ty - y*lz
    end subroutine node_derivatives
 
-   !> The distance, the three logarithms and the angles of which all derivatives are made
+   !> The distance, the three logarithms and the angles that occur in all derivatives
    !>
-   !> ln(y+R) is taken as ln((x**2+z**2)/(R-y)) for y < 0, free of cancellation, and the angles
-   !> in forms that have the right limits at the surface.
+   !> ln(y+R) is computed as ln((x**2+z**2)/(R-y)) for y < 0, without cancellation, and the angles in forms that have the
+   !> correct limits at the surface.
    pure subroutine logarithms(x, y, z, edge, r, lx, ly, lz, tx, ty, rx, ry)
       !> Observation point [mm], z >= 0
       real(wp), intent(in) :: x, y, z
-      !> Smallest distance to the axes that is told apart [mm], positive
+      !> Minimum distance to the axes [mm], positive
       real(wp), intent(in) :: edge
       !> R [mm]; ln(x+R), ln(y+R), ln(z+R) up to constants; angles [rad]
       real(wp), intent(out) :: r, lx, ly, lz, tx, ty
@@ -295,7 +294,7 @@ contains
       real(wp), intent(in) :: position(3)
       !> Sides of the element [mm]
       real(wp), intent(in) :: dx, dy
-      !> Load that falls off to zero at the centres of the neighbours? Else 1 on the element
+      !> Does the load decrease to zero at the centres of the neighbours? Otherwise it is 1 on the element
       logical, intent(in) :: bilinear
       !> Derivatives [mm, 1, 1/mm]
       real(wp), intent(out) :: d(n_derivatives)
@@ -332,14 +331,13 @@ contains
       end if
    end subroutine element_derivatives
 
-   !> Fields in the coordinates of the contact by unit tractions px, py, pn
+   !> Fields in the coordinates of the contact for unit tractions px, py, pn
    !>
-   !> Hooke's law and the harmonic equation are built in: the trace of the strains is
-   !> (1 - 2 nu) times a derivative, so that nothing is singular in an incompressible body, and
-   !> stresses do not depend on the modulus of rigidity. Body 2 carries the reaction and is
-   !> turned by half a revolution about the x-axis.
+   !> Uses Hooke's law and the harmonic equation: the trace of the strains is (1 - 2 nu) times a derivative, so that nothing is
+   !> singular for an incompressible body, and stresses do not depend on the modulus of rigidity. Body 2 carries the reaction
+   !> and is rotated by half a revolution about the x-axis.
    pure subroutine body_responses(d, z, gg, nu, mirror, response)
-      !> Derivatives by a unit load, in the frame of the body: y turned for body 2
+      !> Derivatives for a unit load in the frame of the body, with y reversed for body 2
       real(wp), intent(in) :: d(n_derivatives)
       !> Depth of the observation point [mm], not negative
       real(wp), intent(in) :: z

@@ -20,7 +20,7 @@ contains
       do point = 1, size(stress, 2)
          s = stress(:, point)
          sighyd(point) = (s(1) + s(4) + s(6))/3.0_wp
-         ! from differences, which unlike the squares of the stresses do not cancel
+         ! from differences, which do not suffer from cancellation as the squares of the stresses do
          sigvm(point) = sqrt(0.5_wp*((s(1) - s(4))**2 + (s(4) - s(6))**2 + (s(6) - s(1))**2) &
             & + 3.0_wp*(s(2)**2 + s(3)**2 + s(5)**2))
          principal = principal_stresses(s)
@@ -31,18 +31,18 @@ contains
       end do
    end subroutine stress_invariants
 
-   !> Principal stresses in descending order, by Jacobi's rotations
+   !> Principal stresses in descending order, by Jacobi rotations
    !>
-   !> Rotations keep full accuracy relative to the largest stress where the closed form with a cosine
-   !> loses half of the digits (nearly equal principal stresses). On 3 by 3 matrices they are
-   !> three times faster than LAPACK's dsyev, which is made for large ones.
+   !> Rotations keep full accuracy relative to the largest stress, where the closed form with a cosine loses half of the digits
+   !> (nearly equal principal stresses). For 3 by 3 matrices they are three times faster than LAPACK's dsyev, which is designed
+   !> for large ones.
    pure function principal_stresses(stress) result(principal)
       !> Stresses [N/mm2]: xx, xy, xz, yy, yz, zz
       real(wp), intent(in) :: stress(6)
       !> Principal stresses [N/mm2]
       real(wp) :: principal(3)
       integer, parameter :: max_sweeps = 20
-      !> Entries whose squares might underflow; the largest entry is 1
+      !> Entries whose squares might underflow; the matrix is scaled so that its largest entry is 1
       real(wp), parameter :: negligible = 1.0e-100_wp
       real(wp) :: a(3, 3), c, s, t, theta, scale, row
       integer :: p, q, r, sweep
@@ -81,13 +81,13 @@ contains
       principal = scale*principal
    end function principal_stresses
 
-   !> Do entries off the diagonal change no digit of the eigenvalues any more?
+   !> Are off-diagonal entries too small to change the eigenvalues?
    !>
-   !> They change them by their squares over the differences of the eigenvalues, and by themselves at most.
+   !> They change them by their squares divided by the differences of the eigenvalues, and at most by their own magnitude.
    pure logical function all_settled(a) result(settled)
-      !> Symmetric, the largest entry is about 1
+      !> Symmetric; the largest entry is about 1
       real(wp), intent(in) :: a(3, 3)
-      !> Part of the precision of the machine that no digit shows
+      !> Fraction of the machine precision that is insignificant
       real(wp), parameter :: converged = 0.01_wp
       integer :: p, q
 

@@ -1,10 +1,9 @@
-!> Fields in element centres, layer by layer, by fast transforms
+!> Fields at element centres, layer by layer, by fast Fourier transforms
 !>
-!> The response in a centre to a load on an element depends on the difference of their columns
-!> and rows only, so the fields at one depth are convolutions. The tractions are transformed once for
-!> all depths, the 27 responses of a depth, nine fields by three tractions, in packs of up to four
-!> (contact_subsurface_response_packs). Only the nine wanted fields are transformed back. Depths are
-!> independent and shared out among threads. Cases that follow each other may keep the spectra of their responses.
+!> The response at a centre to a load on an element depends only on the differences of their columns and rows, so that the
+!> fields at one depth are convolutions. The tractions are transformed once for all depths; the 27 responses at a depth, nine
+!> fields by three tractions, in packs of up to four (contact_subsurface_response_packs). Only the nine fields are transformed
+!> back. Depths are independent and shared among threads. Consecutive cases may keep the spectra of the responses.
 module contact_subsurface_layers
    use contact_base_kinds, only : wp
    use contact_fft_plan, only : fft_plan, good_size
@@ -21,27 +20,27 @@ module contact_subsurface_layers
 
    public :: transform_layers, padded_size
 
-   !> The window that holds loads and points, and its padding
+   !> The window that contains loads and points, and its padding
    type :: layer_window
       !> First column and row, and size
       integer :: ix0 = 1, iy0 = 1, mx = 0, my = 0
-      !> Largest differences of columns and rows between a point and a load
+      !> Maximum differences of columns and rows between a point and a load
       integer :: nx = 0, ny = 0
       !> Padded size
       integer :: px = 1, py = 1
    end type layer_window
 
-   !> Memory for all threads together [bytes], which bounds their number
+   !> Memory of all threads together [bytes]; limits their number
    real(wp), parameter :: memory = 1.0e9_wp
-   !> Spectra are kept for all places of loads on the grid where these make the padded window larger by this factor at most;
-   !> chosen: products take about a third of what the responses take
+   !> Spectra are kept for all positions of loads on the grid if this enlarges the padded window by at most this factor; chosen:
+   !> products take about a third of the time of the responses
    real(wp), parameter :: most_widening = 4.0_wp
 
 contains
 
-   !> Displacements and stresses in element centres
+   !> Displacements and stresses at element centres
    subroutine transform_layers(load, ix, iy, z, displacement, stress, shelf)
-      !> Tractions of the surface and the constants of the bodies
+      !> Surface tractions and constants of the bodies
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points, ascending; they may lie outside the grid
       integer, intent(in) :: ix(:), iy(:)
@@ -51,7 +50,7 @@ contains
       real(wp), intent(out) :: displacement(3, size(ix), size(iy), size(z))
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz
       real(wp), intent(out) :: stress(6, size(ix), size(iy), size(z))
-      !> What cases that follow each other keep; absent: nothing
+      !> Spectra kept by consecutive cases; absent: none
       type(response_shelf), intent(inout), optional :: shelf
       type(layer_window) :: window
       type(response_pack), allocatable :: packs(:)
@@ -69,7 +68,8 @@ contains
       call transform_loads(load, window, spectrum)
       threads = 1
       !$ threads = omp_get_max_threads()
-      ! responses 27/4, spectra and fields of a group and rows of two plans, in padded windows of reals
+      ! memory per thread: 27/4 responses, spectra and fields of a group, and rows of two plans, in padded windows of real
+      ! numbers
       threads = min(threads, size(z), max(1, int(memory/(8.0_wp*16.0_wp*real(window%px, wp)*real(window%py, wp)))))
       !$omp parallel num_threads(threads) default(shared)
       call share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
@@ -79,7 +79,7 @@ contains
       shelf%ny = window%ny
    end subroutine transform_layers
 
-   !> The window of a case whose spectra are kept, or shall be
+   !> Determine the window of a case whose spectra are, or will be, kept
    subroutine consult(shelf, load, ix, iy, z, n_packs, window, stores)
       type(response_shelf), intent(inout) :: shelf
       type(surface_load), intent(in) :: load
@@ -87,11 +87,11 @@ contains
       integer, intent(in) :: ix(:), iy(:)
       !> Depths [mm]
       real(wp), intent(in) :: z(:)
-      !> Number of spectra of a depth
+      !> Number of spectra per depth
       integer, intent(in) :: n_packs
-      !> That of loads and points; on return as large as that of the spectra
+      !> Window of loads and points; on return enlarged to that of the spectra
       type(layer_window), intent(inout) :: window
-      !> Shall the spectra of this case be kept?
+      !> Will the spectra of this case be kept?
       logical, intent(out) :: stores
       type(layer_window) :: wide
 
@@ -119,11 +119,11 @@ contains
 
    !> Number of padded elements, and of differences between points and loads, as measures of the cost
    pure subroutine padded_size(load, ix, iy, padded, differences)
-      !> Tractions of the surface
+      !> Surface tractions
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points, ascending
       integer, intent(in) :: ix(:), iy(:)
-      !> Elements of the padded window; pairs of a point and a load that differ in place
+      !> Elements of the padded window; distinct differences between a point and a load
       real(wp), intent(out) :: padded, differences
       type(layer_window) :: window
 
@@ -149,7 +149,7 @@ contains
       call pad(window)
    end subroutine find_window
 
-   !> Padded size that holds differences of both signs without overlap
+   !> Padded size for differences of both signs without overlap
    pure subroutine pad(window)
       type(layer_window), intent(inout) :: window
 
@@ -161,7 +161,7 @@ contains
    subroutine transform_loads(load, window, spectrum)
       type(surface_load), intent(in) :: load
       type(layer_window), intent(in) :: window
-      !> Spectra, shape (py, px/2 + 1, 3); those of tractions that do not act are undefined
+      !> Spectra, shape (py, px/2 + 1, 3); undefined for tractions that are zero
       complex(wp), allocatable, intent(out) :: spectrum(:, :, :)
       type(fft_plan) :: plan
       real(wp), allocatable :: field(:, :)
@@ -180,7 +180,7 @@ contains
       call plan%release()
    end subroutine transform_loads
 
-   !> The layers that fall to one thread, with its own plans and scratch
+   !> Layers of one thread, with its own plans and workspace
    subroutine share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
       type(surface_load), intent(in) :: load
       type(layer_window), intent(in) :: window
@@ -190,10 +190,10 @@ contains
       integer, intent(in) :: ix(:), iy(:)
       real(wp), intent(in) :: z(:)
       real(wp), contiguous, intent(inout) :: displacement(:, :, :, :), stress(:, :, :, :)
-      !> Has the spectra of this window, or gets them, or is empty
+      !> Contains the spectra of this window, receives them, or is empty
       type(response_shelf), intent(inout), optional :: shelf
       type(fft_plan) :: plan, period_plan
-      !> Responses by differences 0...nx, 0...ny, shape (0:nx, 0:ny, 9, 3)
+      !> Responses for differences 0...nx, 0...ny, shape (0:nx, 0:ny, 9, 3)
       real(wp), allocatable :: response(:, :, :, :)
       real(wp), allocatable :: field(:, :), period(:, :), factor(:, :, :)
       complex(wp), allocatable :: product(:, :, :), packed(:, :)
@@ -244,13 +244,13 @@ contains
             end do
          end do
       end do
-      ! no barrier: a thread may have left, see base/guard.c
+      ! no barrier: a thread may have been abandoned, see base/guard.c
       !$omp end do nowait
       call plan%release()
       if (.not. serves) call period_plan%release()
    end subroutine share_of_layers
 
-   !> Responses at one depth by differences of columns and rows that are not negative
+   !> Responses at one depth, for non-negative differences of columns and rows
    pure subroutine fill_responses(load, window, z, response)
       type(surface_load), intent(in) :: load
       type(layer_window), intent(in) :: window
@@ -268,7 +268,7 @@ contains
       mirror = merge(1.0_wp, -1.0_wp, body == 1)
       rule = new_quadrature(load%bilinear)
       associate (dx => load%grid%dx, dy => load%grid%dy)
-         ! number of differences per row, less one, for which closed forms are used
+         ! number of differences per row, minus one, for which closed forms are used
          far = far_distance(dx, dy, load%bilinear)
          do l = 0, window%ny
             near(l) = -1
@@ -302,10 +302,10 @@ contains
 
    contains
 
-      !> Differences along x on one line, that number 0 lies below the row 0
+      !> Differences along x on one line; line 0 is below row 0
       pure subroutine fill_line(number, last, differences)
          integer, intent(in) :: number
-         !> Last difference of columns that is needed
+         !> Last difference of columns required
          integer, intent(in) :: last
          real(wp), intent(out) :: differences(n_derivatives, 0:window%nx)
          real(wp) :: now(n_derivatives), before(n_derivatives), first(n_derivatives), y, edge
@@ -357,7 +357,7 @@ contains
       end associate
    end subroutine integrate
 
-   !> From the frame of body 2, whose y-axis is turned
+   !> Transform from the frame of body 2, whose y-axis is reversed
    pure subroutine turn_y(response)
       real(wp), contiguous, intent(inout) :: response(:, :, :, :)
       integer :: f, t

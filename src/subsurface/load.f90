@@ -1,4 +1,4 @@
-!> Tractions on the surface as the loads of both bodies
+!> Surface tractions as loads of both bodies
 module contact_subsurface_load
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : bounding_box
@@ -8,16 +8,16 @@ module contact_subsurface_load
 
    public :: surface_load, new_surface_load
 
-   !> Tractions on a window of elements, cut down to where they do not vanish
+   !> Tractions on a window of elements, restricted to the loaded part
    type :: surface_load
       type(potential_contact) :: grid
-      !> Columns and rows of the smallest rectangle that holds all loaded elements
+      !> Columns and rows of the smallest rectangle that contains all loaded elements
       type(bounding_box) :: box
       !> Tractions px, py, pn on body 1 [N/mm2], shape (ix0:ix1, iy0:iy1, 3) of the box
       real(wp), allocatable :: traction(:, :, :)
-      !> Do px, py, pn differ from zero anywhere?
+      !> Are px, py, pn non-zero anywhere?
       logical :: acts(3) = .false.
-      !> Tractions are values at centres, linear in between? Else constant on each element
+      !> Are tractions values at centres, with linear interpolation? Otherwise constant on each element
       logical :: bilinear = .false.
       !> Modulus of rigidity [N/mm2] and Poisson's ratio [-] of body 1 and 2
       real(wp) :: gg(2) = 1.0_wp, nu(2) = 0.0_wp
@@ -27,7 +27,7 @@ contains
 
    !> Collect the loads of a solved contact
    pure subroutine new_surface_load(load, grid, pn, px, py, gg, nu, bilinear)
-      !> Gets copies of what is loaded: the bounding box of all tractions
+      !> Receives copies of the loaded part: the bounding box of all tractions
       type(surface_load), intent(out) :: load
       !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
@@ -35,7 +35,7 @@ contains
       real(wp), contiguous, intent(in) :: pn(:, :), px(:, :), py(:, :)
       !> Modulus of rigidity [N/mm2] and Poisson's ratio [-] of body 1 and 2
       real(wp), intent(in) :: gg(2), nu(2)
-      !> Tractions vary linearly between the centres? Default: constant on each element
+      !> Do tractions vary linearly between the centres? Default: constant on each element
       logical, intent(in), optional :: bilinear
       integer :: ix, iy
 

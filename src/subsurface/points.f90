@@ -15,19 +15,19 @@ module contact_subsurface_points
       integer :: ranges = 2
       !> Centres of the elements in lists of columns and rows
       integer :: lists = 3
-      !> Coordinates that have nothing to do with the grid
+      !> Coordinates independent of the grid
       integer :: free = 9
    end type point_selection_list
-   !> Ways to choose x and y; the depths are always a list
+   !> Ways to select x and y; the depths are always a list
    type(point_selection_list), parameter :: point_selection = point_selection_list()
 
-   !> Request for one block: the product of a set of x, of y and of z
+   !> Request for a block of points: the product of sets of x, y and z
    type :: point_block
       !> Member of point_selection
       integer :: selection = 1
       !> First, increment and last of columns and rows, for ranges; clipped to the grid
       integer :: ixl = 1, ixinc = 1, ixh = huge(1), iyl = 1, iyinc = 1, iyh = huge(1)
-      !> Columns and rows, for lists, in any order; those outside the grid are left out
+      !> Columns and rows, for lists, in any order; those outside the grid are ignored
       integer, allocatable :: ix(:), iy(:)
       !> Coordinates [mm], for free points, in any order
       real(wp), allocatable :: x(:), y(:)
@@ -35,7 +35,7 @@ module contact_subsurface_points
       real(wp), allocatable :: z(:)
    end type point_block
 
-   !> All points with an x, a y and a z of three lists
+   !> All points of the product of three lists of x, y and z
    type :: point_set
       !> Coordinates [mm], ascending
       real(wp), allocatable :: x(:), y(:), z(:)
@@ -48,13 +48,13 @@ contains
 
    !> The coordinates of a block, clipped to the grid and sorted
    !>
-   !> Repeated columns and rows count once, repeated coordinates do not disturb and stay.
+   !> Repeated columns and rows count once; repeated coordinates are kept.
    pure subroutine expand_points(block, grid, points)
-      !> Coordinates as they were given
+      !> Coordinates as given
       type(point_block), intent(in) :: block
-      !> Potential contact, whose centres a block may refer to
+      !> Potential contact whose centres a block may refer to
       type(potential_contact), intent(in) :: grid
-      !> Sorted coordinates, and columns and rows where they are centres of elements
+      !> Sorted coordinates, and columns and rows for centres of elements
       type(point_set), intent(out) :: points
 
       select case (block%selection)
@@ -93,7 +93,7 @@ contains
       end do
    end subroutine list_points
 
-   !> Depth above which the steps of the tractions between elements are felt off their centres [mm]
+   !> Depth above which the jumps of the tractions between elements affect points that are not at centres [mm]
    elemental real(wp) function stepped_depth(grid) result(depth)
       !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
@@ -101,7 +101,7 @@ contains
       depth = 0.25_wp*grid%dx
    end function stepped_depth
 
-   !> Number of points over a grid, of 0 elements and more, that are nearer to the surface and not at centres of elements
+   !> Number of points within the grid that are above this depth and not at centres of elements; 0 for an empty grid
    pure integer function stepped_points(points, grid) result(n)
       !> Sorted coordinates
       type(point_set), intent(in) :: points
@@ -118,12 +118,12 @@ contains
 
    contains
 
-      !> How many coordinates lie in the grid, and how many of these are no centres
+      !> Number of coordinates within the grid, and number of these that are not at centres
       pure subroutine sort_out(values, low, step, m, inside, off)
          real(wp), intent(in) :: values(:), low, step
          integer, intent(in) :: m
          integer, intent(out) :: inside, off
-         !> Distance from a centre that is none, relative to the element
+         !> Distance from a centre that is treated as zero, relative to the element side
          real(wp), parameter :: at_centre = 0.01_wp
          real(wp) :: place
          integer :: k
@@ -158,27 +158,27 @@ contains
       z = [(zl + (iz - 1)*dz, iz = 1, nz)]
    end function depth_range
 
-   !> Numbers first, first + increment, ... up to last as far as they lie in 1...m
+   !> Values first, first + increment, ... up to last that are within 1...m
    pure function range_within(first, increment, last, m) result(numbers)
-      !> Ends of the range and step; steps below 1 mean 1
+      !> Ends of the range and increment; increments below 1 mean 1
       integer, intent(in) :: first, increment, last
-      !> Largest number that is allowed
+      !> Largest value allowed
       integer, intent(in) :: m
       integer, allocatable :: numbers(:)
       integer :: i, step, start
 
       step = max(1, increment)
       start = first
-      ! the smallest member of the range that is not below 1
+      ! the smallest member of the range that is at least 1
       if (first < 1) start = first + step*((step - first)/step)
       numbers = [(i, i = start, min(last, m), step)]
    end function range_within
 
-   !> Members of a list that lie in 1...m, ascending and each of them once
+   !> Members of a list that are within 1...m, ascending and without repetition
    pure function chosen(list, m) result(numbers)
-      !> Numbers in any order; unallocated means none
+      !> Values in any order; unallocated: none
       integer, allocatable, intent(in) :: list(:)
-      !> Largest number that is allowed
+      !> Largest value allowed
       integer, intent(in) :: m
       integer, allocatable :: numbers(:)
       logical :: wanted(m)
@@ -196,7 +196,7 @@ contains
    !> Values in ascending order, by insertion
    pure subroutine sort_into(sorted, list)
       real(wp), allocatable, intent(out) :: sorted(:)
-      !> Values in any order; unallocated means none
+      !> Values in any order; unallocated: none
       real(wp), allocatable, intent(in) :: list(:)
       real(wp) :: value
       integer :: i, j

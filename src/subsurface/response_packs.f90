@@ -1,9 +1,9 @@
 !> Spectra of the responses at one depth, in packs
 !>
-!> The 27 responses, nine fields by three tractions, are even or odd in each coordinate. Of a real field, the part that is
-!> even or odd in x and in y has a spectrum that is real or imaginary and even or odd in the second frequency. So up to four
-!> responses, of different symmetry, are obtained from one real transform of their sum, and half of the real or imaginary
-!> parts tell all.
+!> The 27 responses, nine fields by three tractions, are even or odd in each coordinate. The part of a real field that is even
+!> or odd in x and in y has a spectrum that is real or imaginary and even or odd in the second frequency. Up to four responses
+!> of different symmetry are therefore obtained from one real transform of their sum, and half of the real or imaginary parts is
+!> sufficient.
 module contact_subsurface_response_packs
    use, intrinsic :: iso_c_binding, only : c_double, c_double_complex, c_int
    use contact_base_kinds, only : wp
@@ -17,27 +17,27 @@ module contact_subsurface_response_packs
    !> Symmetries: even in x and y, odd in x, odd in y, odd in both
    integer, parameter :: n_parts = 4
 
-   !> Responses that are transformed together, one of each symmetry
+   !> Responses transformed together, one of each symmetry
    type :: response_pack
       !> Group of the fields
       integer :: group = 0
-      !> Place of the field within the group, and traction; 0 where there is none
+      !> Index of the field within the group, and traction; 0: none
       integer :: field(n_parts) = 0, load(n_parts) = 0
    end type response_pack
 
-   !> Fields that are worked on together, to save memory: displacements, normal and shear stresses
+   !> Groups of fields processed together, to save memory: displacements, normal and shear stresses
    integer, parameter :: group(3, 3) = reshape([1, 2, 3,  4, 7, 9,  5, 6, 8], [3, 3])
 
    interface
-      !> Product of a column of a response with one of a traction; in pack_products.c
+      !> Product of a column of a response and one of a traction; in pack_products.c
       pure subroutine multiply_column(n, half, factor, other_half, flags, traction, product) bind(c, name="contact_pack_product")
          import :: c_double, c_double_complex, c_int
-         !> Length of the column, and how much of it has factors of its own
+         !> Length of the column, and number of stored factors
          integer(c_int), value :: n, half
-         !> Factors; those of the rest are the same in reverse, times the other number
+         !> Factors; the remaining ones are the same in reverse order, times other_half
          real(c_double), intent(in) :: factor(half)
          real(c_double), value :: other_half
-         !> 1 or 0: times i; added to what there is
+         !> 1 or 0: multiply by i; add to the present values
          integer(c_int), intent(in) :: flags(2)
          complex(c_double_complex), intent(in) :: traction(n)
          complex(c_double_complex), intent(inout) :: product(n)
@@ -46,9 +46,9 @@ module contact_subsurface_response_packs
 
 contains
 
-   !> The responses to tractions that act, in packs
+   !> Arrange the responses to non-zero tractions in packs
    pure subroutine choose_packs(acts, packs)
-      !> Tractions that act
+      !> Non-zero tractions
       logical, intent(in) :: acts(3)
       !> Each response is in one of them
       type(response_pack), allocatable, intent(out) :: packs(:)
@@ -79,17 +79,17 @@ contains
 
    !> Spectra of the responses of a pack
    subroutine transform_pack(pack, response, plan, period, packed, factor)
-      !> Which responses
+      !> Responses of the pack
       type(response_pack), intent(in) :: pack
-      !> Responses by differences 0...nx, 0...ny
+      !> Responses for differences 0...nx, 0...ny
       real(wp), contiguous, intent(in) :: response(0:, 0:, :, :)
-      !> Transforms of full periods
+      !> Plan for transforms of full periods
       type(fft_plan), intent(inout) :: plan
-      !> Scratch: a period, shape (px, py)
+      !> Workspace: a period, shape (px, py)
       real(wp), contiguous, intent(inout) :: period(:, :)
-      !> Scratch: its spectrum, shape (py, px/2 + 1)
+      !> Workspace: its spectrum, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(inout) :: packed(:, :)
-      !> Real or imaginary parts of the spectra, shape (py/2 + 1, px/2 + 1, 4); 0 for symmetries that are absent
+      !> Real or imaginary parts of the spectra, shape (py/2 + 1, px/2 + 1, 4); 0 for absent symmetries
       real(wp), contiguous, intent(out) :: factor(:, :, :)
       integer :: f, part, t
 
@@ -107,13 +107,13 @@ contains
       end do
    end subroutine transform_pack
 
-   !> Symmetry of a part: odd in x?
+   !> Is a part odd in x?
    elemental logical function is_odd_in_x(part)
       integer, intent(in) :: part
       is_odd_in_x = mod(part - 1, 2) == 1
    end function is_odd_in_x
 
-   !> Symmetry of a part: odd in y?
+   !> Is a part odd in y?
    elemental logical function is_odd_in_y(part)
       integer, intent(in) :: part
       is_odd_in_y = part > 2
@@ -121,7 +121,7 @@ contains
 
    !> Add the products of the responses of a pack and their tractions to the spectra of the fields
    pure subroutine add_products(pack, factor, spectrum, product, has_begun)
-      !> Which responses
+      !> Responses of the pack
       type(response_pack), intent(in) :: pack
       !> Real or imaginary parts of the spectra of the responses, shape (py/2 + 1, px/2 + 1, 4)
       real(wp), contiguous, intent(in) :: factor(:, :, :)
@@ -129,7 +129,7 @@ contains
       complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
       !> Spectra of the fields of the group, shape (py, px/2 + 1, 3)
       complex(wp), contiguous, intent(inout) :: product(:, :, :)
-      !> Which of them have something in them already; the others are overwritten
+      !> Which of them contain values already; the others are overwritten
       logical, intent(inout) :: has_begun(:)
       integer :: part
 
@@ -143,12 +143,12 @@ contains
       end do
    end subroutine add_products
 
-   !> Continue a response to negative differences and add it to a full period
+   !> Extend a response to negative differences and add it to a full period
    pure subroutine add_to_period(response, odd_x, odd_y, period)
-      !> Differences 0...nx, 0...ny
+      !> Response for differences 0...nx, 0...ny
       real(wp), contiguous, intent(in) :: response(0:, 0:)
       logical, intent(in) :: odd_x, odd_y
-      !> One period, shape (px, py); difference 0 stands at (1, 1)
+      !> One period, shape (px, py); difference 0 is at (1, 1)
       real(wp), contiguous, intent(inout) :: period(:, :)
       real(wp) :: row(0:ubound(response, 1)), sx, sy
       integer :: k, l, nx, px
@@ -159,7 +159,7 @@ contains
       sy = merge(-1.0_wp, 1.0_wp, odd_y)
       do l = 0, ubound(response, 2)
          row = response(:, l)
-         ! an odd response vanishes where it changes its sign
+         ! an odd response is zero where it changes sign
          if (odd_x) row(0) = 0.0_wp
          if (odd_y .and. l == 0) cycle
          period(1:nx + 1, l + 1) = period(1:nx + 1, l + 1) + row
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine add_to_period
 
-   !> Take one part out of a spectrum of several responses
+   !> Extract one part from a spectrum of several responses
    pure subroutine take_out(packed, odd_x, odd_y, factor)
       !> Spectrum of a sum of responses, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(in) :: packed(:, :)
@@ -200,13 +200,13 @@ contains
       end do
    end subroutine take_out
 
-   !> Product of one response with a traction, put in place of a field or added to it
+   !> Product of a response and a traction, which replaces a field or is added to it
    pure subroutine add_product(factor, odd_x, odd_y, is_added, traction, product)
       !> Real or imaginary part of the spectrum of the response, shape (py/2 + 1, px/2 + 1)
       real(wp), contiguous, intent(in) :: factor(:, :)
       !> Its symmetry
       logical, intent(in) :: odd_x, odd_y
-      !> Is there something in the field already?
+      !> Is it added to the present values?
       logical, intent(in) :: is_added
       !> Spectra of the traction and of the field, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(in) :: traction(:, :)

@@ -1,8 +1,8 @@
-!> Spectra of the responses of a grid, kept for cases that follow each other
+!> Spectra of the responses of a grid, kept for consecutive cases
 !>
-!> Cases of a series often ask for the stresses of the same points below the same elements. Their first case takes note of
-!> what was asked for, the second one keeps the spectra, further ones multiply: a single case pays nothing, and a series pays
-!> for the responses twice.
+!> Cases of a series often request stresses at the same points below the same elements. The first case records its request, the
+!> second one keeps the spectra, and later ones only multiply: a single case has no extra cost, and a series computes the
+!> responses twice.
 module contact_subsurface_response_shelf
    use contact_base_kinds, only : wp
    use contact_subsurface_load, only : surface_load
@@ -11,29 +11,29 @@ module contact_subsurface_response_shelf
 
    public :: response_shelf
 
-   !> Most memory of a shelf [bytes]
+   !> Maximum memory of a shelf [bytes]
    real(wp), parameter :: most_memory = 64.0e6_wp
-   !> Bytes of a number
+   !> Bytes per number
    real(wp), parameter :: bytes = 8.0_wp
 
-   !> One question, and the spectra that answer it
+   !> A request, and the spectra that belong to it
    type :: response_shelf
       private
       !> Sides of the elements [mm], moduli of rigidity [N/mm2] and Poisson's ratios [-], depths [mm]
       real(wp) :: side(2) = 0.0_wp, gg(2) = 0.0_wp, nu(2) = 0.0_wp
       real(wp), allocatable :: z(:)
-      !> Do loads fall to the centres of the neighbours? Tractions that act
+      !> Do loads decrease linearly to the centres of the neighbours? Non-zero tractions
       logical :: bilinear = .false., acts(3) = .false.
-      !> Largest differences of columns and rows that the spectra have; -1 without spectra
+      !> Maximum differences of columns and rows of the spectra; -1: no spectra
       integer, public :: nx = -1, ny = -1
       !> Real or imaginary parts of the spectra, shape (py/2 + 1, px/2 + 1, 4, number of packs, number of depths)
       real(wp), allocatable, public :: factor(:, :, :, :, :)
    contains
-      !> Was the same asked for before, but for the places of loads and points?
+      !> Is this request the same as the recorded one, except for the positions of loads and points?
       procedure :: is_for
-      !> Take note of what is asked for now, without spectra
+      !> Record the current request, without spectra
       procedure :: note
-      !> Room for spectra, where there is enough; they hold differences as soon as nx and ny are set
+      !> Allocate spectra if there is enough memory; they are valid as soon as nx and ny are set
       procedure :: make_room
    end type response_shelf
 
@@ -75,7 +75,7 @@ contains
       class(response_shelf), intent(inout) :: self
       !> Shape of the spectra
       integer, intent(in) :: sizes(5)
-      !> Is there room? Otherwise the shelf is empty
+      !> Were they allocated? Otherwise the shelf is empty
       logical, intent(out) :: is_there
 
       self%nx = -1

@@ -11,31 +11,31 @@ module contact_subsurface_stress
 
    public :: subsurface_field
 
-   !> Stresses below this fraction of the modulus of rigidity are rounding noise
+   !> Stresses below this fraction of the modulus of rigidity are round-off
    real(wp), parameter :: noise = 1.0e-15_wp
-   !> Points this close to a centre, per side of an element, are taken to lie on it
+   !> Points closer than this to a centre, relative to the element side, are regarded as lying on it
    real(wp), parameter :: on_centre = 1.0e-9_wp
-   !> Farthest column or row that is looked at
+   !> Maximum distance of a column or row
    real(wp), parameter :: farthest = 1.0e6_wp
-   !> Measured costs [ns]: a closed form in a direct sum; per layer, an element of the padded window, and
-   !> a difference between point and load
+   !> Measured costs [ns]: a closed-form term of a direct sum; per layer, an element of the padded window, and a difference
+   !> between point and load
    real(wp), parameter :: term_cost = 170.0_wp, padded_cost = 220.0_wp, difference_cost = 800.0_wp
 
 contains
 
-   !> Displacements and stresses in a set of points, in body 1 for z >= 0 and in body 2 for z < 0
+   !> Displacements and stresses at a set of points, in body 1 for z >= 0 and in body 2 for z < 0
    !>
-   !> By fast transforms where the points are centres of elements and it pays off, else by direct sums.
+   !> Uses fast Fourier transforms if the points are centres of elements and it is faster, otherwise direct sums.
    subroutine subsurface_field(load, points, displacement, stress, shelf)
-      !> Tractions of the surface and the constants of the bodies
+      !> Surface tractions and constants of the bodies
       type(surface_load), intent(in) :: load
       !> Sorted coordinates
       type(point_set), intent(in) :: points
-      !> Displacements of the body that the point belongs to [mm], shape (3, n), x fastest
+      !> Displacements of the body that contains the point [mm], shape (3, n), x fastest
       real(wp), contiguous, intent(out) :: displacement(:, :)
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz, shape (6, n)
       real(wp), contiguous, intent(out) :: stress(:, :)
-      !> What cases that follow each other keep for the points of a block; absent: nothing
+      !> Spectra kept by consecutive cases for the points of a block; absent: none
       type(response_shelf), intent(inout), optional :: shelf
       integer, allocatable :: ix(:), iy(:)
       real(wp), allocatable :: position(:, :)
@@ -57,18 +57,18 @@ contains
       end do
    end subroutine subsurface_field
 
-   !> Columns, or rows, on whose centres coordinates lie
+   !> Columns, or rows, whose centres have the given coordinates
    pure subroutine find_centres(x, xl, dx, ix)
       !> Coordinates [mm]
       real(wp), intent(in) :: x(:)
-      !> Edge of the window and side of an element [mm]
+      !> Lower edge of the grid and element side [mm]
       real(wp), intent(in) :: xl, dx
-      !> Numbers of columns; unallocated if one of the coordinates lies elsewhere
+      !> Indices of columns; unallocated if any coordinate is not at a centre
       integer, allocatable, intent(out) :: ix(:)
       real(wp) :: column(size(x))
 
       column = (x - xl)/dx + 0.5_wp
-      ! also leaves for NaN
+      ! also returns for NaN
       if (.not. all(abs(column) <= farthest)) return
       if (all(abs(column - anint(column)) <= on_centre)) ix = nint(column)
    end subroutine find_centres
