@@ -1,4 +1,4 @@
-!> What the command line says of an accuracy: how large an error may be, and what may take the place of the full theory
+!> Command-line options of accuracy: the requested bound of the error, and methods allowed instead of the full theory
 module contact_cli_accuracy_words
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -11,13 +11,13 @@ module contact_cli_accuracy_words
 
 contains
 
-   !> The largest relative error of the forces
+   !> Parse the bound of the relative error of the forces
    subroutine read_accuracy(word, accuracy, error)
-      !> As it was typed
+      !> Word as typed
       character(len=*), intent(in) :: word
-      !> Largest relative error, 0 after a mistake [-]
+      !> Bound of the relative error, 0 after an error [-]
       real(wp), intent(out) :: accuracy
-      !> Not a number, or one that cannot be asked for
+      !> Not a number, or outside the accepted range
       type(error_type), allocatable, intent(out) :: error
       integer :: status
 
@@ -28,13 +28,13 @@ contains
       call fatal_error(error, "the accuracy, '" // word // "', is not a number from 1e-6 to 0.1")
    end subroutine read_accuracy
 
-   !> May simplified methods be chosen?
+   !> Parse the permission to use simplified methods
    subroutine read_permission(word, allows, error)
-      !> As it was typed
+      !> Word as typed
       character(len=*), intent(in) :: word
-      !> Was the word approximate said?
+      !> Is the word "approximate"?
       logical, intent(out) :: allows
-      !> Another word than approximate
+      !> Allocated for any other word
       type(error_type), allocatable, intent(out) :: error
 
       allows = word == allowances(2)

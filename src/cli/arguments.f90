@@ -1,4 +1,4 @@
-!> The command line: what was typed, what is asked for when something is missing, what to do
+!> Command line: parsing of options and arguments, prompts for missing ones, and execution
 module contact_cli_arguments
    use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
    use contact_base_choices, only : heat_source
@@ -20,7 +20,7 @@ module contact_cli_arguments
    public :: run_command_line
 
    type :: mode_list
-      !> Licence management, of which nothing is left
+      !> Licence management; does nothing
       integer :: licence = 1
       !> Read, compute, write results
       integer :: compute = 2
@@ -30,27 +30,27 @@ module contact_cli_arguments
    !> Names of the modes
    type(mode_list), parameter :: mode = mode_list()
 
-   !> Exit statuses
+   !> Exit status codes
    integer, parameter :: success = 0, failure = 1, unconverged = 2
-   !> Name of the experiment when the answer to the question for it is empty
+   !> Name of the experiment if the answer to the prompt is empty
    character(len=*), parameter :: default_experiment = "contact"
-   !> Longest answer
+   !> Maximum length of an answer
    integer, parameter :: longest_answer = 4096
-   !> Largest number of threads that can be asked for
+   !> Maximum number of threads
    integer, parameter :: max_threads = 4096
    character(len=*), parameter :: usage = "Usage: contact [options] [IMODE [EXPNAM]], see contact --help"
 
-   !> What the command line said
+   !> Parsed command line
    type :: command
-      !> Mode, 0 when not given
+      !> Mode, 0: not given
       integer :: mode = 0
-      !> Name of the experiment; unallocated when not given
+      !> Name of the experiment; unallocated: not given
       character(len=:), allocatable :: experiment
-      !> Folder of the results; unallocated when not given
+      !> Folder of the results; unallocated: not given
       character(len=:), allocatable :: output_folder
-      !> Number of threads, 0 when not given
+      !> Number of threads, 0: not given
       integer :: threads = 0
-      !> Where to write the totals as JSON lines: "" a file, "-" the standard output; unallocated: nowhere
+      !> Totals as JSON lines: "" to a file, "-" to the standard output; unallocated: none
       character(len=:), allocatable :: json
       !> Write the HDF5 file?
       logical :: hdf5 = .false.
@@ -60,31 +60,31 @@ module contact_cli_arguments
       integer :: heat_source = as_input_says
       !> Order of the discretisation of rolling, or as_input_says
       integer :: order = as_input_says
-      !> Largest relative error of the forces, or 0 where none is asked for
+      !> Requested bound of the relative error of the forces, 0: none
       real(wp) :: accuracy = 0.0_wp
-      !> May simplified methods be chosen for it?
+      !> Allow simplified methods for it?
       logical :: allows_approximate = .false.
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
-      !> Run the classical solvers that cases name?
+      !> Run the classical solvers selected by cases?
       logical :: classical = .false.
       !> Estimate the errors of the totals?
       logical :: errors = .false.
-      !> What a case may take, and whether the run is confined to its folder
+      !> Limits of a case, and restriction of the run to its folder
       type(case_limits) :: limits
-      !> What the run may take: time [s], and bytes of its files
+      !> Limits of the run: time [s], and total size of its files [bytes]
       real(wp) :: run_seconds = huge(1.0_wp)
       integer(long) :: output_bytes = huge(1_long)
-      !> Exit with a status of its own when a case does not converge?
+      !> Exit with a status of its own if a case does not converge?
       logical :: strict = .false.
-      !> Go on with a run that has ended too early?
+      !> Resume a run that ended before all cases were finished?
       logical :: resume = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type command
 
 contains
 
-   !> Do what the command line says; the result is the exit status
+   !> Execute the command line; returns the exit status
    integer function run_command_line() result(status)
       type(command) :: asked
       type(error_type), allocatable :: error
@@ -129,7 +129,7 @@ contains
       call run(asked, status)
    end function run_command_line
 
-   !> Run the experiment; errors have been written when this returns
+   !> Run the experiment; errors have been written on return
    subroutine run(asked, status)
       type(command), intent(inout) :: asked
       !> Exit status
@@ -174,7 +174,7 @@ contains
       if (interrupted) status = exit_status_of_signal()
    end subroutine run
 
-   !> Sort the words of the command line into options and positional arguments
+   !> Separate the words of the command line into options and positional arguments
    subroutine read_arguments(asked, error)
       type(command), intent(out) :: asked
       type(error_type), allocatable, intent(out) :: error
@@ -204,14 +204,14 @@ contains
       end do
    end subroutine read_arguments
 
-   !> An option, and its value if it has one
+   !> Parse an option, and its value if it has one
    !>
-   !> Long because each option is a case of one selection.
+   !> Long because each option is a case of a single select statement.
    subroutine take_option(asked, word, k, error)
       type(command), intent(inout) :: asked
-      !> The word; a value may follow after an equals sign
+      !> Option; a value may follow after an equals sign
       character(len=*), intent(in) :: word
-      !> Number of the word; on return that of the last one used
+      !> Index of the word; on return that of the last one used
       integer, intent(inout) :: k
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: name, value
@@ -311,7 +311,7 @@ contains
 
    contains
 
-      !> A limit, a positive number
+      !> Parse the value of a limit, a positive number
       subroutine take_limit()
          real(wp) :: number
 
@@ -336,7 +336,7 @@ contains
          end select
       end subroutine take_limit
 
-      !> The value of the option: after the equals sign, or the next word
+      !> Get the value of the option: after the equals sign, or the next word
       subroutine take_value(what)
          character(len=*), intent(in) :: what
 
@@ -351,7 +351,7 @@ contains
       end subroutine take_value
    end subroutine take_option
 
-   !> The mode, from the first positional argument
+   !> Parse the mode from the first positional argument
    subroutine take_mode(asked, word, error)
       type(command), intent(inout) :: asked
       character(len=*), intent(in) :: word
@@ -363,13 +363,13 @@ contains
          & "the commands convert, explain, report, study and table")
    end subroutine take_mode
 
-   !> Is there such a mode?
+   !> Does this mode exist?
    pure logical function is_mode(number)
       integer, intent(in) :: number
       is_mode = number == mode%licence .or. number == mode%compute .or. number == mode%check
    end function is_mode
 
-   !> Show the modes and ask until one is chosen
+   !> List the modes and prompt until one is chosen
    subroutine ask_mode(asked, error)
       type(command), intent(inout) :: asked
       type(error_type), allocatable, intent(out) :: error
@@ -387,7 +387,7 @@ contains
       end do
    end subroutine ask_mode
 
-   !> Ask for the name of the experiment
+   !> Prompt for the name of the experiment
    subroutine ask_experiment(asked, error)
       type(command), intent(inout) :: asked
       type(error_type), allocatable, intent(out) :: error
@@ -397,7 +397,7 @@ contains
       if (len_trim(asked%experiment) == 0) asked%experiment = default_experiment
    end subroutine ask_experiment
 
-   !> One question and its answer; the end of the input is an error
+   !> Prompt for an answer; the end of the input is an error
    subroutine ask(question, answer, error)
       character(len=*), intent(in) :: question
       character(len=:), allocatable, intent(out) :: answer
@@ -409,7 +409,7 @@ contains
       flush(output_unit)
       read(input_unit, "(A)", iostat=status) line
       if (status == 0) then
-         ! a carriage return ends the lines of foreign files
+         ! files from other systems have a carriage return at the end of a line
          answer = trim(adjustl(replaced(line, achar(13), " ")))
       else
          answer = ""
@@ -418,7 +418,7 @@ contains
       end if
    end subroutine ask
 
-   !> An unsigned integer, -1 when the word is none
+   !> An unsigned integer, -1 if the word is not one
    pure integer function to_number(word) result(number)
       character(len=*), intent(in) :: word
       integer :: status
@@ -429,7 +429,7 @@ contains
       if (status /= 0) number = -1
    end function to_number
 
-   !> A number, -1 when the word is none
+   !> A number, -1 if the word is not one
    real(wp) function to_real(word) result(number)
       character(len=*), intent(in) :: word
       integer :: status
@@ -440,7 +440,7 @@ contains
       if (status /= 0) number = -1.0_wp
    end function to_real
 
-   !> Answer to --help
+   !> Write the text of --help
    subroutine write_help()
       write(output_unit, "(A)") &
          & "Usage: contact [options] [IMODE [EXPNAM]]", &
@@ -457,8 +457,8 @@ contains
          & "        3  read and check EXPNAM.inp, compute nothing", &
          & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp or .toml; without, .inp is read", &
          & "        where it is there, and .toml, the readable format, otherwise", &
-         & "What is missing is asked for.", &
-         & "convert writes an experiment in the other format; explain tells its cases in words", &
+         & "Missing arguments are prompted for.", &
+         & "convert writes an experiment in the other format; explain describes its cases in words", &
          & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
          & "study   computes many cases from one description, on this machine or many; contact study --help", &
          & "table   makes a table of creep forces, for look-ups of less than a microsecond; contact table --help", &

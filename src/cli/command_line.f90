@@ -1,4 +1,4 @@
-!> Words of the command line in their full length
+!> Words of the command line in full length
 module contact_cli_command_line
    implicit none (type, external)
    private
@@ -8,9 +8,9 @@ module contact_cli_command_line
 contains
 
    subroutine take_word(k, word)
-      !> 1...command_argument_count()
+      !> Index, 1...command_argument_count()
       integer, intent(in) :: k
-      !> In its full length
+      !> Word in full length
       character(len=:), allocatable, intent(out) :: word
       integer :: length
 

@@ -1,4 +1,4 @@
-!> contact convert and contact explain
+!> Commands contact convert and contact explain
 module contact_cli_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use contact_base_error, only : error_type, fatal_error, full_text
@@ -27,7 +27,7 @@ contains
       is_command = word == "convert" .or. word == "explain"
    end function is_command
 
-   !> Do what the command line says; the result is the exit status
+   !> Execute the command line; returns the exit status
    integer function run_command() result(status)
       type(error_type), allocatable :: error
       type(text_buffer) :: told
@@ -90,19 +90,19 @@ contains
       end if
    end function run_command
 
-   !> Is a word an option, with its value behind "=" or in the next word?
+   !> Is a word a given option, with its value after "=" or in the next word?
    pure logical function is_option(word, option, k)
       character(len=*), intent(in) :: word, option
-      !> Number of the word
+      !> Index of the word
       integer, intent(in) :: k
 
       is_option = index(word, option // "=") == 1 .or. (word == option .and. k < command_argument_count())
    end function is_option
 
-   !> Value of an option
+   !> Get the value of an option
    subroutine take_option_value(word, k, value)
       character(len=*), intent(in) :: word
-      !> Number of the word; on return that of its value
+      !> Index of the word; on return that of its value
       integer, intent(inout) :: k
       character(len=:), allocatable, intent(inout) :: value
       integer :: equals
@@ -114,7 +114,7 @@ contains
       call take_word(k, value)
    end subroutine take_option_value
 
-   !> Lines of a text
+   !> Write the lines of a text
    subroutine tell_lines(unit, told)
       integer, intent(in) :: unit
       type(text_buffer), intent(in) :: told

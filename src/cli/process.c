@@ -1,5 +1,5 @@
-/* The process of the program: signals, and streams that are not there. Nothing of this
- * is in the library, whose host has ideas of its own. */
+/* The process of the program: signals, and closed standard streams. None of this is part of the library, whose host handles
+ * these itself. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -11,10 +11,10 @@ void contact_watch_signals(void);
 void contact_forget_signals(void);
 int contact_caught_signal(void);
 
-/* The signal that ends the run after the case in hand, 0 for none */
+/* Signal that ends the run after the current case, 0: none */
 static volatile sig_atomic_t caught = 0;
 
-/* The first signal of a user or a queue waits for the case, the second one does not */
+/* The first signal from a user or a batch system ends the run after the current case, a second one at once */
 static void end_soon(int number) {
   static const char message[] = "\ncontact: the run ends after the case in hand; a second signal ends it at once\n";
   const int before = errno;
@@ -24,7 +24,7 @@ static void end_soon(int number) {
   errno = before;
 }
 
-/* These come again and again */
+/* Handler for signals that are sent repeatedly */
 static void end_soon_and_go_on(int number) {
   if (!caught) caught = number;
 }
@@ -35,7 +35,7 @@ static void handle(int number, void (*handler)(int)) {
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  /* what whoever started us ignores stays ignored: nohup, jobs in the background */
+  /* signals ignored by the parent process remain ignored: nohup, background jobs */
   if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
 }
 
@@ -45,11 +45,11 @@ void contact_watch_signals(void) {
   handle(SIGHUP, end_soon);
   handle(SIGPIPE, end_soon_and_go_on);
   handle(SIGXCPU, end_soon_and_go_on);
-  /* a file that may not grow: the write fails and is reported */
+  /* a file that reached its size limit: the write fails and is reported */
   handle(SIGXFSZ, SIG_IGN);
 }
 
-/* The run is over: from now on a signal does what it always does */
+/* Restore the default action of signals after the run */
 void contact_forget_signals(void) {
   static const int all[] = {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ};
   for (unsigned k = 0; k < sizeof all / sizeof *all; k++) {
@@ -61,8 +61,8 @@ void contact_forget_signals(void) {
 
 int contact_caught_signal(void) { return caught; }
 
-/* Streams that whoever started us has closed: files of results would get their numbers, and messages would be written into
- * them. Reading and writing them fails. */
+/* Open standard streams that the parent process has closed: otherwise result files would get their descriptors, and messages
+ * would be written into them. Reading and writing them fails. */
 void contact_fill_streams(void) {
   for (int k = 0; k <= 2; k++)
     if (fcntl(k, F_GETFD) < 0 && open("/dev/null", k == 0 ? O_WRONLY : O_RDONLY) != k) return;

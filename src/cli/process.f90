@@ -1,4 +1,4 @@
-!> The process of the program, see process.c: signals, streams, and another program in its place
+!> The process of the program, see process.c: signals, streams, and execution of another program
 module contact_cli_process
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
    implicit none (type, external)
@@ -12,15 +12,15 @@ module contact_cli_process
    end type word_type
 
    interface
-      !> Give the standard streams that are closed a file of their own; first of all
+      !> Open standard streams that are closed; must be called first
       subroutine fill_streams() bind(c, name="contact_fill_streams")
       end subroutine fill_streams
 
-      !> From now on signals end the run after the case in hand
+      !> End the run after the current case when a signal arrives
       subroutine watch_signals() bind(c, name="contact_watch_signals")
       end subroutine watch_signals
 
-      !> From now on signals do what they always do
+      !> Restore the default action of signals
       subroutine forget_signals() bind(c, name="contact_forget_signals")
       end subroutine forget_signals
 
@@ -46,9 +46,9 @@ module contact_cli_process
 
 contains
 
-   !> For run_experiment: has a signal come?
+   !> Has a signal arrived? For run_experiment
    subroutine stop_by_signal(reason)
-      !> "signal TERM"; unallocated when none came
+      !> "signal TERM"; unallocated: none
       character(len=:), allocatable, intent(out) :: reason
       integer :: number
 
@@ -68,24 +68,24 @@ contains
       end select
    end subroutine stop_by_signal
 
-   !> Exit status of a program that a signal has ended, as shells give it
+   !> Exit status of a program ended by a signal, as used by shells
    integer function exit_status_of_signal() result(status)
       integer, parameter :: first = 128
       status = first + int(caught_signal())
    end function exit_status_of_signal
 
-   !> Set a variable of the environment
+   !> Set an environment variable
    subroutine set_variable(name, value)
-      !> As the environment has it, and its new content
+      !> Name and value
       character(len=*), intent(in) :: name, value
       integer(c_int) :: ignored
 
       ignored = setenv(name // c_null_char, value // c_null_char, 1_c_int)
    end subroutine set_variable
 
-   !> Run another program in place of this one, in the same process; returns only when it is not found
+   !> Replace this program by another one in the same process; returns only if it is not found
    subroutine become(words)
-      !> Its name, looked for on the search path, and its arguments
+      !> Name of the program, to be found on the search path, and its arguments
       type(word_type), intent(in) :: words(:)
       type(word_type), target :: ended(size(words))
       type(c_ptr) :: pointers(size(words) + 1)

@@ -1,4 +1,4 @@
-!> contact report, study and table: finds Python and the package that does it, and hands the rest of the command line to it
+!> Commands contact report, study and table: find Python and its package, and pass the rest of the command line to it
 module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
@@ -9,16 +9,16 @@ module contact_cli_report
 
    public :: is_report, run_report
 
-   !> Names the folder that holds the Python package `contact`, where it is not found beside the program
+   !> Environment variable with the folder of the Python package `contact`, if it is not found beside the program
    character(len=*), parameter :: variable = "CONTACT_PYTHON"
    character(len=*), parameter :: package_file = "/contact/__init__.py"
-   !> Commands that Python does, by the part of the package with their name
+   !> Commands implemented in Python; each is a part of the package with the same name
    character(len=8), parameter :: commands(3) = [character(len=8) :: "report", "study", "table"]
-   !> From the folder of the program: installed, and in the build folder of a checkout
+   !> Relative to the folder of the program: installed, and in the build folder of a checkout
    character(len=*), parameter :: usual_places(3) = [character(len=26) :: "/../share/contact/python", "/../../../python", &
       & "/../../python"]
-   !> Runs the part of the package that the first argument names, from the folder that is the second one, or from where Python has
-   !> it when that is empty
+   !> Runs the part of the package named by the first argument, from the folder given by the second one, or if it is empty from
+   !> where Python finds it
    character(len=*), parameter :: start = "import importlib, sys" // new_line("a") &
       & // "part, place = sys.argv.pop(1), sys.argv.pop(1)" // new_line("a") &
       & // "sys.path[:1] = [place] if place else []" // new_line("a") &
@@ -46,7 +46,7 @@ module contact_cli_report
 
 contains
 
-   !> Is the first word of the command line one that Python does?
+   !> Is the first word of the command line a command implemented in Python?
    logical function is_report()
       character(len=8) :: word
 
@@ -56,9 +56,8 @@ contains
       is_report = any(word == commands)
    end function is_report
 
-   !> Do what `contact report ...` and others ask for: Python takes the place of this program, so that whoever ends it
-   !> ends the page server.
-   !> Returns an exit status only when there is no Python
+   !> Run a command implemented in Python, which replaces this program, so that ending it ends the page server. Returns an exit
+   !> status only if there is no Python.
    integer function run_report() result(status)
       character(len=:), allocatable :: place, program_name
       type(word_type), allocatable :: words(:)
@@ -87,9 +86,9 @@ contains
       status = 1
    end function run_report
 
-   !> Folder that holds the package, "" when there is none
+   !> Folder that contains the package, "" if there is none
    subroutine find_package(program_name, place)
-      !> Path of the program, "" when unknown
+      !> Path of the program, "" if unknown
       character(len=*), intent(in) :: program_name
       character(len=:), allocatable, intent(out) :: place
       character(len=4096) :: named
@@ -111,7 +110,7 @@ contains
       place = ""
    end subroutine find_package
 
-   !> Path of this program, "" when the system does not tell
+   !> Path of this program, "" if the system does not provide it
    subroutine find_program(path)
       character(len=:), allocatable, intent(out) :: path
       character(len=4096) :: buffer

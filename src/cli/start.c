@@ -1,8 +1,8 @@
-/* What the program does before its libraries are initialised */
+/* Initialisation of the program before that of its libraries */
 #include <stddef.h>
 #include <string.h>
 
-/* From here on, refused requests for memory are looked after in all libraries */
+/* Handle refused memory requests in all libraries from now on */
 void contact_guard_whole_process(void);
 #if defined(__linux__) && defined(__ELF__)
 static void start(int count, char **words, char **environment) {
@@ -17,8 +17,8 @@ __attribute__((constructor)) static void first(void) { contact_guard_whole_proce
 #endif
 
 #ifdef __ELF__
-/* Runs before the run-time library of Fortran looks at its variables: some of them end the program before it has begun
- * (GFORTRAN_STDERR_UNIT=6), others change every number that is written (GFORTRAN_OPTIONAL_PLUS). */
+/* Runs before the run-time library of Fortran reads its environment variables: some of them end the program at its start
+ * (GFORTRAN_STDERR_UNIT=6), others change the format of all numbers (GFORTRAN_OPTIONAL_PLUS). */
 static void forget_variables(int count, char **words, char **variables) {
   static const char prefix[] = "GFORTRAN_";
   char **kept = variables;

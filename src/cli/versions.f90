@@ -1,4 +1,4 @@
-!> Which program this is, and what it was built and linked with
+!> Version of this program, and of its compiler and libraries
 module contact_cli_versions
    use, intrinsic :: iso_fortran_env, only : compiler_version
    use h5lib, only : h5get_libversion_f
@@ -7,23 +7,23 @@ module contact_cli_versions
 
    public :: contact_version, write_versions
 
-   !> The one place of the version number; CMake reads it from this line
+   !> The version number; CMake reads it from this line
    character(len=*), parameter :: contact_version = "0.1.0"
-   !> Library of Fourier transforms and its licence; CMake says which
+   !> Library of Fourier transforms and its licence, set by CMake
    character(len=*), parameter :: transforms = CONTACT_TRANSFORMS
 
 contains
 
-   !> Answer to `contact --version`: program, compiler, linked HDF5 and transforms, one line each
+   !> Write the answer to `contact --version`: program, compiler, linked HDF5 and transforms, one line each
    subroutine write_versions(unit)
-      !> Open for formatted output
+      !> Unit open for formatted output
       integer, intent(in) :: unit
 
       write(unit, "(A)") "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version()), &
          & "transforms by " // transforms
    end subroutine write_versions
 
-   !> Number of the HDF5 library this program is linked with, as the library itself says it
+   !> Version of the linked HDF5 library, as it reports it
    function hdf5_version() result(text)
       character(len=40) :: text
       integer :: major, minor, release, status

@@ -1,7 +1,7 @@
-!> Many cases from a text in memory, their totals into arrays: no file is opened, nothing is written
+!> Batch computation: many cases from a text in memory, with their totals returned in arrays; no files are opened or written
 !>
-!> A batch keeps the sessions of its problems from call to call, so that arrays, tables and plans are reused. What a case gives
-!> does not depend on the cases before it, unless the text says so by `sequence`.
+!> A batch keeps the sessions of its problems from call to call, so that arrays, tables and plans are reused. The result of a
+!> case does not depend on earlier cases, unless the text requests it by `sequence`.
 module contact_experiment_batch
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char
    use contact_base_case_status, only : case_state, case_status
@@ -20,25 +20,25 @@ module contact_experiment_batch
 
    public :: batch_column, batch_field, batch_room, case_batch, close_batch, find_field, open_batch, solve_cases, solve_variations
 
-   !> Most columns, and first places for problems
+   !> Maximum number of columns, and initial number of slots
    integer, parameter, public :: most_columns = 128
    integer, parameter :: first_slots = 4
    !> Name of the text in messages
    character(len=*), parameter :: text_name = "study.toml"
 
-   !> One column of totals
+   !> A column of totals
    type :: batch_column
       !> Name, unit and meaning as in JSON and HDF5
       character(len=16) :: name = ""
       character(len=8) :: unit = ""
       character(len=104) :: meaning = ""
-      !> Of wheel and rail together, not of a patch?
+      !> Is it a total of wheel and rail rather than of a patch?
       logical :: is_of_pair = .false.
       !> Is it an integer?
       logical :: is_count = .false.
    end type batch_column
 
-   !> What a batch keeps
+   !> State of a batch
    type :: case_batch
       type(experiment_state) :: state
       type(run_settings) :: settings
@@ -46,28 +46,29 @@ module contact_experiment_batch
       type(batch_column) :: columns(most_columns)
       integer :: count = 0
       type(total_list), private :: totals
-      !> Slot of the case that was solved last, 0 for none; is it one of wheel and rail, on the left side?
+      !> Slot of the last case solved, 0: none; is it a wheel-rail case, on the left side?
       integer, private :: last = 0
       logical, private :: is_pair = .false., is_left = .false.
-      !> Mirror image of a patch on the left side, whose fields were asked for
+      !> Mirror image of a patch on the left side whose fields were requested
       type(patch_result), private :: mirror
    end type case_batch
 
-   !> Where results go. A case of module 3 gives one row; wheel and rail one for the pair, patch 0, and one for each patch
+   !> Arrays for the results. A case of module 3 gives one row; wheel and rail one row for the pair, patch 0, and one for each
+   !> patch
    type :: batch_room
-      !> Totals, shape (columns, rows); what a case does not have keeps its value
+      !> Totals, shape (columns, rows); entries that a case does not have are unchanged
       real(wp), pointer :: values(:, :) => null()
       !> Case and patch of each row, from 1, shape (2, rows)
       integer, pointer :: places(:, :) => null()
       !> Member of case_state, and of missed_iteration, of each case, shape (2, cases)
       integer, pointer :: states(:, :) => null()
-      !> Rows and cases that were filled
+      !> Number of rows and cases filled
       integer :: rows = 0, cases = 0
-      !> Why a case was not solved, cut to fit and null-terminated, shape (length, cases); others keep what is there
+      !> Why a case was not solved, truncated and null-terminated, shape (length, cases); unchanged for solved cases
       character(kind=c_char), pointer :: reasons(:, :) => null()
    end type batch_room
 
-   !> An element field of a patch: values times `factor`
+   !> An element field of a patch; its values are to be multiplied by `factor`
    type :: batch_field
       real(wp), pointer :: values(:, :) => null()
       real(wp) :: factor = 1.0_wp
@@ -80,20 +81,20 @@ module contact_experiment_batch
 
 contains
 
-   !> Make a batch ready
+   !> Initialise a batch
    subroutine open_batch(batch, seconds)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
-      !> What each case may take [s]; not positive: without limit
+      !> Time limit of each case [s]; not positive: unlimited
       real(wp), intent(in) :: seconds
 
       allocate(batch%state%slots(first_slots))
       if (seconds > 0.0_wp) batch%state%limits%deadline%seconds = seconds
    end subroutine open_batch
 
-   !> Free what a batch holds
+   !> Release the memory of a batch
    subroutine close_batch(batch)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
       integer :: k
 
@@ -105,15 +106,15 @@ contains
 
    !> Solve the cases of a text one after the other
    subroutine solve_cases(batch, text, folder, room, error)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
-      !> In the readable format
+      !> Text in the readable format
       character(len=*), intent(in) :: text
-      !> To which names of files are relative
+      !> Folder to which file names are relative
       character(len=*), intent(in) :: folder
-      !> Where results go
+      !> Receives the results
       type(batch_room), intent(inout) :: room
-      !> The text cannot be read, or there is no room for the results
+      !> Allocated if the text is invalid or the arrays are too small
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
       type(input_case) :: this
@@ -127,21 +128,22 @@ contains
       end do
    end subroutine solve_cases
 
-   !> Solve the second case of a text with many sets of numbers; the first one, which gives all that the second keeps, is not solved
+   !> Solve the second case of a text for many sets of numbers. The first case only provides what the second one keeps, and is
+   !> not solved
    subroutine solve_variations(batch, text, folder, names, sets, room, error)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
-      !> In the readable format
+      !> Text in the readable format
       character(len=*), intent(in) :: text
-      !> To which names of files are relative
+      !> Folder to which file names are relative
       character(len=*), intent(in) :: folder
-      !> Numbers that vary, "group.key", all given by the second case
+      !> Names of the varied numbers, "group.key"; all must be given in the second case
       character(len=*), intent(in) :: names(:)
       !> Their values, shape (numbers, cases)
       real(wp), intent(in) :: sets(:, :)
-      !> Where results go
+      !> Receives the results
       type(batch_room), intent(inout) :: room
-      !> The text cannot be read, or there is no room for the results
+      !> Allocated if the text is invalid or the arrays are too small
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
       type(input_case) :: this
@@ -158,16 +160,16 @@ contains
       end do
    end subroutine solve_variations
 
-   !> Solve a case and note its results
+   !> Solve a case and store its results
    subroutine solve_next(batch, this, room, error, is_alone)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
       type(input_case), intent(inout) :: this
-      !> Where results go
+      !> Receives the results
       type(batch_room), intent(inout) :: room
-      !> There is no room; what a case does not do is in the room
+      !> Allocated if the arrays are too small; failures of the case itself are stored in the arrays
       type(error_type), allocatable, intent(out) :: error
-      !> Shall nothing be kept of the cases before, a Hertzian geometry that another load has laid out included? Default no
+      !> Keep nothing of earlier cases, not even a Hertzian geometry laid out for another load? Default: no
       logical, intent(in), optional :: is_alone
       type(error_type), allocatable :: refusal
       type(case_spec), allocatable :: solved
@@ -175,7 +177,7 @@ contains
       integer :: k
 
       if (room%cases == size(room%states, 2)) then
-         call fatal_error(error, "there are more cases than room for them")
+         call fatal_error(error, "there are more cases than the arrays have space for")
          return
       end if
       room%cases = room%cases + 1
@@ -204,10 +206,10 @@ contains
          & call put_reason(status%reason, room%reasons(:, room%cases))
    end subroutine solve_next
 
-   !> A text, cut to fit, with a null behind it
+   !> Copy a text, truncated and null-terminated
    pure subroutine put_reason(reason, letters)
       character(len=*), intent(in) :: reason
-      !> Receives it
+      !> Receives the text
       character(kind=c_char), intent(inout) :: letters(:)
       integer :: i, n
 
@@ -218,12 +220,12 @@ contains
       if (n >= 0) letters(n + 1) = c_null_char
    end subroutine put_reason
 
-   !> Totals of the case in hand
+   !> Store the totals of the current case
    subroutine note_results(batch, this, room, error)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
       type(input_case), intent(in) :: this
-      !> Where results go
+      !> Receives the results
       type(batch_room), intent(inout) :: room
       type(error_type), allocatable, intent(inout) :: error
       integer :: k
@@ -246,20 +248,20 @@ contains
       end associate
    end subroutine note_results
 
-   !> The totals in hand as a row
+   !> Store the current totals as a row
    subroutine add_row(batch, room, patch, error)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout) :: batch
-      !> Where results go
+      !> Receives the results
       type(batch_room), intent(inout) :: room
-      !> Number of the patch, 0 for wheel and rail together
+      !> Index of the patch, 0 for wheel and rail
       integer, intent(in) :: patch
       type(error_type), allocatable, intent(inout) :: error
       integer :: column, k
 
       if (allocated(error)) return
       if (room%rows == size(room%values, 2)) then
-         call fatal_error(error, "there are more rows of totals than room for them")
+         call fatal_error(error, "there are more rows of totals than the arrays have space for")
          return
       end if
       room%rows = room%rows + 1
@@ -270,7 +272,7 @@ contains
             if (.not. row%in_files) cycle
             call find_column(batch, row%name, patch == 0, column)
             if (column > min(size(room%values, 1), most_columns)) then
-               call fatal_error(error, "there are more totals than columns for them")
+               call fatal_error(error, "there are more totals than columns")
                return
             end if
             if (column > batch%count) then
@@ -282,12 +284,12 @@ contains
       end do
    end subroutine add_row
 
-   !> The column of a total: most often the next one, behind the last when it is new
+   !> Find the column of a total: usually the next one; a new total is appended
    pure subroutine find_column(batch, name, is_of_pair, column)
       type(case_batch), intent(in) :: batch
       character(len=*), intent(in) :: name
       logical, intent(in) :: is_of_pair
-      !> On entry that of the total before
+      !> On entry the column of the previous total
       integer, intent(inout) :: column
 
       column = column + 1
@@ -299,15 +301,15 @@ contains
       end do
    end subroutine find_column
 
-   !> A field of a patch of the case that was solved last; not associated when there is none
+   !> A field of a patch of the last case solved; not associated if it does not exist
    subroutine find_field(batch, patch, name, field)
-      !> What is kept from call to call
+      !> State kept from call to call
       type(case_batch), intent(inout), target :: batch
-      !> Number of the patch, from 1
+      !> Index of the patch, from 1
       integer, intent(in) :: patch
-      !> As in HDF5
+      !> Name as in HDF5
       character(len=*), intent(in) :: name
-      !> With values of the case that was solved last
+      !> Field with the values of the last case solved
       type(batch_field), intent(out) :: field
       type(patch_result), pointer :: result
       type(wheel_rail_result), pointer :: pair

@@ -1,4 +1,4 @@
-!> Experiments from one format of input to the other
+!> Conversion of experiments between the two input formats
 module contact_experiment_convert
    use contact_base_choices, only : heat_source, is_rolling
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
@@ -26,15 +26,15 @@ contains
 
    !> Write an experiment in the other format: .toml for .inp, .inp for .toml
    !>
-   !> The new file is there as a whole, and reads without errors, or it is not there.
+   !> The new file is written completely and can be read without errors, or it is not created.
    subroutine convert_experiment(experiment, output_folder, overwrite, told, output, error)
-      !> Name of the experiment, with suffix or without
+      !> Name of the experiment, with or without suffix
       character(len=*), intent(in) :: experiment
-      !> Folder of the new file, "" for that of the old one
+      !> Folder of the new file, "" for that of the input
       character(len=*), intent(in) :: output_folder
-      !> May a file that is there be replaced?
+      !> May an existing file be replaced?
       logical, intent(in) :: overwrite
-      !> Lines about problems of the input and about what the new file cannot say
+      !> Messages about problems of the input, and about settings that the new file cannot express
       type(text_buffer), intent(inout) :: told
       !> Name of the new file
       character(len=:), allocatable, intent(out) :: output
@@ -84,10 +84,10 @@ contains
       end if
       if (allocated(error)) call remove_file(temporary)
       if (.not. allocated(error) .and. output_folder /= "" .and. names_files) call told%add_line(" Files that " // output // &
-         & " names are sought below its own folder: copy them there, profiles and tables of coefficients")
+         & " names are relative to its own folder: copy them there, profiles and tables of coefficients")
    end subroutine convert_experiment
 
-   !> Does a case name a file relative to the folder of its input?
+   !> Does a case refer to a file relative to the folder of its input?
    pure logical function has_relative_file(spec)
       type(case_spec), intent(in) :: spec
 
@@ -97,7 +97,7 @@ contains
          & .or. is_relative(spec%wheel_rail%wheel_profile%name)
    end function has_relative_file
 
-   !> Is this a path that begins in some folder?
+   !> Is this a relative path?
    pure logical function is_relative(name)
       character(len=:), allocatable, intent(in) :: name
 
@@ -107,7 +107,7 @@ contains
       is_relative = scan(name(1:1), "/\") == 0 .and. index(name, ":") /= 2
    end function is_relative
 
-   !> The next case; its problems are told, and errors among them end the conversion
+   !> Read the next case. Its problems are reported; errors end the conversion
    subroutine next_good_case(reader, this, told, error)
       type(experiment_reader), intent(inout) :: reader
       type(input_case), intent(out) :: this
@@ -125,7 +125,7 @@ contains
          & ", which starts at this line, has errors; nothing was written", error_kind%input, reader%lexer%file, this%first_line)
    end subroutine next_good_case
 
-   !> All cases of a file in the readable format
+   !> Convert all cases to the readable format
    subroutine write_readable(input, file, told, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
@@ -134,7 +134,7 @@ contains
       type(text_buffer), intent(inout) :: told
       !> Number of cases
       integer, intent(out) :: cases
-      !> Does one of them name a file relative to its folder?
+      !> Does a case refer to a file relative to its folder?
       logical, intent(out) :: names_files
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
@@ -176,7 +176,7 @@ contains
       end do
    end subroutine write_readable
 
-   !> All cases of a file in the established format
+   !> Convert all cases to the established format
    subroutine write_established(input, file, told, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
@@ -185,7 +185,7 @@ contains
       type(text_buffer), intent(inout) :: told
       !> Number of cases
       integer, intent(out) :: cases
-      !> Does one of them name a file relative to its folder?
+      !> Does a case refer to a file relative to its folder?
       logical, intent(out) :: names_files
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
@@ -232,7 +232,7 @@ contains
       if (allows) call told%add_line(" Simplified methods are allowed in " // input // "; the new file needs --allow for that")
    end subroutine write_established
 
-   !> MODULE {REID {CPID}}
+   !> Write the line MODULE {REID {CPID}}
    subroutine write_module_line(file, this)
       type(output_file), intent(inout) :: file
       type(input_case), intent(in) :: this
@@ -245,14 +245,14 @@ contains
       end if
    end subroutine write_module_line
 
-   !> Comments that stand directly above a line, with another mark before them
+   !> Comments directly above a line, with the comment mark replaced
    subroutine find_remarks(reader, first, last, mark, new_mark, remarks)
       type(experiment_reader), intent(in) :: reader
-      !> Lines between which they stand; the last ones before a line that is no comment count
+      !> Range of lines; only the last contiguous comments are used
       integer, intent(in) :: first, last
-      !> What begins a comment, and what shall begin it
+      !> Comment mark in the input, and its replacement
       character(len=*), intent(in) :: mark, new_mark
-      !> Lines with their ends
+      !> Lines with line ends
       character(len=:), allocatable, intent(out) :: remarks
       character(len=:), allocatable :: line
       integer :: k, letter
@@ -263,7 +263,7 @@ contains
          if (mark == "#" .and. index(line, mark) /= 1) exit
          if (index(line, mark) /= 1) cycle
          line = trim(adjustl(line(2:)))
-         ! comments may have any bytes, the readable format must be UTF-8
+         ! comments may contain any bytes, but the readable format must be UTF-8
          do letter = 1, len(line)
             if (mark == "%" .and. iachar(line(letter:letter)) > 126) line(letter:letter) = "?"
          end do
@@ -271,7 +271,7 @@ contains
       end do
    end subroutine find_remarks
 
-   !> Number of cases of a file that has no errors
+   !> Number of cases in a file without errors
    subroutine count_cases(file, cases, error)
       character(len=*), intent(in) :: file
       integer, intent(out) :: cases
@@ -293,6 +293,6 @@ contains
             exit
          end do
       end do
-      if (allocated(error)) call add_context(error, "in what was written, which is a fault of this program")
+      if (allocated(error)) call add_context(error, "in the file that was written, which is a program fault")
    end subroutine count_cases
 end module contact_experiment_convert

@@ -1,4 +1,4 @@
-!> What an experiment simulates, in words
+!> Description of an experiment in words
 module contact_experiment_explain
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -15,17 +15,17 @@ module contact_experiment_explain
 
 contains
 
-   !> Tell every case in words: what is simulated, what is not, how, and what it is expected to cost
+   !> Describe every case: what is simulated and what is not, the solvers, and the expected cost
    subroutine explain_experiment(experiment, told, error, accuracy, allows_approximate)
-      !> Name of the experiment, with suffix or without
+      !> Name of the experiment, with or without suffix
       character(len=*), intent(in) :: experiment
-      !> The words, line by line
+      !> Description, line by line
       type(text_buffer), intent(inout) :: told
-      !> The input cannot be understood, or a case of it cannot be computed
+      !> Allocated if the input is invalid, or a case cannot be computed
       type(error_type), allocatable, intent(out) :: error
-      !> Largest relative error of the forces that a run is going to ask for, or 0 and absent for what the input says [-]
+      !> Accuracy that a run will request: bound of the relative error of the forces [-]; 0 or absent: as in the input
       real(wp), intent(in), optional :: accuracy
-      !> Is it going to allow simplified methods?
+      !> Will the run allow simplified methods?
       logical, intent(in), optional :: allows_approximate
       type(experiment_place) :: place
       type(experiment_reader) :: reader
@@ -54,7 +54,7 @@ contains
             call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), told)
          else
             call told%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
-               & ": what is wrong must be mended first")
+               & ": its errors must be corrected first")
          end if
          do k = 1, this%problems%count
             call told%add_line("  " // problem_text(this%problems%items(k)))

@@ -1,4 +1,4 @@
-!> What a run writes for other programs beside its usual files, when it is asked to
+!> Optional output files of a run for other programs
 module contact_experiment_exports
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -20,23 +20,23 @@ module contact_experiment_exports
 
    public :: export_request, export_files, number_of_exports
 
-   !> Kinds of files
+   !> Number of kinds of files
    integer, parameter :: number_of_exports = 3
 
-   !> What is asked for
+   !> Requested files
    type :: export_request
-      !> Totals as JSON lines: "" for the file EXPNAM.jsonl, "-" for the standard output; unallocated: no
+      !> Totals as JSON lines: "" for the file EXPNAM.jsonl, "-" for the standard output; unallocated: none
       character(len=:), allocatable :: json
-      !> Everything in the HDF5 file EXPNAM.h5?
+      !> Write all results to the HDF5 file EXPNAM.h5?
       logical :: hdf5 = .false.
-      !> Surfaces and subsurface blocks as VTK files with the collection EXPNAM.pvd?
+      !> Write surfaces and subsurface blocks as VTK files with the collection EXPNAM.pvd?
       logical :: vtk = .false.
    contains
-      !> Is anything asked for?
+      !> Is any file requested?
       procedure :: any => any_asked
    end type export_request
 
-   !> The files that are open; unallocated components were not asked for
+   !> Open files; unallocated components were not requested
    type :: export_files
       type(json_file), allocatable :: json
       type(hdf5_case_file), allocatable :: hdf5
@@ -45,7 +45,7 @@ module contact_experiment_exports
       procedure :: open_files
       procedure :: close_file
       procedure :: take_ends
-      !> Is anything asked for?
+      !> Is any file open?
       procedure :: wanted
       procedure :: write_failure
       procedure :: write_contact
@@ -64,21 +64,21 @@ contains
       wanted = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
    end function wanted
 
-   !> Open what is asked for
+   !> Open the requested files
    subroutine open_files(self, request, place, version, run, limits, error, from)
       class(export_files), intent(inout) :: self
-      !> Which files, and where
+      !> Requested files
       type(export_request), intent(in) :: request
-      !> Where input and results are
+      !> Location of input and results
       type(experiment_place), intent(in) :: place
       !> Version of the program
       character(len=*), intent(in) :: version
-      !> What is planned
+      !> Planned cases
       type(run_summary), intent(in) :: run
       !> As for open_result
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
-      !> Go on from there
+      !> Checkpoint from which the run continues
       type(checkpoint), intent(in), optional :: from
 
       if (present(from)) then
@@ -105,11 +105,11 @@ contains
       end if
    end subroutine open_files
 
-   !> Open the files that are there and go on with them; the HDF5 file is open already
+   !> Continue existing files; the HDF5 file is open already
    subroutine go_on(self, request, place, run, from, limits, error)
       type(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
-      !> Where input and results are
+      !> Location of input and results
       type(experiment_place), intent(in) :: place
       type(run_summary), intent(in) :: run
       type(checkpoint), intent(in) :: from
@@ -131,10 +131,10 @@ contains
       end if
    end subroutine go_on
 
-   !> Where the files end now
+   !> Record the current ends of the files
    subroutine take_ends(self, here)
       class(export_files), intent(in) :: self
-      !> Bytes of each file, in components of their own
+      !> Receives the size of each file in bytes
       type(checkpoint), intent(inout) :: here
 
       if (allocated(self%json)) here%json = self%json%place()
@@ -142,10 +142,10 @@ contains
       if (allocated(self%vtk)) here%vtk = self%vtk%place()
    end subroutine take_ends
 
-   !> Tell in a file how far the run has come, and close it
+   !> Record the progress of the run in a file, and close it
    subroutine close_file(self, which, run, error)
       class(export_files), intent(inout) :: self
-      !> 1...number_of_exports; nothing happens for one that was not asked for
+      !> 1...number_of_exports; does nothing for a file that was not requested
       integer, intent(in) :: which
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
@@ -160,7 +160,7 @@ contains
       end if
    end subroutine close_file
 
-   !> A case without result
+   !> Write a case without result
    subroutine write_failure(self, head)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -169,7 +169,7 @@ contains
       if (allocated(self%hdf5)) call self%hdf5%write_failure(head)
    end subroutine write_failure
 
-   !> A solved case of module 3
+   !> Write a solved case of module 3
    subroutine write_contact(self, head, spec, contact, error)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -182,17 +182,17 @@ contains
       if (allocated(self%vtk)) call self%vtk%write_contact(head, spec, contact, error)
    end subroutine write_contact
 
-   !> A solved case of module 1
+   !> Write a solved case of module 1
    subroutine write_wheel_rail(self, head, spec, session, pair, error)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
-      !> For the profiles
+      !> Session with the profiles
       type(wheel_rail_session), target, intent(in) :: session
       type(wheel_rail_result), intent(in) :: pair
       type(error_type), allocatable, intent(out) :: error
       type(profile_curve), allocatable :: rail, wheel
-      ! where the first contact is in rail and wheel, along the track [mm]
+      ! position of the first contact on rail and wheel, along the track [mm]
       real(wp) :: place(2)
       type(body_profile) :: bodies(2)
 

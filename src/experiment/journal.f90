@@ -1,9 +1,9 @@
-!> How far a run has come, in a file of its own beside the results: what `--resume` goes on from
+!> Journal of a run: a file beside the results that records its progress, for `--resume`
 !>
-!> EXPNAM.unfinished is there while a run goes on, and stays when it ends before all cases are finished. A line with the
-!> settings is followed by one for each moment at which all files held all cases so far: the places of their ends, the counts,
-!> hashes of what was read, and a letter for each case since the line before. Each line ends with its hash, so that a torn or
-!> damaged one is seen. A write that fails is no failure of the run: the file ends earlier then.
+!> EXPNAM.unfinished exists during a run, and remains if the run ends before all cases are finished. Its first line contains the
+!> settings. Each further line is a checkpoint at which all files contain all cases so far: the positions of their ends, the
+!> counts, hashes of the input read, and a letter for each case since the previous line. Each line ends with its hash, so that
+!> an incomplete or damaged line is detected. A failed write is not a failure of the run: the journal just ends earlier.
 module contact_experiment_journal
    use contact_base_case_status, only : case_state, case_status, missed_iteration
    use contact_base_error, only : error_type
@@ -20,58 +20,58 @@ module contact_experiment_journal
    type :: case_letter_list
       !> Solved, not converged
       character(len=1) :: solved = "s", not_converged = "n"
-      !> Refused, given up when its time was over
+      !> Refused, stopped by the time limit
       character(len=1) :: refused = "r", time = "t"
-      !> Input taken note of
+      !> Input checked only
       character(len=1) :: noted = "i"
    end type case_letter_list
-   !> How a case ended, in one letter; a capital where a larger grid was named in a warning, which is not said again
+   !> Final status of a case, as a letter; upper case if a warning recommended a larger grid, which is not repeated
    type(case_letter_list), parameter :: case_letter = case_letter_list()
 
-   !> All of them, with their capitals
+   !> All letters, and their upper case forms
    character(len=*), parameter :: known_letters = "snrtiSNRTI"
 
-   !> With what the run was asked for, as far as results depend on it
+   !> Settings of the run that affect its results
    type :: journal_settings
       !> Version of the program
       character(len=32) :: version = ""
-      !> Files beside the usual ones
+      !> Optional files
       logical :: json = .false., hdf5 = .false., vtk = .false.
       !> Member of heat_source
       integer :: heat_source = 0
       logical :: angle_below_axle = .true., classical = .false.
       !> Are errors estimated?
       logical :: errors = .false.
-      !> Order of the discretisation that was asked for, or as_input_says
+      !> Requested order of the discretisation, or as_input_says
       integer :: order = 0
-      !> Accuracy that was asked for, 0 for none [-]
+      !> Requested accuracy, 0: none [-]
       real(wp) :: accuracy = 0.0_wp
-      !> Were simplified methods allowed for it?
+      !> Are simplified methods allowed for it?
       logical :: allows_approximate = .false.
       !> Limits of a case: time [s], memory [bytes], elements
       real(wp) :: seconds = 0.0_wp
       integer(long) :: bytes = 0, elements = 0
    end type journal_settings
 
-   !> A moment at which all files hold the same cases
+   !> A state in which all files contain the same cases
    type :: checkpoint
-      !> Cases that are finished
+      !> Number of finished cases
       integer :: cases = 0
       !> Ends of .out, .jsonl and the list in .pvd [bytes]
       integer(long) :: out = 0, json = 0, vtk = 0
       !> Rows of cases and patches in the HDF5 file
       integer :: rows(2) = 0
-      !> Counts of errors and warnings, and of cases by how they ended
+      !> Numbers of errors and warnings, and of cases by final status
       integer :: errors = 0, warnings = 0, ended(case_state%solved:case_state%refused) = 0
-      !> Hashes of the input up to the last case, and of the files that the cases read
+      !> Hashes of the input up to the last case, and of the files read by the cases
       integer(long) :: input = empty_hash, files = empty_hash
    end type checkpoint
 
-   !> The file while a run goes on
+   !> The journal of the current run
    type :: journal_file
       type(output_file), private :: file
       character(len=:), allocatable, private :: name
-      !> Where the run is, and letters of the cases since the last line
+      !> Current state of the run, and letters of the cases since the last line
       type(checkpoint) :: now
       character(len=:), allocatable, private :: letters
    contains
@@ -84,21 +84,21 @@ module contact_experiment_journal
 
 contains
 
-   !> Name of the file
+   !> Name of the journal
    pure function journal_name(results) result(name)
-      !> Folder and name of the results
+      !> Folder and base name of the results
       character(len=*), intent(in) :: results
       character(len=len(results) + len(suffix)) :: name
 
       name = results // suffix
    end function journal_name
 
-   !> Begin the file of a run
+   !> Start the journal of a run
    subroutine start(self, results, settings, confined)
       class(journal_file), intent(inout) :: self
-      !> Folder and name of the results
+      !> Folder and base name of the results
       character(len=*), intent(in) :: results
-      !> What the run was asked for
+      !> Settings of the run
       type(journal_settings), intent(in) :: settings
       !> As for open_file of output_file
       logical, intent(in) :: confined
@@ -118,14 +118,14 @@ contains
       call self%file%flush_now()
    end subroutine start
 
-   !> Go on with the file behind a line that was read
+   !> Continue the journal after a line that was read
    subroutine go_on(self, results, place, from, confined)
       class(journal_file), intent(inout) :: self
-      !> Folder and name of the results
+      !> Folder and base name of the results
       character(len=*), intent(in) :: results
-      !> End of the line [bytes], and what it says
+      !> End of the line [bytes]
       integer(long), intent(in) :: place
-      !> State of the run behind that line
+      !> State of the run at that line
       type(checkpoint), intent(in) :: from
       !> As for open_file of output_file
       logical, intent(in) :: confined
@@ -137,16 +137,16 @@ contains
       call self%file%open_again(self%name, place, ignored, confined)
    end subroutine go_on
 
-   !> A case is finished: what `now` says holds
+   !> Record a finished case; `now` describes the state after it
    subroutine note(self, letter)
       class(journal_file), intent(inout) :: self
-      !> How the case ended, in one letter
+      !> Final status of the case, as a letter
       character(len=1), intent(in) :: letter
 
       self%letters = self%letters // letter
    end subroutine note
 
-   !> Write a line for the cases that were noted since the last one; call it when all files were handed to the system
+   !> Write a line for the cases recorded since the last one; to be called when all files have been flushed
    subroutine save_line(self)
       class(journal_file), intent(inout) :: self
       character(len=300) :: text
@@ -160,10 +160,10 @@ contains
       self%letters = ""
    end subroutine save_line
 
-   !> The run has ended
+   !> End the journal
    subroutine finish(self, complete)
       class(journal_file), intent(inout) :: self
-      !> Are all cases finished? Then, as without any finished case, there is nothing to go on with
+      !> Are all cases finished? Then, and if no case is finished, there is nothing to resume and the journal is deleted
       logical, intent(in) :: complete
       logical :: ignored
 
@@ -173,7 +173,7 @@ contains
       if (complete .or. self%now%cases == 0) call remove_file(self%name)
    end subroutine finish
 
-   !> A line with its hash behind it
+   !> Write a line followed by its hash
    subroutine write_hashed(file, text)
       type(output_file), intent(in) :: file
       character(len=*), intent(in) :: text
@@ -186,23 +186,23 @@ contains
       call file%line(trim(text) // trim(figures))
    end subroutine write_hashed
 
-   !> Read a file up to the last line that all files of results reach
+   !> Read a journal up to the last line whose state all result files have reached
    subroutine read_journal(results, ends, rows, settings, found, last, place, letters)
-      !> Folder and name of the results
+      !> Folder and base name of the results
       character(len=*), intent(in) :: results
-      !> Lengths of .out, .jsonl and .pvd [bytes]; of those that were not asked for 0
+      !> Lengths of .out, .jsonl and .pvd [bytes]; 0 for files that were not requested
       integer(long), intent(in) :: ends(3)
-      !> Rows of cases and patches in the HDF5 file, huge without one
+      !> Rows of cases and patches in the HDF5 file; huge: no such file
       integer, intent(in) :: rows(2)
-      !> What the run was asked for
+      !> Settings of the run
       type(journal_settings), intent(out) :: settings
-      !> Are there settings? Then there was a run
+      !> Are there settings, and therefore an earlier run?
       logical, intent(out) :: found
-      !> What the line says, no cases when there is none, and its end [bytes]
+      !> State at the line; without cases if there is none
       type(checkpoint), intent(out) :: last
       !> End of that line in the file [bytes]
       integer(long), intent(out) :: place
-      !> How the cases ended
+      !> Final status of the cases
       character(len=:), allocatable, intent(out) :: letters
       type(input_lexer) :: file
       type(error_type), allocatable :: error
@@ -247,7 +247,7 @@ contains
 
    contains
 
-      !> A line without its hash, and the end of it
+      !> Get a line without its hash, and the end of the line
       subroutine take_line(k)
          integer, intent(in) :: k
          integer(long) :: hash, wanted
@@ -256,7 +256,7 @@ contains
          line = file%line_text(k)
          is_whole = .false.
          space = index(line, " ", back=.true.)
-         ! the end of the line counts: the last one may be torn
+         ! the line end is included: the last line may be incomplete
          if (space < 2 .or. k == file%count_lines()) return
          read(line(space + 1:), *, iostat=status) wanted
          if (status /= 0) return
@@ -269,7 +269,7 @@ contains
       end subroutine take_line
    end subroutine read_journal
 
-   !> Can a run come from one moment to another? No count and no place ever goes down
+   !> Can a run proceed from one checkpoint to another? No count and no position decreases
    pure logical function follows(next, before)
       type(checkpoint), intent(in) :: next, before
 
@@ -278,10 +278,10 @@ contains
          & .and. all([next%errors, next%warnings] >= [before%errors, before%warnings]) .and. sum(next%ended) <= next%cases
    end function follows
 
-   !> The letter of a case
+   !> Letter of a case
    pure function letter_of(status, solved) result(letter)
       type(case_status), intent(in) :: status
-      !> Was it to be solved?
+      !> Was the case to be solved?
       logical, intent(in) :: solved
       character(len=1) :: letter
 
@@ -297,20 +297,20 @@ contains
       end if
    end function letter_of
 
-   !> A letter for a case in which a larger grid was named
+   !> Letter of a case for which a larger grid was recommended
    pure function advised(letter) result(capital)
-      !> How the case ended
+      !> Letter of the final status
       character(len=1), intent(in) :: letter
       character(len=1) :: capital
 
       capital = achar(iachar(letter) - 32)
    end function advised
 
-   !> Was a larger grid named? The letter becomes a plain one
+   !> Was a larger grid recommended? The letter is converted to lower case
    pure subroutine is_advised(letter, answer)
-      !> How the case ended
+      !> Letter of the final status
       character(len=1), intent(inout) :: letter
-      !> True for a letter that `advised` has made
+      !> True for a letter from `advised`
       logical, intent(out) :: answer
 
       answer = letter >= "A" .and. letter <= "Z"

@@ -1,7 +1,7 @@
-!> One run at a time on the files of an experiment
+!> Lock of an experiment: one run at a time may write its files
 !>
-!> The lock is a file beside the results that is kept open and locked. The system unlocks it when the process ends in whatever
-!> way, so that a file left behind by a killed run locks nobody out. What that run left unfinished is removed.
+!> The lock is a file beside the results that is kept open and locked. The system releases it when the process ends for whatever
+!> reason, so that a file left by a killed run locks nobody out. Incomplete files of that run are deleted.
 module contact_experiment_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -13,16 +13,16 @@ module contact_experiment_lock
    public :: experiment_lock, is_leftover_rest
 
    type :: experiment_lock
-      !> Name of the locked file, null-terminated, so that giving the lock back needs no memory
+      !> Name of the lock file, null-terminated, so that releasing the lock needs no memory
       character(len=:), allocatable, private :: name
-      !> Descriptor, negative when there is no lock
+      !> Descriptor, negative if there is no lock
       integer(c_int), private :: file = -1
-      !> A warning where the folder has no locks; unallocated otherwise
+      !> Warning if the folder does not support locks; unallocated otherwise
       character(len=:), allocatable :: doubt
    contains
-      !> Take the lock, or tell who has it
+      !> Take the lock, or report its holder
       procedure :: take
-      !> Give it back
+      !> Release the lock
       procedure :: release
    end type experiment_lock
 
@@ -59,9 +59,9 @@ contains
       self%file = -1
    end subroutine release
 
-   !> For remove_leftovers
+   !> Test for remove_leftovers
    function is_leftover(rest, length) result(answer) bind(c)
-      !> What follows the name of the experiment in the name of a file
+      !> Part of the file name after the name of the experiment
       integer(c_int), value :: length
       character(kind=c_char), intent(in) :: rest(length)
       integer(c_int) :: answer
@@ -74,13 +74,13 @@ contains
       answer = merge(1_c_int, 0_c_int, is_leftover_rest(text))
    end function is_leftover
 
-   !> Does this follow the name of an experiment in the name of a file in the making, as output/finished_file and hdf5/file
-   !> have them?
+   !> Is this the rest of a name of an incomplete file, after the name of the experiment, as in output/finished_file and
+   !> hdf5/file?
    !>
-   !> Files of one case, <name>[_reNNN].NNNN[letter].{mat,subs,vts,blockN.vts}, and of a run, <name>.{h5,pvd}, with .tmp or .part
-   !> behind them; so no file of an experiment is taken whose name begins with that of this one.
+   !> Files of a case are <name>[_reNNN].NNNN[letter].{mat,subs,vts,blockN.vts}, and of a run <name>.{h5,pvd}, followed by .tmp
+   !> or .part; files of an experiment whose name starts with that of this one are not included.
    pure logical function is_leftover_rest(rest) result(ours)
-      !> What follows the name of the experiment in a name of a file
+      !> Part of the file name after the name of the experiment
       character(len=*), intent(in) :: rest
       character(len=*), parameter :: figures = "0123456789", letters = "abcdefghijklmnopqrstuvwxyz"
       integer :: at, last, dot
@@ -98,7 +98,7 @@ contains
       end if
       if (rest(at:at) /= ".") return
       dot = at + index(rest(at + 1:last), ".")
-      ! the number of the case, and the letter of a patch
+      ! number of the case, and letter of a patch
       if (dot - at < 5 .or. verify(rest(at + 1:dot - 2), figures) > 0) return
       if (verify(rest(dot - 1:dot - 1), figures // letters) > 0) return
       select case (rest(dot + 1:last))

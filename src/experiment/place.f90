@@ -1,4 +1,4 @@
-!> Where the files of an experiment are
+!> Location of the files of an experiment
 module contact_experiment_place
    use contact_text_words, only : replaced
    implicit none (type, external)
@@ -7,29 +7,29 @@ module contact_experiment_place
    public :: choose_input, experiment_place, locate_experiment, input_suffix, readable_suffix
 
    character(len=*), parameter :: separator = "/", foreign_separator = "\"
-   !> Files of the two formats of input
+   !> Suffixes of the two input formats
    character(len=*), parameter :: input_suffix = ".inp", readable_suffix = ".toml"
 
    !> The files of an experiment
    type :: experiment_place
-      !> Folder of the input, to which names in the input are relative; "" for the current folder
+      !> Folder of the input, to which file names in the input are relative; "" for the current folder
       character(len=:), allocatable :: folder
       !> Name without folder and suffix
       character(len=:), allocatable :: name
       !> Name of the input file
       character(len=:), allocatable :: input
-      !> Folder and name of the results, to which a suffix is added
+      !> Folder and base name of the results; a suffix is appended
       character(len=:), allocatable :: results
-      !> Was a suffix .inp or .toml taken off?
+      !> Was a suffix .inp or .toml removed?
       logical :: shortened = .false.
    end type experiment_place
 
 contains
 
-   !> From the name of an experiment as a user types it to the names of its files
+   !> Determine the file names of an experiment from the name given by the user
    !>
-   !> Both kinds of separators are understood, a suffix .inp or .toml is taken off, and results go to the folder
-   !> of the input unless another one is named. Without suffix the input is that with .inp, see choose_input.
+   !> Both kinds of separators are accepted, a suffix .inp or .toml is removed, and results are written to the folder of the
+   !> input unless another one is given. Without suffix the input is the .inp file, see choose_input.
    pure function locate_experiment(typed, output_folder) result(place)
       !> Name of the experiment, with or without folder and suffix
       character(len=*), intent(in) :: typed
@@ -58,7 +58,7 @@ contains
       end if
    end function locate_experiment
 
-   !> Does a path have a suffix, and a name before it?
+   !> Does a path end with a suffix after a non-empty name?
    pure logical function ends_with(path, suffix)
       character(len=*), intent(in) :: path, suffix
       integer :: last
@@ -68,11 +68,11 @@ contains
       if (last > 0) ends_with = path(last + 1:) == suffix .and. path(last:last) /= separator
    end function ends_with
 
-   !> An experiment without suffix that has no file .inp but one .toml is read from that
+   !> Use the .toml file if no suffix was given and there is no .inp file
    subroutine choose_input(place, has_both)
-      !> Its suffix is set
+      !> The suffix of its input is set
       type(experiment_place), intent(inout) :: place
-      !> Are there both files, so that .inp is read because nothing else was said?
+      !> Are there both files, so that .inp is read by default?
       logical, intent(out) :: has_both
       character(len=:), allocatable :: path
       logical :: has_input, has_readable

@@ -1,6 +1,6 @@
-!> One line on a terminal that tells how far a run is
+!> Progress line of a run on a terminal
 !>
-!> It stands on the standard error stream, is overwritten in place, and never goes into a pipe or file.
+!> It is written to the standard error stream and overwritten in place; never to a pipe or file.
 module contact_experiment_progress
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : error_unit
@@ -11,21 +11,21 @@ module contact_experiment_progress
 
    public :: progress_line, is_terminal, progress_text
 
-   !> Runs of fewer cases have no such line
+   !> Runs with fewer cases have no progress line
    integer, parameter :: many_cases = 10
-   !> The line is not rewritten more often than this [s]
+   !> Minimum time between updates [s]
    real(wp), parameter :: pause_between = 0.2_wp
    !> File descriptor of the standard error stream
    integer(c_int), parameter :: standard_error = 2
    character(len=*), parameter :: carriage_return = achar(13), clear_to_end = achar(27) // "[K"
 
-   !> The line and what it shows
+   !> State of the progress line
    type :: progress_line
-      !> Number of cases of the run; 0 when no line is shown
+      !> Number of cases of the run; 0: no line is shown
       integer :: total = 0
-      !> Is it on the terminal now?
+      !> Is it visible now?
       logical, private :: visible = .false.
-      !> Times of the start of the run and of the last change [s]
+      !> Times of the start of the run and of the last update [s]
       real(wp), private :: started = 0.0_wp, changed = 0.0_wp
    contains
       procedure :: begin
@@ -34,7 +34,7 @@ module contact_experiment_progress
    end type progress_line
 
    interface
-      !> POSIX: 1 when the file descriptor belongs to a terminal
+      !> POSIX: 1 if the file descriptor refers to a terminal
       function c_isatty(descriptor) result(answer) bind(c, name="isatty")
          import :: c_int
          integer(c_int), value :: descriptor
@@ -44,15 +44,15 @@ module contact_experiment_progress
 
 contains
 
-   !> Does the standard error stream go to a terminal?
+   !> Is the standard error stream a terminal?
    logical function is_terminal()
       is_terminal = c_isatty(standard_error) == 1_c_int
    end function is_terminal
 
-   !> Take the number of cases and start the clock
+   !> Set the number of cases and start the clock
    subroutine begin(self, total)
       class(progress_line), intent(inout) :: self
-      !> Cases that the run has
+      !> Number of cases of the run
       integer, intent(in) :: total
 
       self%total = merge(total, 0, total >= many_cases)
@@ -60,10 +60,10 @@ contains
       self%changed = self%started
    end subroutine begin
 
-   !> Tell how many cases are done; the cursor stays at the start of the line
+   !> Show the number of finished cases; the cursor remains at the start of the line
    subroutine show(self, done)
       class(progress_line), intent(inout) :: self
-      !> Cases that have ended
+      !> Number of finished cases
       integer, intent(in) :: done
       real(wp) :: now
 
@@ -77,7 +77,7 @@ contains
       flush(error_unit)
    end subroutine show
 
-   !> Clear the line before something else is written
+   !> Clear the line before other output
    subroutine hide(self)
       class(progress_line), intent(inout) :: self
 
@@ -89,9 +89,9 @@ contains
 
    !> " case 12 of 171, 1:05 left"
    pure function progress_text(done, total, elapsed) result(text)
-      !> Cases that have ended, and those that the run has
+      !> Numbers of finished cases and of all cases
       integer, intent(in) :: done, total
-      !> Time that the cases have taken so far [s]
+      !> Elapsed time of the cases so far [s]
       real(wp), intent(in) :: elapsed
       character(len=80) :: text
       integer :: seconds

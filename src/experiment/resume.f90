@@ -1,7 +1,7 @@
-!> Going on with a run that has ended before all cases were finished
+!> Resuming a run that ended before all cases were finished
 !>
-!> Each finished case is noted in the journal. A resumed run reads where the files end, brings the memory of all contact
-!> problems to where it was, and goes on behind it.
+!> Each finished case is recorded in the journal. A resumed run reads the ends of the files from it, restores the memory of all
+!> contact problems, and continues with the next case.
 module contact_experiment_resume
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : estimate_choice, kernel_model, time_link
@@ -26,20 +26,20 @@ module contact_experiment_resume
 
    public :: catch_up, find_point, note_case, resume_point, settings_of
 
-   !> Where to go on with a run
+   !> State from which a run is resumed
    type :: resume_point
-      !> Are there finished cases to go on behind?
+      !> Are there finished cases?
       logical :: active = .false.
       type(checkpoint) :: at
-      !> End of its line in the journal [bytes]
+      !> End of the corresponding line in the journal [bytes]
       integer(long) :: place = 0
-      !> How the finished cases ended, see case_letter
+      !> Final status of the finished cases, see case_letter
       character(len=:), allocatable :: letters
    end type resume_point
 
 contains
 
-   !> With what a run was asked for, as far as results depend on it
+   !> Settings of a run that affect its results
    function settings_of(asked) result(settings)
       type(run_settings), intent(in) :: asked
       type(journal_settings) :: settings
@@ -62,14 +62,14 @@ contains
       if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
    end function settings_of
 
-   !> Find out where to go on with a run, and with what it was asked for
+   !> Determine where to resume a run, and its settings
    subroutine find_point(state, asked, point, is_done, error)
       type(experiment_state), intent(inout) :: state
-      !> On return with what the run was asked for
+      !> On return the settings of the earlier run
       type(run_settings), intent(inout) :: asked
-      !> From the beginning where nothing can be gone on with
+      !> Start of the run if there is nothing to resume
       type(resume_point), intent(out) :: point
-      !> Is there nothing left to do?
+      !> Are all cases finished?
       logical, intent(out) :: is_done
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: unreadable
@@ -114,7 +114,7 @@ contains
       end associate
    end subroutine find_point
 
-   !> Take what a run was asked for before; refuse what does not go with it
+   !> Adopt the settings of the earlier run; refuse those that contradict it
    subroutine adopt(before, asked, error)
       type(journal_settings), intent(in) :: before
       type(run_settings), intent(inout) :: asked
@@ -158,14 +158,14 @@ contains
       if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements
    end subroutine adopt
 
-   !> Bring the memory of all contact problems to where it was, without writing
+   !> Restore the memory of all contact problems, without writing
    !>
-   !> A case that starts anew (P = 2, I = 0) depends on none before it: of each contact problem the last one that has done so is
-   !> solved again, and all behind it. Of those before only the files are read, so that nothing is told twice.
+   !> A case that starts anew (P = 2, I = 0) is independent of earlier ones. Of each contact problem the last such case is
+   !> solved again, and all later cases. Of earlier cases only the files are read, so that messages are not repeated.
    subroutine catch_up(state, asked, point, error)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: asked
-      !> As find_point has found it
+      !> State found by find_point
       type(resume_point), intent(in) :: point
       type(error_type), allocatable, intent(out) :: error
       type(input_case) :: this
@@ -200,7 +200,7 @@ contains
             call check_case(state%slots(k)%session, this%spec, quiet, state%slots(k)%result, error, state%place%folder)
             if (was_advised) state%slots(k)%session%advised = state%slots(k)%session%problem%grid
          end if
-         ! what went wrong then goes wrong again, and was told
+         ! failures repeat, and were reported before
          if (allocated(error)) deallocate(error)
          call remember_files(state, state%slots(k), this%module_number)
       end do
@@ -219,7 +219,7 @@ contains
          & state%place%results // ".out")
    end subroutine catch_up
 
-   !> First case of each contact problem that must be solved again, by place_of; huge for none
+   !> First case of each contact problem that must be solved again, indexed by place_of; huge: none
    subroutine first_to_solve(state, point, first, error)
       type(experiment_state), intent(inout) :: state
       type(resume_point), intent(in) :: point
@@ -259,17 +259,17 @@ contains
       if (is_there .and. hash == point%at%input) return
       if (allocated(error)) deallocate(error)
       call fatal_error(error, "the input was changed where it was computed already, up to case " // &
-         & integer_text(point%at%cases) // ": only what stands behind it may change; run it anew without --resume", &
+         & integer_text(point%at%cases) // ": only later cases may be changed; run it anew without --resume", &
          & file=state%place%input)
    end subroutine first_to_solve
 
-   !> Index of what a slot remembers of a module
+   !> Index of the memory of a slot for a module
    pure integer function place_of(slot, module_number) result(k)
       integer, intent(in) :: slot, module_number
       k = 2*slot - merge(1, 0, module_number == 1)
    end function place_of
 
-   !> Take note of the files that a case has read
+   !> Record the files read by a case
    subroutine remember_files(state, slot, module_number)
       type(experiment_state), intent(inout) :: state
       type(numbered_slot), intent(in) :: slot
@@ -294,7 +294,7 @@ contains
       end subroutine add
    end subroutine remember_files
 
-   !> A case is finished: how it ended, and where all files end now
+   !> Record a finished case: its final status, and the current ends of all files
    subroutine note_case(state, this, status, slot)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
@@ -322,7 +322,7 @@ contains
       call state%journal%note(letter)
    end subroutine note_case
 
-   !> Length of a file [bytes], 0 when there is none
+   !> Length of a file [bytes], 0 if it does not exist
    integer(long) function length_of(file) result(length)
       character(len=*), intent(in) :: file
 
@@ -330,7 +330,7 @@ contains
       length = max(0_long, length)
    end function length_of
 
-   !> Does a report end as that of a complete run?
+   !> Does a report end like that of a complete run?
    logical function says_complete(file) result(complete)
       character(len=*), intent(in) :: file
       integer(long), parameter :: enough = 300

@@ -1,11 +1,11 @@
-!> One experiment from its input file to its result files
+!> Run of an experiment, from its input file to its result files
 !>
-!> Cases are read, solved and written one after the other. Every result element and contact patch has
-!> a session and a result of its own, which live until the end of the run, so that arrays are reused.
+!> Cases are read, solved and written one after the other. Each result element and contact patch has its own session and result
+!> until the end of the run, so that arrays are reused.
 !>
-!> What an error does: a file that cannot be understood, a wrong value and a choice that is not built
-!> end the run before that case is computed. A case that cannot be solved and a .mat or .subs file that
-!> cannot be written are reported, and the run goes on. After any of them the run counts as failed.
+!> Handling of errors: an unreadable file, an invalid value, or a choice that is not implemented ends the run before that case
+!> is computed. A case that cannot be solved, and a .mat or .subs file that cannot be written, are reported and the run
+!> continues. In all of these cases the run has failed.
 module contact_experiment_run
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
@@ -45,25 +45,26 @@ module contact_experiment_run
 
    public :: as_input_says, no_unit, run_experiment, run_settings, stop_question
 
-   !> Cases that are estimated to take more time [s] or memory [bytes] are announced: by a check, and before they are computed
+   !> Thresholds of time [s] and memory [bytes] above which the estimated cost of a case is reported: in a check, and before it
+   !> is computed
    real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
 
-   !> What guarded work is told
+   !> Data of guarded work
    type :: guarded_run
       type(experiment_state), pointer :: state => null()
       type(run_settings), pointer :: settings => null()
-      !> Why the work was left, member of guard_end
+      !> Why the work was abandoned, member of guard_end
       integer :: cause = guard_end%done
    end type guarded_run
 
 contains
 
-   !> Run or check one experiment; the error is the first of all that were met
+   !> Run or check an experiment
    subroutine run_experiment(settings, error, interrupted)
-      !> What the caller asks for
+      !> Files, limits and choices requested by the caller
       type(run_settings), target, intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
-      !> Did settings%stop_asked end it?
+      !> Was the run ended by settings%stop_asked?
       logical, intent(out), optional :: interrupted
       type(experiment_state), pointer :: state
       type(guarded_run), target :: run
@@ -115,12 +116,12 @@ contains
       if (run%cause == guard_end%done) then
          deallocate(state)
       else
-         ! what the work was changing cannot be deallocated
+         ! data that abandoned work was changing cannot be deallocated
          call free_left_blocks(owner)
       end if
    end subroutine run_experiment
 
-   !> Check or compute the cases
+   !> Check or compute the cases, as guarded work
    subroutine work_on_cases(data) bind(c)
       !> A guarded_run
       type(c_ptr), value :: data
@@ -140,9 +141,9 @@ contains
       end if
    end subroutine work_on_cases
 
-   !> Say that there is no memory for the case in hand, and close the files
+   !> Report that there is not enough memory for the current case, and close the files
    !>
-   !> The sessions of the cases are in no defined state; files, log and counts are.
+   !> The sessions of the cases are in an undefined state; files, log and counts are valid.
    subroutine end_early(data) bind(c)
       !> A guarded_run
       type(c_ptr), value :: data
@@ -172,7 +173,7 @@ contains
       end associate
    end subroutine end_early
 
-   !> The limits of the run, whose time begins
+   !> Set the limits of the run and start its time
    subroutine set_limits(state, settings)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: settings
@@ -187,7 +188,7 @@ contains
       call state%deadline%start()
    end subroutine set_limits
 
-   !> Open the input; that of a confined run is an ordinary file in the folder of the experiment
+   !> Open the input; in a confined run it must be a regular file in the folder of the experiment
    subroutine open_input(state, reader, error)
       type(experiment_state), intent(in) :: state
       type(experiment_reader), intent(inout) :: reader
@@ -200,7 +201,7 @@ contains
       end if
    end subroutine open_input
 
-   !> An error when the run is to end before its next case
+   !> Give an error if the run is to end before its next case
    subroutine look_for_end(state, settings, error)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: settings
@@ -219,7 +220,7 @@ contains
       call state%deadline%watch("by the run as a whole", error)
    end subroutine look_for_end
 
-   !> An error when the files of the run have reached their limit; the report has room for it
+   !> Give an error if the size of the output files has reached its limit; the report may exceed it
    subroutine look_for_excess(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable, intent(out) :: error
@@ -232,7 +233,7 @@ contains
          & error_kind%limit)
    end subroutine look_for_excess
 
-   !> A name must be left after the folder and the suffix
+   !> Check that the name is not empty after removing folder and suffix
    subroutine check_place(state, error)
       type(experiment_state), intent(in) :: state
       type(error_type), allocatable, intent(out) :: error
@@ -242,12 +243,12 @@ contains
          & error_kind%file)
    end subroutine check_place
 
-   !> Read the cases to the end and tell everything that is wrong with them
+   !> Read all cases and report everything that is wrong with them
    subroutine check_all_cases(state)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(input_case) :: this
-      !> Elements and memory of the largest case, time of all cases
+      !> Number of elements and memory of the largest case, time of all cases
       type(case_cost) :: total
       integer :: faulty, k
 
@@ -256,7 +257,7 @@ contains
       do
          call state%reader%next_case(this, error)
          if (allocated(error)) then
-            ! a wrong digit may be the reason why the text behind it cannot be read
+            ! a wrong digit may be the cause why the following text cannot be read
             if (allocated(this%problems%items)) call report_problems(state, this)
             call report_error(state, error)
             exit
@@ -291,7 +292,7 @@ contains
          & trim(cost_text(total)))
    end subroutine check_all_cases
 
-   !> What only the preparation of a case finds: its profiles, its files, what its motion does not go with
+   !> Checks that require the preparation of a case: profiles, files, compatibility of its motion
    subroutine check_without_solving(slot, given, state, error)
       type(problem_slot), intent(inout) :: slot
       type(case_spec), intent(in) :: given
@@ -310,7 +311,7 @@ contains
       end if
    end subroutine check_without_solving
 
-   !> Add the cost of a case to that of all; tell it when it is large
+   !> Add the cost of a case to the total; report it if it is large
    subroutine add_cost(state, this, total)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
@@ -346,7 +347,7 @@ contains
       is_done = .false.
       if (asked%resume) then
          call find_point(state, asked, point, is_done, error)
-         ! limits are those that the run had before, where no others are given
+         ! limits of the earlier run are used unless others are given
          state%limits%deadline = asked%limits%deadline
          state%limits%bytes = asked%limits%bytes
          state%limits%elements = asked%limits%elements
@@ -366,7 +367,7 @@ contains
          call state%reader%next_case(this, error)
          call state%reading%halt()
          if (allocated(error)) then
-            ! a wrong digit may be the reason why the text behind it cannot be read
+            ! a wrong digit may be the cause why the following text cannot be read
             if (allocated(this%problems%items)) call report_problems(state, this)
             call give_up(state, error)
             exit
@@ -402,7 +403,7 @@ contains
       end do
    end subroutine compute_all_cases
 
-   !> Open the files of a run, or go on with those that are there
+   !> Open the files of a run, or continue existing ones
    subroutine open_all_files(state, asked, point, done)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: asked
@@ -416,12 +417,13 @@ contains
       if (point%active) then
          call open_result_again(state%log%out, state%place%results // ".out", point%at%out, error, state%limits)
       else
-         ! a journal of an earlier run knows nothing of what is written now
+         ! a journal of an earlier run does not describe what is written now
          call remove_file(journal_name(state%place%results))
          call open_out_file(state, error)
       end if
       if (.not. allocated(error)) then
-         ! counting means reading all of the input: where results are few and quick, that waits until somebody needs to know
+         ! counting the cases requires reading the complete input; for few and quick results it is postponed until the number is
+         ! needed
          if (asked%progress .or. asked%exports%any()) call count_planned(state)
          if (point%active) then
             call state%exports%open_files(asked%exports, state%place, version, state%run, state%limits, error, point%at)
@@ -444,7 +446,7 @@ contains
       call state%journal%start(state%place%results, settings_of(asked), state%limits%confined)
    end subroutine open_all_files
 
-   !> Tell in all files how far the run has come, and close them
+   !> Record the progress of the run in all files, and close them
    subroutine close_all_files(state)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
@@ -458,14 +460,15 @@ contains
          if (allocated(error)) call report_error(state, error)
       end do
       call close_out_file(state)
-      ! files that could not be completed can be, when there is room again
+      ! files that could not be completed may be completed when there is disk space again
       call state%journal%finish(state%run%is_complete() .and. state%errors == errors)
    end subroutine close_all_files
 
-   !> Hand what is written to the system, so that it outlives this process; in a run with a limit count the HDF5 file
+   !> Flush the output to the system, so that it survives this process; in a run with a size limit determine the size of the
+   !> HDF5 file
    subroutine keep_files_current(state)
       type(experiment_state), intent(inout) :: state
-      !> What a killed run computes anew when it is resumed [s]
+      !> Computing time that a killed run may lose [s]
       real(wp), parameter :: interval = 0.002_wp
       logical :: ignored
 
@@ -481,7 +484,7 @@ contains
       end associate
    end subroutine keep_files_current
 
-   !> Check, solve and write one case
+   !> Check, solve and write a case
    subroutine compute_case(state, this, go_on)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
@@ -541,7 +544,7 @@ contains
       end associate
    end subroutine compute_case
 
-   !> Count a case by how it ended
+   !> Count a case by its final status
    subroutine count_case(state, status)
       type(experiment_state), intent(inout) :: state
       type(case_status), intent(in) :: status
@@ -549,7 +552,7 @@ contains
       state%run%ended(status%state) = state%run%ended(status%state) + 1
    end subroutine count_case
 
-   !> Why the input of a case cannot be used: its first error
+   !> Why the input of a case is invalid: its first error
    subroutine refusal_of(this, reason)
       type(input_case), intent(in) :: this
       character(len=:), allocatable, intent(out) :: reason
@@ -565,15 +568,15 @@ contains
       end do
    end subroutine refusal_of
 
-   !> Everything that is written of a solved case of either module
+   !> Write all results of a solved case of either module
    subroutine write_results(state, this, solved, slot, head)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
-      !> The case as it was solved
+      !> The case as solved
       type(case_spec), intent(in) :: solved
-      !> With its results
+      !> Contact problem with results
       type(numbered_slot), intent(inout) :: slot
-      !> For files of other programs
+      !> Head of the case for files of other programs
       type(case_head), intent(in) :: head
       type(error_type), allocatable :: error
 
@@ -596,11 +599,11 @@ contains
       call state%writing%halt()
    end subroutine write_results
 
-   !> Report, .mat and .subs file of a solved case of module 3
+   !> Write the report, .mat and .subs file of a solved case of module 3
    subroutine write_contact_files(state, this, solved, result)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
-      !> The case as it was solved
+      !> The case as solved
       type(case_spec), intent(in) :: solved
       type(patch_result), intent(in) :: result
       type(error_type), allocatable :: error
@@ -619,7 +622,7 @@ contains
       end if
    end subroutine write_contact_files
 
-   !> Number of cases in the input, as far as it can be read
+   !> Count the cases in the input, as far as it can be read
    subroutine count_planned(state)
       type(experiment_state), intent(inout) :: state
       type(experiment_reader) :: reader
@@ -635,12 +638,12 @@ contains
          if (this%module_number == 0) return
          state%run%planned = state%run%planned + 1
       end do
-      ! the error stands in one more case
+      ! the error belongs to another case
       state%run%planned = state%run%planned + 1
       state%run%readable = .false.
    end subroutine count_planned
 
-   !> What was planned, if that was not counted yet
+   !> Number of planned cases, if not yet counted
    subroutine learn_planned(state)
       type(experiment_state), intent(inout) :: state
 
@@ -649,7 +652,7 @@ contains
       if (allocated(state%run%reason)) call count_planned(state)
    end subroutine learn_planned
 
-   !> Tell the error that ends the run before all cases are finished
+   !> Report the error that ends the run before all cases are finished
    subroutine give_up(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), intent(in) :: error
@@ -658,7 +661,7 @@ contains
       state%run%reason = full_text(error)
    end subroutine give_up
 
-   !> An error without a place belongs to its case as a whole: where that begins in the input
+   !> Assign an error without position to the start of its case in the input
    subroutine place_error(state, this, error)
       type(experiment_state), intent(in) :: state
       type(input_case), intent(in) :: this
@@ -669,7 +672,7 @@ contains
       error%line = this%first_line
    end subroutine place_error
 
-   !> Write an error to the .out file and to the unit for errors, and remember the first
+   !> Write an error to the .out file and to the error unit, and remember the first one
    subroutine report_error(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), intent(in) :: error
@@ -679,7 +682,7 @@ contains
       if (.not. allocated(state%first_error)) state%first_error = error
    end subroutine report_error
 
-   !> Write the problems of a case: warnings to the log, errors as report_error does
+   !> Write the problems of a case: warnings to the log, errors as in report_error
    subroutine report_problems(state, this)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
@@ -702,7 +705,7 @@ contains
       end do
    end subroutine report_problems
 
-   !> A line to the .out file and to the unit for errors, after what stands on the screen already
+   !> Write a line to the .out file and to the error unit, after clearing the progress line
    subroutine write_error(state, text)
       type(experiment_state), intent(inout) :: state
       character(len=*), intent(in) :: text
@@ -724,13 +727,13 @@ contains
       call open_result(state%log%out, state%place%results // ".out", state%place%results // ".out", error, state%limits)
    end subroutine open_out_file
 
-   !> Timers and closing lines, and the end of the .out file
+   !> Write timers and closing lines, and close the .out file
    subroutine close_out_file(state)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(timer_line) :: lines(4)
 
-      ! the end is told in any case
+      ! the closing lines are always written
       call state%log%out%charge_to(null())
       call state%total%halt()
       call state%total%fill_line("Total", lines(1))

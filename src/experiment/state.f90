@@ -1,4 +1,4 @@
-!> What is asked of a run, and everything that it keeps from case to case
+!> Settings of a run, and its state from case to case
 module contact_experiment_state
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : heat_source
@@ -25,73 +25,73 @@ module contact_experiment_state
    public :: as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, solve_one, &
       & stop_question
 
-   !> Stands for what the input says of temperatures; the established format says nothing, which is the established way
+   !> Temperatures as selected in the input; the established format has no selection and implies the established method
    integer, parameter :: as_input_says = -1
-   !> Stands for no unit; 0 is the standard error stream of gfortran
+   !> No unit; 0 is the standard error stream of gfortran
    integer, parameter :: no_unit = -1
 
    abstract interface
-      !> Is the run to end after the case in hand? It is asked between two cases
+      !> Is the run to end after the current case? Called between cases
       subroutine stop_question(reason)
          implicit none (type, external)
-         !> Why, such as "signal TERM"; unallocated: go on
+         !> Reason, such as "signal TERM"; unallocated: continue
          character(len=:), allocatable, intent(out) :: reason
       end subroutine stop_question
    end interface
 
-   !> What is to be run and where messages go
+   !> Settings of a run
    type :: run_settings
       !> Name of the experiment, with or without folder and suffix .inp
       character(len=:), allocatable :: experiment
-      !> Folder of the results; unallocated or "" for the folder of the input
+      !> Folder of the results; unallocated or "": folder of the input
       character(len=:), allocatable :: output_folder
-      !> Version for the banner; unallocated to leave it out
+      !> Version for the banner; unallocated: omitted
       character(len=:), allocatable :: version
-      !> Only read and check the cases? Then no file is written
+      !> Only read and check the cases, without writing files?
       logical :: check_only = .false.
-      !> Number of threads, 0 for the default
+      !> Number of threads; 0: default
       integer :: threads = 0
-      !> Unit for the log on the screen, 0 for none
+      !> Unit of the log on the screen; 0: none
       integer :: screen = 0
       !> Unit for errors, or no_unit
       integer :: complaints = no_unit
-      !> May a progress line be shown on the terminal?
+      !> Show a progress line on the terminal?
       logical :: progress = .false.
-      !> What each case may take, and whether the run is confined to its folder
+      !> Limits of each case, and restriction of the run to its folder
       type(case_limits) :: limits
-      !> What the whole run may take: time, and bytes of all files
+      !> Limits of the run: time, and total size of all files [bytes]
       type(deadline_type) :: run_deadline
       integer(long) :: output_bytes = huge(1_long)
-      !> Whom to ask between two cases whether the run is to end; null for nobody
+      !> Called between cases to check whether the run is to end; null: never
       procedure(stop_question), pointer, nopass :: stop_asked => null()
       !> Is a case that does not converge a failure of the run?
       logical :: strict = .false.
-      !> Files for other programs beside the usual ones
+      !> Optional files for other programs
       type(export_request) :: exports
-      !> How temperatures are computed, member of heat_source, or as_input_says
+      !> Method for temperatures, member of heat_source, or as_input_says
       integer :: heat_source = as_input_says
       !> Order of the discretisation of rolling, 1 or 2, or as_input_says
       integer :: order = as_input_says
-      !> Largest relative error of the forces that is asked for, or 0 for what the input says
+      !> Requested bound of the relative error of the forces [-]; 0: as in the input
       real(wp) :: accuracy = 0.0_wp
-      !> May simplified methods be chosen for an accuracy, whatever the input says?
+      !> Allow simplified methods for an accuracy, regardless of the input?
       logical :: allows_approximate = .false.
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
-      !> Do the classical solvers run that cases name?
+      !> Run the classical solvers selected by cases?
       logical :: classical = .false.
-      !> Shall the errors of the totals be estimated?
+      !> Estimate the errors of the totals?
       logical :: errors = .false.
-      !> Go on with a run that has ended before all cases were finished?
+      !> Resume a run that ended before all cases were finished?
       logical :: resume = .false.
    end type run_settings
 
-   !> The problem of one result element and contact patch
+   !> Contact problem of one result element and contact patch
    type, extends(problem_slot) :: numbered_slot
       integer :: reid = 0, cpid = 1
    end type numbered_slot
 
-   !> Everything that a run keeps from case to case
+   !> State of a run from case to case
    type :: experiment_state
       type(experiment_place) :: place
       type(experiment_reader) :: reader
@@ -104,40 +104,40 @@ module contact_experiment_state
       type(numbered_slot), allocatable :: slots(:)
       !> Unit for errors, or no_unit
       integer :: complaints = no_unit
-      !> Numbers of cases read and of errors
+      !> Numbers of cases read, and of errors
       integer :: cases = 0, errors = 0
-      !> What is planned and what is done
+      !> Planned and finished cases
       type(run_summary) :: run
-      !> Has somebody asked the run to end?
+      !> Was the run requested to end?
       logical :: interrupted = .false.
-      !> Has no case asked for results so far?
+      !> Has no case requested results so far?
       logical :: silent = .true.
-      !> The first error; unallocated when there was none
+      !> The first error; unallocated: none
       type(error_type), allocatable :: first_error
       type(stopwatch) :: total, reading, solving, writing
-      !> What each case may take and the run may still write
+      !> Limits of each case, and remaining size of the output
       type(case_limits) :: limits
       type(deadline_type) :: deadline
-      !> Size of the HDF5 file as it was counted last
+      !> Size of the HDF5 file when last determined
       integer(long) :: hdf5_bytes = 0
-      !> What `--resume` goes on from, and the last line of the input that its hash knows
+      !> Journal for `--resume`, and the last line of the input that is included in its hash
       type(journal_file) :: journal
       integer :: hashed = 0
-      !> When the journal was handed to the system last, see wall_clock
+      !> Time when the journal was last flushed, see wall_clock
       real(wp) :: last_save = 0.0_wp
-      !> The case in hand, if there is one
+      !> The current case, if any
       type(case_head) :: head
       logical :: in_case = .false.
    end type experiment_state
 
 contains
 
-   !> Index of the slot of a result element and patch, which is made when it is new
+   !> Index of the slot of a result element and patch; a new slot is created if needed
    subroutine find_slot(state, reid, cpid, k)
       type(experiment_state), intent(inout) :: state
       !> Numbers of the result element and of the contact problem in it
       integer, intent(in) :: reid, cpid
-      !> In the list of slots of the experiment
+      !> Index in the list of slots of the experiment
       integer, intent(out) :: k
       type(numbered_slot), allocatable :: longer(:)
 
@@ -162,9 +162,9 @@ contains
       type(numbered_slot), intent(inout) :: slot
       type(input_case), intent(in) :: this
       type(log_type), intent(inout) :: log
-      !> How it ended
+      !> Final status
       type(case_status), intent(inout) :: status
-      !> The case with what its accuracy has chosen; unallocated where none was asked for
+      !> The case with the settings chosen for its accuracy; unallocated if none was requested
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
 
@@ -185,7 +185,7 @@ contains
       end if
    end subroutine solve_one
 
-   !> What the run, not the input, says about a case
+   !> Apply the settings of the run to a case
    subroutine complete_spec(state, asked, this)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: asked
@@ -204,11 +204,11 @@ contains
       call this%spec%limits%deadline%start()
    end subroutine complete_spec
 
-   !> "1 case", "2 cases"
+   !> Number with noun: "1 case", "2 cases"
    pure function counted(n, what) result(text)
-      !> How many
+      !> Number
       integer, intent(in) :: n
-      !> In the singular
+      !> Noun in the singular
       character(len=*), intent(in) :: what
       character(len=columns_of(n) + 1 + len(what) + merge(0, 1, n == 1)) :: text
 

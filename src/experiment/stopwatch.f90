@@ -1,4 +1,4 @@
-!> How often and how long the phases of a run were at work
+!> Number of calls and times of the phases of a run
 module contact_experiment_stopwatch
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
@@ -8,17 +8,17 @@ module contact_experiment_stopwatch
 
    public :: stopwatch
 
-   !> Calls and seconds of one phase
+   !> Calls and times of a phase
    type :: stopwatch
       integer :: calls = 0
       !> Processor time of all threads, elapsed time [s]
       real(wp) :: cpu = 0.0_wp, wall = 0.0_wp
-      !> Times at the start of the call that is running
+      !> Times at the start of the current call
       real(wp), private :: cpu_start = 0.0_wp, wall_start = 0.0_wp
    contains
       procedure :: start
       procedure :: halt
-      !> Count what another one has counted
+      !> Add the calls and times of another stopwatch
       procedure :: add
       !> A line of the timer table
       procedure :: fill_line
@@ -26,7 +26,7 @@ module contact_experiment_stopwatch
 
 contains
 
-   !> Start to count
+   !> Start a call
    subroutine start(self)
       class(stopwatch), intent(inout) :: self
 
@@ -34,7 +34,7 @@ contains
       call cpu_time(self%cpu_start)
    end subroutine start
 
-   !> Add what has passed since the start
+   !> End a call and add its times
    subroutine halt(self)
       class(stopwatch), intent(inout) :: self
       real(wp) :: now
@@ -47,7 +47,7 @@ contains
 
    pure subroutine add(self, other)
       class(stopwatch), intent(inout) :: self
-      !> Its times are added line by line
+      !> Stopwatch to add
       type(stopwatch), intent(in) :: other
 
       self%calls = self%calls + other%calls
@@ -55,12 +55,12 @@ contains
       self%wall = self%wall + other%wall
    end subroutine add
 
-   !> Component by component, because constructors with texts leak
+   !> Set a line of the timer table, component by component, because constructors with texts leak memory
    pure subroutine fill_line(self, name, line)
       class(stopwatch), intent(in) :: self
-      !> What is timed
+      !> Name of the phase
       character(len=*), intent(in) :: name
-      !> With times of zero
+      !> Name, calls and times
       type(timer_line), intent(out) :: line
 
       line%name = name
