@@ -1,11 +1,10 @@
 !> Influence coefficients of homogeneous half-spaces, continuous bilinear tractions
 !>
-!> The basis function of an element is the hat of height 1 over 2 dx by 2 dy. Near the element
-!> a coefficient is the mixed second difference of a fourth antiderivative of the point kernel
-!> over nine points. That difference loses as many digits as (distance/element)^4 has, so it is
-!> taken in extended precision. Further away, where the kernel is smooth on the scale of an
-!> element, the hat is written as the mean of the rectangle's coefficient over one cell, by
-!> Gauss' rule with three points in each direction.
+!> The basis function of an element is the hat of height 1 over 2 dx by 2 dy. Near the element a coefficient is the mixed second
+!> difference of a fourth antiderivative of the point kernel over nine points. This difference loses as many digits as
+!> (distance/element)^4 has and is therefore computed in extended precision. Further away, where the kernel is smooth on the
+!> scale of an element, the coefficient is the mean of that of the rectangle over one cell, by Gauss quadrature with three
+!> points in each direction.
 module contact_elastic_bilinear
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -16,22 +15,22 @@ module contact_elastic_bilinear
 
    public :: fill_bilinear, fill_shifted_bilinear
 
-   !> Extended precision of the near field; the usual one where there is no other
+   !> Extended precision for the near field; working precision if there is no other
    integer, parameter :: long = max(selected_real_kind(30), wp)
-   !> From this distance on, in longer sides of an element, the mean over a cell is used
+   !> Beyond this distance, in longer element sides, the mean over a cell is used
    real(wp), parameter :: far = 20.0_wp
 
 contains
 
-   !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
+   !> All coefficients without shift: one quadrant is computed, the others follow by symmetry
    subroutine fill_bilinear(table, material, dx, dy, nx, ny)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
       real(wp), allocatable :: v(:, :, :)
       integer :: k, l
@@ -48,17 +47,17 @@ contains
       end do
    end subroutine fill_bilinear
 
-   !> All coefficients with the observation point moved by (shift_x, shift_y)
+   !> All coefficients for observation points shifted by (shift_x, shift_y)
    subroutine fill_shifted_bilinear(table, material, dx, dy, nx, ny, shift_x, shift_y)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      !> Displacement of the observation points [mm]
+      !> Shift of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y
       real(wp), allocatable :: v(:, :, :)
       integer :: k, l
@@ -159,7 +158,7 @@ contains
       real(long) :: f(6), r, lx, ly, ax, ay
 
       r = hypot(x, y)
-      ! ln(y + r) is asinh(y/|x|) + ln|x|; the last term drops out of the second difference over y
+      ! ln(y + r) is asinh(y/|x|) + ln|x|; the last term cancels in the second difference over y
       lx = 0.0_long
       ly = 0.0_long
       if (y /= 0.0_long) lx = asinh(x/abs(y))

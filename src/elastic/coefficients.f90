@@ -1,4 +1,4 @@
-!> Influence coefficients of an elastic model that are the same for all loaded elements
+!> Influence coefficients of elastic models that are the same for all loaded elements
 module contact_elastic_coefficients
    use contact_base_choices, only : kernel_model
    use contact_base_kinds, only : wp
@@ -14,17 +14,17 @@ module contact_elastic_coefficients
 
 contains
 
-   !> Coefficients without shift; for a curved surface whose correction depends on rows those of flat bodies
+   !> Coefficients without shift; for a curved surface whose correction depends on rows, those of flat bodies
    !>
-   !> Where they can be found without the others, only normal ones: `complete_coefficients` does the rest.
+   !> Only normal coefficients where these can be computed separately; `complete_coefficients` computes the others.
    subroutine fill_coefficients(table, model, dx, dy, nx, ny)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> The bodies: half-spaces, layer, memory, or a table from a file
+      !> Bodies: half-spaces, layer, memory, or a table from a file
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
 
       if (allocated(model%memory)) then
@@ -41,9 +41,9 @@ contains
       if (allocated(table%xx)) call add_layer(table, model)
    end subroutine fill_coefficients
 
-   !> An element moves with the layer below it, too
+   !> Add the displacement of an element by the layer below it
    pure subroutine add_layer(table, model)
-      !> Complete
+      !> Table with all coefficients
       type(kernel_table), intent(inout) :: table
       type(elastic_model), intent(in) :: model
 
@@ -51,11 +51,11 @@ contains
       table%yy(0, 0) = table%yy(0, 0) + model%layer
    end subroutine add_layer
 
-   !> What `fill_coefficients` left out; nothing where all are there
+   !> Compute the coefficients omitted by `fill_coefficients`, if any
    subroutine complete_coefficients(table, model)
-      !> That of the bodies
+      !> Table of these bodies
       type(kernel_table), intent(inout) :: table
-      !> The bodies
+      !> Bodies
       type(elastic_model), intent(in) :: model
 
       if (allocated(table%xx) .or. .not. allocated(table%nn)) return
@@ -63,11 +63,11 @@ contains
       call add_layer(table, model)
    end subroutine complete_coefficients
 
-   !> Coefficients nn, xx, yy of an element on itself, whether all are there or not
+   !> Coefficients nn, xx, yy of an element on itself, also for an incomplete table
    pure function own_coefficients(table, model) result(own)
       !> From `fill_coefficients`
       type(kernel_table), intent(in) :: table
-      !> The bodies
+      !> Bodies
       type(elastic_model), intent(in) :: model
       real(wp) :: own(3)
 
@@ -78,19 +78,19 @@ contains
       end if
    end function own_coefficients
 
-   !> Coefficients with the observation points moved by (shift_x, shift_y); flat bodies without memory
+   !> Coefficients for observation points shifted by (shift_x, shift_y); flat bodies without memory
    !>
-   !> The layer sees the traction at the moved point, interpolated between the elements around it.
+   !> The layer is loaded by the traction at the shifted point, interpolated between the surrounding elements.
    subroutine fill_shifted_coefficients(table, model, dx, dy, nx, ny, shift_x, shift_y)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> The bodies, flat and without memory
+      !> Bodies, flat and without memory
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      !> Displacement of the observation points [mm]
+      !> Shift of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y
       integer :: k, l, i, j
       real(wp) :: a, b, share

@@ -1,9 +1,8 @@
-!> The compliance of a surface as all iterative methods see it: products, and approximate inverses
+!> Abstract compliance of a surface, as used by all iterative methods: products and approximate inverses
 !>
-!> Displacement differences are u = A p. In steady rolling the particles that are in the elements
-!> now were one element further ahead in the frame of the same tractions one step before,
-!> with displacements A' p; the slip needs (A - A') p. What A is made of is known to the
-!> children alone.
+!> Displacement differences are u = A p. In steady rolling the particles now in the elements were one element further ahead one
+!> step before, in the frame of the same tractions, with displacements A' p; the slip requires (A - A') p. Only the child types
+!> know how A is computed.
 module contact_elastic_compliance
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : complete_coefficients
@@ -20,19 +19,19 @@ module contact_elastic_compliance
       integer :: mx = 0, my = 0
       !> Sides of the elements [mm]
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp
-      !> Lateral position of the centres of the first row [mm]; counts where rows differ
+      !> Lateral position of the centres of the first row [mm]; used if rows differ
       real(wp) :: y_first = 0.0_wp
       type(elastic_model) :: model
-      !> Products with the full operator since it was made
+      !> Number of products with the full operator since it was created
       integer :: products = 0
-      !> Real transforms of the padded window, forward and backward, since it was made
+      !> Number of real transforms of the padded window, forward and backward, since it was created
       integer :: transforms = 0
       !> Diagonal coefficients at zero offset: nn, xx, yy [mm/(N/mm2)]
       real(wp) :: diagonal(3) = 0.0_wp
-      !> Coefficients in space, at least for all offsets that occur in the window; those that are not normal after `complete`
+      !> Coefficients in space, for at least all offsets within the window; other than normal ones only after `complete`
       type(kernel_table) :: table
    contains
-      !> Set window, model and rolling direction; everything is kept when nothing changed
+      !> Set window, model and rolling direction; nothing is recomputed if they are unchanged
       procedure(prepare_interface), deferred :: prepare
       !> u_n = A_nn p_n
       procedure(normal_interface), deferred :: normal
@@ -46,24 +45,24 @@ module contact_elastic_compliance
       procedure(tangential_inverse_interface), deferred :: tangential_inverse
       !> z = approximate inverse of A - A' applied to r
       procedure(tangential_inverse_interface), deferred :: steady_inverse
-      !> u_n by tangential tractions
+      !> u_n due to tangential tractions
       procedure(to_normal_interface), deferred :: normal_by_tangential
-      !> u_t by pressures; difference between two time steps in steady rolling
+      !> u_t due to pressures; the difference between two time steps in steady rolling
       procedure(from_normal_interface), deferred :: tangential_by_normal
       procedure(from_normal_interface), deferred :: steady_by_normal
-      !> Free what is held outside Fortran's memory
+      !> Free resources not managed by Fortran
       procedure(release_interface), deferred :: release
-      !> Is there a compliance for larger elements, for a first estimate on a coarse grid?
+      !> Is there a compliance for larger elements, for an initial estimate on a coarse grid?
       procedure :: can_coarsen
-      !> Does the table hold all there is, the same for all loaded elements?
+      !> Does the table describe the operator completely, with the same coefficients for all loaded elements?
       procedure :: has_table
-      !> See to it that the table has all coefficients, not only normal ones
+      !> Ensure that the table contains all coefficients, not only normal ones
       procedure :: complete
-      !> Was the operator prepared for this window and model?
+      !> Is the operator prepared for this window and model?
       procedure :: is_for
-      !> Pairs of forward and backward transforms so far
+      !> Number of pairs of forward and backward transforms so far
       procedure :: fft_pairs
-      !> Add up pairs of a coarse level, and count anew
+      !> Add the pairs of a coarse level, and reset its count
       procedure :: settle_account
    end type compliance
 
@@ -72,7 +71,7 @@ module contact_elastic_compliance
          import :: compliance, elastic_model, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
-         !> The bodies whose surfaces are displaced
+         !> Bodies in contact
          type(elastic_model), intent(in) :: model
          !> Sides of the elements [mm]
          real(wp), intent(in) :: dx, dy
@@ -84,25 +83,25 @@ module contact_elastic_compliance
          real(wp), intent(in), optional :: y_first
       end subroutine prepare_interface
 
-      !> Between fields of one component, shape (mx, my)
+      !> Fields of one component, shape (mx, my)
       subroutine normal_interface(self, p, u)
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
          !> Pressures [N/mm2], positive in compression
          real(wp), contiguous, intent(in) :: p(:, :)
-         !> Difference of the normal displacements of the bodies [mm], positive where the surfaces move apart
+         !> Difference of the normal displacements of the bodies [mm], positive if the surfaces move apart
          real(wp), contiguous, intent(inout) :: u(:, :)
       end subroutine normal_interface
 
-      !> Between fields of two components, shape (mx, my, 2)
+      !> Fields of two components, shape (mx, my, 2)
       subroutine tangential_interface(self, p, u)
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
          !> Tangential tractions on body 1 [N/mm2]: along x, along y
          real(wp), contiguous, intent(in) :: p(:, :, :)
-         !> Difference of the displacements, body 1 less body 2 [mm], along x and along y; its change per step in `steady`
+         !> Difference of the displacements, body 1 minus body 2 [mm], along x and along y; its change per step in `steady`
          real(wp), contiguous, intent(inout) :: u(:, :, :)
       end subroutine tangential_interface
 
@@ -126,25 +125,25 @@ module contact_elastic_compliance
          real(wp), contiguous, intent(inout) :: z(:, :, :)
       end subroutine tangential_inverse_interface
 
-      !> Tractions of shape (mx, my, 2) to displacements of shape (mx, my)
+      !> From tractions of shape (mx, my, 2) to displacements of shape (mx, my)
       subroutine to_normal_interface(self, p, u)
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
          !> Tangential tractions on body 1 [N/mm2]: along x, along y
          real(wp), contiguous, intent(in) :: p(:, :, :)
-         !> Difference of the normal displacements of the bodies [mm], positive where the surfaces move apart
+         !> Difference of the normal displacements of the bodies [mm], positive if the surfaces move apart
          real(wp), contiguous, intent(inout) :: u(:, :)
       end subroutine to_normal_interface
 
-      !> Pressures of shape (mx, my) to displacements of shape (mx, my, 2)
+      !> From pressures of shape (mx, my) to displacements of shape (mx, my, 2)
       subroutine from_normal_interface(self, p, u)
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
          !> Pressures [N/mm2], positive in compression
          real(wp), contiguous, intent(in) :: p(:, :)
-         !> Difference of the tangential displacements, body 1 less body 2 [mm]: along x, along y
+         !> Difference of the tangential displacements, body 1 minus body 2 [mm]: along x, along y
          real(wp), contiguous, intent(inout) :: u(:, :, :)
       end subroutine from_normal_interface
 
@@ -174,7 +173,7 @@ contains
 
    pure logical function is_for(self, model, dx, dy, mx, my)
       class(compliance), intent(in) :: self
-      !> Bodies that an operator is wanted for
+      !> Bodies for which an operator is required
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
@@ -192,9 +191,9 @@ contains
 
    pure subroutine settle_account(self, elements, pairs)
       class(compliance), intent(inout) :: self
-      !> Elements of the finest window
+      !> Number of elements of the finest window
       integer, intent(in) :: elements
-      !> Pairs of transforms of the finest window that would cost as much
+      !> Number of pairs of transforms of the finest window with the same cost
       real(wp), intent(inout) :: pairs
 
       pairs = pairs + self%fft_pairs()*self%mx*self%my/elements

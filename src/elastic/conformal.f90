@@ -1,14 +1,13 @@
 !> Compliance of a surface that is curved across the rolling direction
 !>
-!> The corrected coefficients are half-space coefficients times cosines and sines of the difference
-!> of inclinations alpha_J - alpha_I, or of half of it. By
+!> The corrected coefficients are half-space coefficients times cosines and sines of the difference of inclinations alpha_J -
+!> alpha_I, or of half of it. With
 !>
 !>     cos(a_J - a_I) = cos a_I cos a_J + sin a_I sin a_J,
 !>     sin(a_J - a_I) = cos a_I sin a_J - sin a_I cos a_J
 !>
-!> every term is a plain convolution between fields that are weighted row by row. Nothing is
-!> approximated, no coefficients per row are stored, and transforms serve whatever the
-!> inclination is. Approximate inverses are those of the flat bodies.
+!> each term is a convolution between fields that are weighted row by row. Nothing is approximated, no coefficients per row are
+!> stored, and transforms can be used for any inclination. Approximate inverses are those of flat bodies.
 module contact_elastic_conformal
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
@@ -22,17 +21,17 @@ module contact_elastic_conformal
    integer, parameter :: x = 1, s = 2, n = 3
    !> Kernels of flat bodies
    integer, parameter :: k_nn = 1, k_xx = 2, k_ss = 3, k_xs = 4, k_xn = 5, k_sn = 6
-   !> Weights of rows: 1, cosine and sine of the inclination, cosine and sine of its half
+   !> Weights of rows: 1, cosine and sine of the inclination, cosine and sine of half the inclination
    integer, parameter :: one = 1, cosine = 2, sine = 3, half_cosine = 4, half_sine = 5
 
-   !> Contribution to the displacement in direction `to` by tractions in direction `from`:
-   !> factor times kernel times function of the difference of inclinations
+   !> Contribution to the displacement in direction `to` by tractions in direction `from`: factor times kernel times a function
+   !> of the difference of inclinations
    type :: term_type
       integer :: to = 0, from = 0, function_ = one, kernel = k_nn
       real(wp) :: factor = 0.0_wp
    end type term_type
 
-   !> Half-space kernels with rows turned against each other
+   !> Half-space kernels for rows that are inclined relative to each other
    type, extends(moving_operator) :: conformal_operator
       type(term_type), allocatable, private :: term(:)
       !> Weights of rows, shape (my, 5)
@@ -52,7 +51,7 @@ module contact_elastic_conformal
 
 contains
 
-   !> The table holds coefficients of flat bodies; they do not describe this compliance
+   !> The table contains coefficients of flat bodies, which do not describe this compliance
    pure logical function has_table(self)
       class(conformal_operator), intent(in) :: self
       has_table = self%mx < 0
@@ -71,7 +70,7 @@ contains
          if (allocated(self%source)) deallocate(self%source, self%response, self%field, self%weight)
       end if
       call self%elastic_operator%prepare(model, dx, dy, mx, my, direction, y_first)
-      ! terms need all of them, and ask which there are
+      ! the terms require all spectra and test which ones exist
       call self%complete()
       self%small = .false.
       if (.not. allocated(self%source)) then
@@ -85,11 +84,11 @@ contains
       call make_terms(self, model%inclination%variant)
    end subroutine prepare
 
-   !> The corrected matrix of a variant, written out in terms
+   !> Terms of the corrected matrix of a variant
    subroutine make_terms(self, variant)
       class(conformal_operator), intent(inout) :: self
       integer, intent(in) :: variant
-      !> Kernels and signs of the matrix of flat bodies, rows to, columns from
+      !> Kernels and signs of the matrix of flat bodies; rows: to, columns: from
       integer, parameter :: kernel(3, 3) = reshape([k_xx, k_xs, k_xn, k_xs, k_ss, k_sn, k_xn, k_sn, k_nn], [3, 3])
       real(wp), parameter :: sign_(3, 3) = reshape([real(wp) :: 1, 1, -1, 1, 1, -1, 1, 1, 1], [3, 3])
       !> Rotation by the difference of inclinations
@@ -123,7 +122,7 @@ contains
             end do
          end do
       case default
-         ! R A R with half the angle each; mean and half difference of ss and nn turn differently
+         ! R A R with half the angle each; the mean and half the difference of ss and nn rotate differently
          call add(x, x, one, k_xx, 1.0_wp)
          call add(x, s, half_cosine, k_xs, 1.0_wp)
          call add(x, s, half_sine, k_xn, 1.0_wp)
@@ -157,10 +156,10 @@ contains
       end subroutine add
    end subroutine make_terms
 
-   !> Displacements in some directions by tractions in some directions
+   !> Displacements in given directions due to tractions in given directions
    subroutine product(self, from, p, to, u, change)
       class(conformal_operator), intent(inout) :: self
-      !> Directions, and fields of shape (mx, my, number of directions)
+      !> Directions; fields of shape (mx, my, number of directions)
       integer, intent(in) :: from(:), to(:)
       real(wp), intent(in) :: p(:, :, :)
       real(wp), intent(inout) :: u(:, :, :)
@@ -229,7 +228,7 @@ contains
       self%products = self%products + 1
    end subroutine product
 
-   !> Weights that a function of the difference of inclinations needs on both sides
+   !> Row weights on both sides for a function of the difference of inclinations
    pure function weights(function_) result(pair)
       integer, intent(in) :: function_
       integer :: pair(2)
@@ -239,7 +238,7 @@ contains
       if (function_ == sine .or. function_ == half_sine) pair(2) = function_ - 1
    end function weights
 
-   !> Add the convolution of a weighted traction to a displacement that will be weighted
+   !> Add the convolution of a weighted traction to a displacement that is weighted afterwards
    subroutine convolve(self, term, factor, weight_from, weight_to)
       class(conformal_operator), intent(inout) :: self
       type(term_type), intent(in) :: term

@@ -1,9 +1,8 @@
 !> Influence coefficients of homogeneous half-spaces, piecewise constant tractions
 !>
-!> Displacement differences at a point (x, y) by a unit traction on a rectangle around the
-!> origin, after Love (1929) and Kalker (1990): signed sums of corner functions over the four
-!> corners. Logarithms are written as asinh: ln(y + r) = asinh(y/|x|) + ln|x|, and the last
-!> term drops out of the difference over y; no cancellation for negative arguments is left.
+!> Displacement differences at a point (x, y) due to a unit traction on a rectangle around the origin, after Love (1929) and
+!> Kalker (1990): signed sums of corner functions over the four corners. Logarithms are written as asinh: ln(y + r) =
+!> asinh(y/|x|) + ln|x|, where the last term cancels in the difference over y; there is no cancellation for negative arguments.
 module contact_elastic_halfspace
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -16,10 +15,10 @@ module contact_elastic_halfspace
 
    !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
    !>
-   !> First indices are offsets "receiving minus loaded element" in x and y. The coupling
-   !> coefficients nx, ny are -xn, -yn; yx equals xy.
+   !> The first indices are offsets "receiving minus loaded element" in x and y. The coupling coefficients nx, ny are -xn, -yn;
+   !> yx equals xy.
    type :: kernel_table
-      !> Offsets run from -nx to nx and from -ny to ny
+      !> Offsets are in the ranges -nx...nx and -ny...ny
       integer :: nx = -1, ny = -1
       !> Sides of the elements [mm]
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp
@@ -27,11 +26,12 @@ module contact_elastic_halfspace
       real(wp) :: shift_x = 0.0_wp, shift_y = 0.0_wp
       type(combined_material) :: material
       real(wp), allocatable :: nn(:, :)
-      !> Unallocated until they are asked for, where only nn was wanted
+      !> Unallocated while only nn has been requested
       real(wp), allocatable :: xx(:, :), yy(:, :), xy(:, :)
-      !> Tangential displacements by pressures; unallocated when uncoupled
+      !> Tangential displacements due to pressures; unallocated if uncoupled
       real(wp), allocatable :: xn(:, :), yn(:, :)
-      !> Corner functions of the last table without shift, for tables of other sizes, shape (5, -1:..., -1:...); what they are for
+      !> Corner functions of the last table without shift, reused for tables of other sizes, shape (5, -1:..., -1:...); their
+      !> parameters
       real(wp), allocatable, private :: corner(:, :, :)
       real(wp), private :: corner_sides(2) = 0.0_wp
       logical, private :: corner_coupled = .false.
@@ -40,35 +40,35 @@ module contact_elastic_halfspace
    !> Corner functions of larger tables are not kept: windows of that size do not change from case to case
    integer, parameter :: largest_kept = 20000
 
-   !> Ratio of two coordinates at which a term x asinh(y/|x|) no longer counts, and y/|x| might overflow for smaller ones
+   !> Ratio of two coordinates below which a term x asinh(y/|x|) is negligible, and y/|x| might overflow
    real(wp), parameter :: on_axis = 1.0e-14_wp
 
 contains
 
    !> All coefficients without shift
    subroutine fill_table(table, material, dx, dy, nx, ny)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
 
       call fill_normal(table, material, dx, dy, nx, ny)
       call complete_table(table)
    end subroutine fill_table
 
-   !> Coefficients nn alone, without shift: one quadrant is computed, the rest follows by symmetry
+   !> Coefficients nn only, without shift: one quadrant is computed, the others follow by symmetry
    subroutine fill_normal(table, material, dx, dy, nx, ny)
-      !> Gets offsets, sides and nn; has no others on exit
+      !> Receives offsets, sides and nn; contains no others on exit
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
       integer :: k, l
 
@@ -90,9 +90,9 @@ contains
       call mirror(table%nn, nx, ny, 1, 1)
    end subroutine fill_normal
 
-   !> The coefficients that `fill_normal` leaves out; nothing where they are there
+   !> Compute the coefficients omitted by `fill_normal`, if any
    subroutine complete_table(table)
-      !> Without shift
+      !> Table without shift
       type(kernel_table), intent(inout) :: table
       integer :: k, l
       real(wp) :: v(6)
@@ -104,7 +104,7 @@ contains
          do l = 0, ny
             do k = 0, nx
                v = combine_corners(difference_of_corners(table, k, l), table%material)
-               ! a coefficient that is odd in an offset vanishes exactly at offset 0
+               ! a coefficient that is odd in an offset is exactly zero at offset 0
                if (k == 0 .or. l == 0) v(4) = 0.0_wp
                table%xx(k, l) = v(2)
                table%yy(k, l) = v(3)
@@ -124,9 +124,9 @@ contains
       end associate
    end subroutine complete_table
 
-   !> Coefficients xx and yy of an element on itself, of a table of normal ones
+   !> Coefficients xx and yy of an element on itself, for a table of normal coefficients
    pure function own_tangential(table) result(own)
-      !> Without shift, with corner functions
+      !> Table without shift, with corner functions
       type(kernel_table), intent(in) :: table
       real(wp) :: own(2), v(6)
 
@@ -134,9 +134,9 @@ contains
       own = v(2:3)
    end function own_tangential
 
-   !> Corner functions at the corners of an element, with their signs
+   !> Signed sum of the corner functions over the corners of an element
    pure function difference_of_corners(table, k, l) result(d)
-      !> Has corner functions
+      !> Table with corner functions
       type(kernel_table), intent(in) :: table
       !> Offset, not negative
       integer, intent(in) :: k, l
@@ -145,15 +145,15 @@ contains
       d = table%corner(:, k, l) - table%corner(:, k - 1, l) - table%corner(:, k, l - 1) + table%corner(:, k - 1, l - 1)
    end function difference_of_corners
 
-   !> Corner functions up to the largest offsets; those that are known from other sizes are kept
+   !> Corner functions up to the maximum offsets; values known from other sizes are reused
    subroutine find_corners(table, dx, dy, nx, ny, coupled)
-      !> Its `corner` has all that are needed on exit
+      !> On exit its `corner` contains all required values
       type(kernel_table), intent(inout) :: table
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      !> Are all five of them wanted?
+      !> Are all five functions required?
       logical, intent(in) :: coupled
       real(wp), allocatable :: wider(:, :, :)
       integer :: k, l, known(2), wanted(2)
@@ -189,7 +189,7 @@ contains
 
    contains
 
-      !> Are the functions those of the corner with x and y exchanged, which square elements have?
+      !> Are the functions those of the corner with x and y exchanged, as for square elements?
       pure logical function is_mirrored(k, l)
          integer, intent(in) :: k, l
 
@@ -197,11 +197,11 @@ contains
       end function is_mirrored
    end subroutine find_corners
 
-   !> The other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
+   !> Set the other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
    pure subroutine mirror(kernel, nx, ny, sign_x, sign_y)
-      !> Largest offsets
+      !> Maximum offsets
       integer, intent(in) :: nx, ny
-      !> Shape (-nx:nx, -ny:ny); set where both offsets are at least 0
+      !> Shape (-nx:nx, -ny:ny); given for non-negative offsets
       real(wp), contiguous, intent(inout) :: kernel(-nx:, -ny:)
       integer, intent(in) :: sign_x, sign_y
       integer :: k, l
@@ -218,17 +218,17 @@ contains
       end do
    end subroutine mirror
 
-   !> All coefficients with the observation point moved by (shift_x, shift_y)
+   !> All coefficients for observation points shifted by (shift_x, shift_y)
    subroutine fill_shifted_table(table, material, dx, dy, nx, ny, shift_x, shift_y)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      !> Displacement of the observation points [mm]
+      !> Shift of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y
       integer :: k, l
       real(wp) :: v(6)
@@ -252,9 +252,9 @@ contains
       end do
    end subroutine fill_shifted_table
 
-   !> Coefficients at an offset and at its three mirror images
+   !> Set the coefficients at an offset and at its three mirror images
    pure subroutine set_mirrored(table, k, l, v)
-      !> Large enough for the offset; see `shape_table`
+      !> Table that contains the offset; see `shape_table`
       type(kernel_table), intent(inout) :: table
       !> Offset, not negative
       integer, intent(in) :: k, l
@@ -263,7 +263,7 @@ contains
       real(wp) :: w(6)
       integer :: i, j
 
-      ! a coefficient that is odd in an offset vanishes exactly at offset 0
+      ! a coefficient that is odd in an offset is exactly zero at offset 0
       w = v
       if (k == 0 .or. l == 0) w(4) = 0.0_wp
       if (k == 0) w(5) = 0.0_wp
@@ -275,9 +275,9 @@ contains
       end do
    end subroutine set_mirrored
 
-   !> Coefficients at an offset
+   !> Set the coefficients at an offset
    pure subroutine set_entry(table, k, l, v)
-      !> Large enough for the offset; see `shape_table`
+      !> Table that contains the offset; see `shape_table`
       type(kernel_table), intent(inout) :: table
       !> Offset along x and y in elements, of either sign
       integer, intent(in) :: k, l
@@ -295,15 +295,15 @@ contains
 
    !> Allocate the arrays of a table for a range of offsets
    subroutine shape_table(table, material, dx, dy, nx, ny, coupled)
-      !> Gets offsets, sides and arrays; coefficients are not set
+      !> Receives offsets, sides and arrays; coefficients are not set
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together, kept in the table
+      !> Combined constants of both bodies, stored in the table
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      !> With coefficients xn, yn? Default: when the material couples
+      !> Allocate coefficients xn, yn? Default: if the material is coupled
       logical, intent(in), optional :: coupled
       logical :: with_coupling
 
@@ -320,15 +320,15 @@ contains
       call name_table(table, material, dx, dy, nx, ny)
    end subroutine shape_table
 
-   !> What a table is for
+   !> Set the parameters of a table
    pure subroutine name_table(table, material, dx, dy, nx, ny)
-      !> Gets all but arrays and shift
+      !> All components except arrays and shift are set
       type(kernel_table), intent(inout) :: table
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
 
       table%nx = nx
@@ -338,14 +338,14 @@ contains
       table%material = material
    end subroutine name_table
 
-   !> The functions whose mixed difference over the corners gives the coefficients
+   !> Functions whose mixed difference over the corners gives the coefficients
    !>
-   !> x asinh(y/|x|), y asinh(x/|y|), r, and for coupled problems y ln r + x atan(y/x),
-   !> x ln r + y atan(x/y). The limits for x = 0 or y = 0 are taken.
+   !> x asinh(y/|x|), y asinh(x/|y|), r, and for coupled problems y ln r + x atan(y/x), x ln r + y atan(x/y), with their limits
+   !> for x = 0 or y = 0.
    pure function corner_functions(x, y, coupled) result(f)
       !> Position relative to a corner [mm]
       real(wp), intent(in) :: x, y
-      !> Are the last two wanted? They are zero otherwise
+      !> Are the last two required? They are zero otherwise
       logical, intent(in) :: coupled
       real(wp) :: f(5), r
 
@@ -361,11 +361,11 @@ contains
       if (y /= 0.0_wp) f(5) = f(5) + y*atan(x/y)
    end function corner_functions
 
-   !> From differences of the corner functions to nn, xx, yy, xy, xn, yn
+   !> Convert differences of the corner functions to nn, xx, yy, xy, xn, yn
    pure function combine_corners(d, material) result(v)
       !> Mixed differences of the five corner functions [mm]
       real(wp), intent(in) :: d(5)
-      !> Constants of both bodies together
+      !> Combined constants of both bodies
       type(combined_material), intent(in) :: material
       real(wp) :: v(6), factor
 
@@ -378,7 +378,7 @@ contains
       v(6) = -factor*material%ak*d(5)
    end function combine_corners
 
-   !> The first of them alone
+   !> Coefficient nn only
    pure real(wp) function normal_coefficient(d, material)
       real(wp), intent(in) :: d(5)
       type(combined_material), intent(in) :: material

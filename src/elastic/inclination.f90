@@ -1,9 +1,8 @@
 !> Correction of half-space coefficients for surfaces that are curved across the rolling direction
 !>
-!> The directions of traction and displacement differ between loaded and receiving element by
-!> the difference of inclinations alpha = alpha_J - alpha_I. With the half-space matrix A in
-!> the directions x, s, n and the rotation R(alpha) about x, the corrected matrix is A R(alpha),
-!> R(alpha) A, or, sharing the rotation, R(alpha/2) A R(alpha/2).
+!> The directions of traction and displacement differ between loaded and receiving element by the difference of inclinations
+!> alpha = alpha_J - alpha_I. With the half-space matrix A in the directions x, s, n and the rotation R(alpha) about x, the
+!> corrected matrix is A R(alpha), R(alpha) A, or, with the rotation shared, R(alpha/2) A R(alpha/2).
 module contact_elastic_inclination
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : kernel_table
@@ -15,11 +14,11 @@ module contact_elastic_inclination
 
 contains
 
-   !> Coefficients for a uniform rate of inclination, rotation shared: all symmetries stay
+   !> Coefficients for a constant rate of inclination with shared rotation, for which all symmetries are preserved
    subroutine rotate_table(table, inclination)
-      !> Of flat bodies on entry; coupling coefficients are made when there are none
+      !> On entry coefficients of flat bodies; coupling coefficients are created if there are none
       type(kernel_table), intent(inout) :: table
-      !> Rate at which the normal turns along the surface
+      !> Inclination with a constant rate along the surface
       type(surface_inclination), intent(in) :: inclination
       real(wp) :: alpha, c, s, c_half, s_half, half_sum, half_difference, a_xs, a_xn, a_sn
       integer :: k, l

@@ -6,22 +6,23 @@ module contact_elastic_material
 
    public :: combined_material, combine, coupling_threshold
 
-   !> |K| below this value means that normal and tangential problems do not interact [-]
+   !> For smaller |K| the normal and tangential problems are uncoupled [-]
    real(wp), parameter :: coupling_threshold = 1.0e-6_wp
 
-   !> Constants of the equivalent pair of bodies
+   !> Combined constants of the two bodies
    type :: combined_material
       !> Combined modulus of rigidity [N/mm2], Poisson ratio [-], difference parameter K [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
    contains
-      !> Do normal and tangential tractions interact?
+      !> Are normal and tangential problems coupled?
       procedure :: coupled
       procedure :: same_as
    end type combined_material
 
 contains
 
-   !> Kalker (1990): 1/G and nu/G are means over the bodies, K/G half their difference of (1 - 2 nu)/(2 G)
+   !> Combine constants after Kalker (1990): 1/G and nu/G are means over the bodies, K/G is half their difference of (1 - 2
+   !> nu)/(2 G)
    pure function combine(poiss, gg) result(material)
       !> Poisson ratios [-] and moduli of rigidity [N/mm2] of bodies 1 and 2
       real(wp), intent(in) :: poiss(2), gg(2)
@@ -39,7 +40,7 @@ contains
 
    elemental logical function same_as(self, other)
       class(combined_material), intent(in) :: self
-      !> Constants to be compared bit by bit
+      !> Constants to compare, bit by bit
       type(combined_material), intent(in) :: other
       same_as = self%gg == other%gg .and. self%nu == other%nu .and. self%ak == other%ak
    end function same_as

@@ -1,15 +1,14 @@
-!> Influence coefficients of viscoelastic bodies in steady motion towards increasing x, or the mirror image of it
+!> Influence coefficients of viscoelastic bodies in steady motion towards increasing x, or its mirror image
 !>
-!> A standard linear solid adds to its elastic response the memory of what its particles met
-!> before. A particle that is at X now was at X + v s when s relaxation times ago, v the distance
-!> travelled in one of them, so the memory coefficients are
+!> A standard linear solid adds to its elastic response the memory of the loads that its particles experienced before. A
+!> particle now at X was at X + v s a time of s relaxation times ago, where v is the distance travelled in one relaxation time.
+!> The memory coefficients are
 !>
-!>     M(X) = int_0^inf exp(-s) C(X + v s) ds,  C those of the late response.
+!> M(X) = int_0^inf exp(-s) C(X + v s) ds,  with C the coefficients of the late response.
 !>
-!> They obey M(X) = exp(-dx/v) M(X + dx) + int_0^{dx/v} exp(-s) C(X + v s) ds: one short
-!> quadrature per element, marching from the largest offset to the smallest. C is a mixed
-!> difference of functions of the corners, and so are these integrals: they are found once for each
-!> corner, by as many points of Gauss' rule as its distance from the load asks for.
+!> They satisfy M(X) = exp(-dx/v) M(X + dx) + int_0^{dx/v} exp(-s) C(X + v s) ds: one short quadrature per element, marching
+!> from the largest offset to the smallest. C is a mixed difference of corner functions, and so are these integrals: they are
+!> computed once per corner, with the number of Gauss points required by its distance from the load.
 module contact_elastic_memory
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : combine_corners, corner_functions, fill_table, kernel_table
@@ -21,32 +20,32 @@ module contact_elastic_memory
 
    public :: fill_with_memory
 
-   !> Everything after this many relaxation times is below round-off
+   !> After this number of relaxation times contributions are below round-off
    real(wp), parameter :: forgotten = 45.0_wp
-   !> Longest piece of quadrature in relaxation times
+   !> Maximum length of a quadrature interval in relaxation times
    real(wp), parameter :: longest = 5.0_wp
-   !> Points per piece: behind the window, next to an edge of the loaded element, and most and least elsewhere
+   !> Number of points per interval: beyond the window, next to an edge of the loaded element, and maximum and minimum elsewhere
    integer, parameter :: n_distant = 12, n_edge = 20, n_most = 16, n_least = 4
-   !> Natural logarithm of what errors of quadrature are smaller by than the integral
+   !> Natural logarithm of the ratio of the integral to the quadrature error
    real(wp), parameter :: exactness = 37.0_wp
-   !> Corner functions that change sign with y
+   !> Signs of the corner functions under reflection in y
    real(wp), parameter :: mirrored(5) = [-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
-   !> Points next to an edge crowd towards it like this power
+   !> Exponent of the concentration of points near an edge
    integer, parameter :: crowding = 4
 
-   !> Named ends of a piece at which the integrand is not smooth
+   !> Ends of an interval at which the integrand is not smooth
    type :: edge_list
       integer :: none = 0, first = 1, last = 2
    end type edge_list
    type(edge_list), parameter :: edge = edge_list()
 
-   !> Abscissae and weights of Gauss' rule
+   !> Abscissae and weights of a Gauss rule
    type :: gauss_rule
       integer :: n = 0
       real(wp) :: x(n_edge) = 0.0_wp, w(n_edge) = 0.0_wp
    end type gauss_rule
 
-   !> Quadrature rules and the fading response that is summed up
+   !> Quadrature rules, and the fading response to be integrated
    type :: march
       type(combined_material) :: late
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp, length = 1.0_wp
@@ -55,19 +54,19 @@ module contact_elastic_memory
 
 contains
 
-   !> Elastic coefficients plus memory; no symmetry in x is left
+   !> Elastic coefficients plus memory; they are not symmetric in x
    subroutine fill_with_memory(table, material, memory, coupled, dx, dy, nx, ny)
-      !> Gets offsets, sides and coefficients; its arrays are allocated here
+      !> Receives offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
       !> Constants of the instantaneous response
       type(combined_material), intent(in) :: material
-      !> The late response, and the distance travelled in a relaxation time
+      !> Late response, and distance travelled in a relaxation time
       type(fading_memory), intent(in) :: memory
-      !> With coefficients between pressures and tangential displacements?
+      !> Include coefficients between pressures and tangential displacements?
       logical, intent(in) :: coupled
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
-      !> Largest offsets in elements
+      !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
       integer :: a
 
@@ -87,7 +86,7 @@ contains
       if (memory%direction < 0) call turn_around(table)
    end subroutine fill_with_memory
 
-   !> Coefficients of motion towards decreasing x: the mirror image, in which x-components change sign
+   !> Coefficients for motion towards decreasing x: the mirror image, in which x-components change sign
    pure subroutine turn_around(table)
       type(kernel_table), intent(inout) :: table
 
@@ -100,7 +99,7 @@ contains
       table%yn = table%yn(table%nx:-table%nx:-1, :)
    end subroutine turn_around
 
-   !> Sum of two responses
+   !> Sum of the responses of both bodies
    pure function together(late) result(both)
       type(combined_material), intent(in) :: late(2)
       type(combined_material) :: both
@@ -114,11 +113,11 @@ contains
    subroutine add_memory(table, late, length)
       type(kernel_table), intent(inout) :: table
       type(combined_material), intent(in) :: late
-      !> Distance travelled within the relaxation time [mm]
+      !> Distance travelled in the relaxation time [mm]
       real(wp), intent(in) :: length
       type(march) :: steps
       type(gauss_rule), allocatable :: rules(:)
-      !> Integrals across an element from each corner on; and differences along x of those from the end of the window on
+      !> Integrals across an element from each corner; and differences along x of the integrals from the end of the window
       real(wp), allocatable :: corner(:, :, :), behind(:, :)
       real(wp) :: m(6), y
       integer :: k, l
@@ -154,23 +153,23 @@ contains
       end do
    end subroutine add_memory
 
-   !> Gauss' rule of so many points
+   !> Gauss rule with n points
    pure type(gauss_rule) function rule_of(n) result(rule)
-      !> Not more than there is place for
+      !> Number of points, at most the size of the rule
       integer, intent(in) :: n
 
       rule%n = n
       call gauss_legendre(rule%x(:n), rule%w(:n))
    end function rule_of
 
-   !> Points of Gauss' rule for exp(-s) times a function with its nearest singularity on the axis
+   !> Number of Gauss points for exp(-s) times a function whose nearest singularity is on the axis
    !>
-   !> With n points the error is about that of the best polynomial of degree 2n: rho^-2n times the largest value on the ellipse
-   !> around the piece whose semi-axes have the sum rho, for any ellipse without the singularity.
+   !> With n points the error is about that of the best polynomial of degree 2n: rho^-2n times the maximum on the ellipse around
+   !> the interval whose semi-axes have the sum rho, for any such ellipse that excludes the singularity.
    pure integer function enough_points(distance, h) result(n)
-      !> Of the singularity from the middle of the piece, in half lengths of it; at least 1
+      !> Distance of the singularity from the centre of the interval, in half lengths; at least 1
       real(wp), intent(in) :: distance
-      !> Length of the piece in relaxation times
+      !> Length of the interval in relaxation times
       real(wp), intent(in) :: h
       real(wp) :: rho
 
@@ -205,12 +204,12 @@ contains
       end subroutine add
    end subroutine add_both
 
-   !> Differences along x of the integrals from a distant offset on; pieces grow with the distance to the load
+   !> Differences along x of the integrals from a distant offset; intervals grow with the distance from the load
    !>
-   !> Far from the window corner functions are so much larger than their differences that these are taken first.
+   !> Far from the window the corner functions are much larger than their differences, so that the differences are taken first.
    pure function distant(steps, x, y) result(m)
       type(march), intent(in) :: steps
-      !> Centre of an element; the row of corners [mm]
+      !> Centre of an element; row of corners [mm]
       real(wp), intent(in) :: x, y
       real(wp) :: m(5)
       real(wp) :: s, h, at, clearance
@@ -232,14 +231,14 @@ contains
       end do
    end function distant
 
-   !> The integral across one element from a corner on; the integrand of the corner behind the load has an edge in its middle
+   !> The integral across one element from a corner; the integrand of the corner behind the load has an edge in its middle
    pure function over_element(steps, rule, k, y) result(m)
       type(march), intent(in) :: steps
-      !> For pieces without an edge
+      !> Rule for intervals without an edge
       type(gauss_rule), intent(in) :: rule
-      !> The corner is half an element before the centre of this one
+      !> The corner is half an element before the centre of this element
       integer, intent(in) :: k
-      !> The row of corners [mm]
+      !> Row of corners [mm]
       real(wp), intent(in) :: y
       real(wp) :: m(5)
       real(wp) :: x, half
@@ -253,11 +252,11 @@ contains
       end if
    end function over_element
 
-   !> Cut a stretch into pieces, and forget what is older than anything that counts
+   !> Divide a range into intervals, and omit those that have faded below round-off
    pure function stretch(steps, rule, x, s, h, y, sharp) result(m)
       type(march), intent(in) :: steps
       type(gauss_rule), intent(in) :: rule
-      !> Where the integral begins [mm]; start and length of the stretch in relaxation times
+      !> Start of the integral [mm]; start and length of the range in relaxation times
       real(wp), intent(in) :: x, s, h, y
       !> End at which the integrand is not smooth
       integer, intent(in) :: sharp
@@ -266,7 +265,7 @@ contains
       integer :: i, n, end_
 
       m = 0.0_wp
-      ! the last piece counts only when it is not forgotten: no more pieces than that are made
+      ! an interval is included only if it has not faded, which limits their number
       n = ceiling(min(h, forgotten*longest)/longest)
       if (h > forgotten*longest) n = nint(forgotten*longest)
       part = h/n
@@ -280,7 +279,7 @@ contains
       end do
    end function stretch
 
-   !> One piece by Gauss' rule
+   !> Integrate one interval by Gauss quadrature
    pure function piece(steps, rule, x, s, h, y, sharp) result(m)
       type(march), intent(in) :: steps
       type(gauss_rule), intent(in) :: rule

@@ -1,4 +1,4 @@
-!> What kind of surface two bodies form in contact: everything that a compliance is made from
+!> Elastic model of a contact: all data from which a compliance is created
 module contact_elastic_model
    use contact_base_choices, only : kernel_model
    use contact_base_kinds, only : long, wp
@@ -8,13 +8,13 @@ module contact_elastic_model
 
    public :: elastic_model, fading_memory, influence_table, surface_inclination
 
-   !> What bodies add to their elastic response after a load, in steady motion; standard linear solids
+   !> Additional response of viscoelastic bodies (standard linear solids) after a load, in steady motion
    !>
    !> The creep compliance of body a is (1 + f_a (1 - exp(-t/tau_a)))/G_a.
    type :: fading_memory
-      !> Part of the late response, that of each body against a rigid one, divided by the load
+      !> Late part of the response per unit load, of each body against a rigid one
       type(combined_material) :: late(2)
-      !> Distance travelled within the relaxation time, v_a = V tau_a [mm]; 0: the body has no memory
+      !> Distance travelled in the relaxation time, v_a = V tau_a [mm]; 0: no memory
       real(wp) :: length(2) = 0.0_wp
       !> Motion towards increasing (+1) or decreasing (-1) x
       integer :: direction = 1
@@ -22,9 +22,9 @@ module contact_elastic_model
 
    !> Inclination of a curved surface across the rolling direction
    type :: surface_inclination
-      !> How the rotations of load and displacement are shared out, 1 to 4
+      !> Variant of sharing the rotation between load and displacement, 1 to 4
       integer :: variant = 4
-      !> Same rate of inclination everywhere: a straight line through the table
+      !> Is the rate of inclination constant, a straight line through the table?
       logical :: uniform = .false.
       !> Curved lateral coordinates [mm], increasing, and inclinations [rad]
       real(wp), allocatable :: s(:), alpha(:)
@@ -33,33 +33,32 @@ module contact_elastic_model
       procedure :: rate
    end type surface_inclination
 
-   !> Influence coefficients that were computed elsewhere, for both bodies together
+   !> Influence coefficients computed elsewhere, for both bodies together
    !>
-   !> Offsets are receiving minus loaded element; those in x are not negative, the others follow by symmetry. Outside
-   !> the range of offsets coefficients are zero.
+   !> Offsets are receiving minus loaded element; those in x are not negative, the others follow by symmetry. Outside the range
+   !> of offsets coefficients are zero.
    type :: influence_table
-      !> Offsets run from 0 to nx and from -ny to ny
+      !> Offsets are in the ranges 0...nx and -ny...ny
       integer :: nx = 0, ny = 0
       !> Lateral position of the first loaded row [mm]
       real(wp) :: y_first = 0.0_wp
-      !> Differs when the content of the file does
+      !> Hash of the content of the file
       integer(long) :: fingerprint = 0
-      !> Coefficients nn nx ny xn xx xy yn yx yy, shape (0:nx, -ny:ny, 9, 1), or a slice for each loaded row
-      !> instead of one [mm/(N/mm2)]
+      !> Coefficients nn nx ny xn xx xy yn yx yy [mm/(N/mm2)], shape (0:nx, -ny:ny, 9, 1), or with one slice for each loaded row
       real(wp), allocatable :: c(:, :, :, :)
    contains
       procedure :: same_table
    end type influence_table
 
-   !> Elasticity of a pair of bodies; the plain value means homogeneous half-spaces
+   !> Elastic model of two bodies; default: homogeneous half-spaces
    type :: elastic_model
       !> Combined constants of the instantaneous response
       type(combined_material) :: material
-      !> Influence coefficients, one of kernel_model
+      !> Influence coefficients, member of kernel_model
       integer :: kernel = kernel_model%piecewise_constant
-      !> Tangential displacement in a thin layer between the bodies per unit traction [mm3/N]; 0: no layer
+      !> Tangential displacement of a thin layer between the bodies per unit traction [mm3/N]; 0: no layer
       real(wp) :: layer = 0.0_wp
-      !> Normal displacement in a thin elastic sheet between the bodies per unit pressure [mm3/N]; 0: no sheet
+      !> Normal displacement of a thin elastic sheet between the bodies per unit pressure [mm3/N]; 0: no sheet
       real(wp) :: sheet = 0.0_wp
       !> Late response in steady motion; unallocated: none
       type(fading_memory), allocatable :: memory
@@ -68,15 +67,15 @@ module contact_elastic_model
       !> Coefficients for kernel_model%tabulated; unallocated: half-spaces
       type(influence_table), allocatable :: tabulated
    contains
-      !> Do normal and tangential tractions interact?
+      !> Are normal and tangential problems coupled?
       procedure :: coupled
-      !> Do displacements depend on the distance between elements only, for any distance?
+      !> Do displacements depend only on the offset between elements, for any offset?
       procedure :: is_flat
-      !> Is there an inclination, and do its corrections depend on offsets only, with all symmetries?
+      !> Is there an inclination whose corrections depend on offsets only and preserve all symmetries?
       procedure :: rotates_by_offset
-      !> Would both give the same coefficients?
+      !> Do both models give the same coefficients?
       procedure :: same_as
-      !> Set constants and memory of viscoelastic bodies
+      !> Set the constants and memory of viscoelastic bodies
       procedure :: set_viscoelastic
    end type elastic_model
 
@@ -89,7 +88,7 @@ contains
       if (.not. allocated(self%memory)) return
       associate (memory => self%memory)
          if (memory%length(1) > 0.0_wp .and. memory%length(1) == memory%length(2)) then
-            ! the late responses fade alike: only their difference counts, relative to the modulus
+            ! the late responses fade alike: only their difference relative to the modulus matters
             coupled = coupled .or. abs(memory%late(1)%ak/memory%late(1)%gg + memory%late(2)%ak/memory%late(2)%gg) &
                & *self%material%gg >= coupling_threshold
          else
@@ -112,7 +111,7 @@ contains
 
    pure logical function same_as(self, other) result(same)
       class(elastic_model), intent(in) :: self
-      !> Bodies to be compared, parameter by parameter
+      !> Model to compare, parameter by parameter
       type(elastic_model), intent(in) :: other
 
       same = self%material%same_as(other%material) .and. self%kernel == other%kernel .and. self%layer == other%layer &
@@ -133,21 +132,21 @@ contains
    !> Do two tables come from the same file, for the same window?
    pure logical function same_table(self, other) result(same)
       class(influence_table), intent(in) :: self
-      !> Table to be compared: by its file and window, not by its coefficients
+      !> Table to compare, by file and window, not by coefficients
       type(influence_table), intent(in) :: other
 
       same = self%fingerprint == other%fingerprint .and. self%nx == other%nx .and. self%ny == other%ny &
          & .and. self%y_first == other%y_first .and. all(shape(self%c) == shape(other%c))
    end function same_table
 
-   !> A body whose relaxation time is 0 responds at once with its late compliance
+   !> Set the model of viscoelastic bodies; a body with relaxation time 0 responds immediately with its late compliance
    pure subroutine set_viscoelastic(self, poiss, gg, ratio, length, direction)
       class(elastic_model), intent(inout) :: self
       !> Poisson ratios [-] and instantaneous moduli of rigidity [N/mm2] of bodies 1 and 2
       real(wp), intent(in) :: poiss(2), gg(2)
-      !> Late over instantaneous compliance, minus 1 [-]
+      !> Ratio of late to instantaneous compliance, minus 1 [-]
       real(wp), intent(in) :: ratio(2)
-      !> Distance travelled within the relaxation time [mm]
+      !> Distance travelled in the relaxation time [mm]
       real(wp), intent(in) :: length(2)
       !> Motion towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
@@ -170,7 +169,7 @@ contains
       end do
    end subroutine set_viscoelastic
 
-   !> Inclination at a lateral position [rad]: interpolated, with the end intervals continued
+   !> Inclination at a lateral position [rad], by interpolation; the end intervals are extrapolated
    elemental real(wp) function angle(self, s)
       class(surface_inclination), intent(in) :: self
       !> Curved lateral coordinate [mm]
@@ -185,7 +184,7 @@ contains
       angle = self%alpha(i) + (self%alpha(i + 1) - self%alpha(i))*(s - self%s(i))/(self%s(i + 1) - self%s(i))
    end function angle
 
-   !> Slope of the straight line that fits the table best [rad/mm]
+   !> Slope of the least-squares line through the table [rad/mm]
    pure real(wp) function rate(self)
       class(surface_inclination), intent(in) :: self
       real(wp) :: mean_s, mean_alpha

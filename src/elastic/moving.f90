@@ -1,4 +1,4 @@
-!> Compliances that compute displacements and their change from step to step by one procedure
+!> Compliances that compute displacements and their change per step by the same procedure
 module contact_elastic_moving
    use contact_base_kinds, only : wp
    use contact_elastic_operator, only : elastic_operator
@@ -7,21 +7,21 @@ module contact_elastic_moving
 
    public :: moving_operator
 
-   !> Parent of the kinds that do not use the products of half-spaces
+   !> Parent of the compliances that do not use the products of half-spaces
    type, abstract, extends(elastic_operator) :: moving_operator
    contains
       procedure :: tangential
       procedure :: steady
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
-      !> u_t by tangential tractions, or its change (A - A') p_t
+      !> u_t due to tangential tractions, or its change (A - A') p_t
       procedure(from_tangential), deferred :: pair_product
-      !> u_t by pressures, or its change
+      !> u_t due to pressures, or its change
       procedure(from_normal), deferred :: by_normal
    end type moving_operator
 
    abstract interface
-      !> Both fields of shape (mx, my, 2)
+      !> Both fields have shape (mx, my, 2)
       subroutine from_tangential(self, p, u, change)
          import :: moving_operator, wp
          implicit none (type, external)
@@ -30,7 +30,7 @@ module contact_elastic_moving
          real(wp), contiguous, intent(in) :: p(:, :, :)
          !> Displacement difference [mm]
          real(wp), contiguous, intent(inout) :: u(:, :, :)
-         !> From step to step in steady rolling?
+         !> Compute the change per step in steady rolling?
          logical, intent(in) :: change
       end subroutine from_tangential
 
@@ -43,7 +43,7 @@ module contact_elastic_moving
          real(wp), contiguous, intent(in) :: p(:, :)
          !> Displacement difference [mm]
          real(wp), contiguous, intent(inout) :: u(:, :, :)
-         !> From step to step in steady rolling?
+         !> Compute the change per step in steady rolling?
          logical, intent(in) :: change
       end subroutine from_normal
    end interface

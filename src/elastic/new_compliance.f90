@@ -1,4 +1,4 @@
-!> The compliance that suits an elastic model
+!> Factory of compliances
 module contact_elastic_new_compliance
    use contact_elastic_compliance, only : compliance
    use contact_elastic_conformal, only : conformal_operator
@@ -16,11 +16,11 @@ module contact_elastic_new_compliance
 
 contains
 
-   !> Make an operator of the kind that a model needs; one that is of this kind already is kept
+   !> Create the operator required by a model; an existing one of the same kind is kept
    subroutine new_compliance(model, operator)
-      !> The bodies, whose kind decides
+      !> Elastic model, which determines the kind
       type(elastic_model), intent(in) :: model
-      !> Unallocated, or of any kind; not prepared for a window when it is new
+      !> Unallocated or of any kind; a new one is not yet prepared for a window
       class(compliance), allocatable, intent(inout) :: operator
       integer :: kind_
 

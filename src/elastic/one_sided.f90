@@ -1,7 +1,7 @@
-!> Compliance with a memory in x: the same for all elements, but not symmetric in x
+!> Compliance with memory in x: the same for all elements, but not symmetric in x
 !>
-!> Products use complex spectra. The approximate inverses are those of the symmetric part, which
-!> the parent makes from the same table: the real parts of the spectra.
+!> Products use complex spectra. The approximate inverses are those of the symmetric part, computed by the parent from the same
+!> table: the real parts of the spectra.
 module contact_elastic_one_sided
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
@@ -41,7 +41,7 @@ contains
       self%small = .false.
    end subroutine prepare
 
-   !> All spectra, on first use
+   !> Compute all spectra, on first use
    subroutine need_spectra(self)
       class(one_sided_operator), intent(inout) :: self
       integer :: n
@@ -67,7 +67,7 @@ contains
          !> Offsets -nx:nx, -ny:ny
          real(wp), intent(in) :: coefficients(-self%table%nx:, -self%table%ny:)
          complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-         !> Odd in y: nothing at half the period, where offsets +n and -n coincide
+         !> Odd in y: zero at half the period, where offsets +n and -n coincide
          logical, intent(in), optional :: odd
          real(wp), allocatable :: period(:, :)
          integer :: k, l, i, j
@@ -101,7 +101,7 @@ contains
       self%transforms = self%transforms + 2
    end subroutine normal
 
-   !> Both tangential components, of displacements or of their change from step to step
+   !> Both tangential components of the displacements or of their change per step
    subroutine pair_product(self, p, u, change)
       class(one_sided_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :, :)
@@ -119,7 +119,7 @@ contains
       self%transforms = self%transforms + 4
    end subroutine pair_product
 
-   !> Transform back, after taking the difference to the next element ahead where wanted
+   !> Transform back, optionally after taking the difference with the next element ahead
    subroutine back(self, spectrum, u, change)
       class(one_sided_operator), intent(inout) :: self
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
@@ -149,7 +149,7 @@ contains
       self%transforms = self%transforms + 3
    end subroutine normal_by_tangential
 
-   !> Tangential displacements by pressures, or their change from step to step
+   !> Tangential displacements due to pressures, or their change per step
    subroutine by_normal(self, p, u, change)
       class(one_sided_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :)

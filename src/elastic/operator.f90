@@ -1,16 +1,14 @@
-!> The compliance of two half-spaces on a window of elements: products by fast transforms
+!> Compliance of two half-spaces on a window of elements: products by fast Fourier transforms
 !>
-!> The one operator that all iterative methods see. Kernels of half-spaces are even or odd in
-!> each coordinate, so their spectra are real (nn, xx, yy, xy) or imaginary (xn, yn) and one
-!> real array per kernel is kept. In steady rolling the displacement difference between two
-!> time steps is the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
+!> Kernels of half-spaces are even or odd in each coordinate. Their spectra are therefore real (nn, xx, yy, xy) or imaginary
+!> (xn, yn), and one real array per kernel is stored. In steady rolling the displacement difference between two time steps has
+!> the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
 !>
-!> Small windows transform both tangential fields at once. With X = F(a + i b), s and d the half sum
-!> and the half difference of the spectra xx and yy, the product with the block of xx, yy, xy is
-!> s X(k) + (d + i xy) conj(X(-k)), because these spectra are the same at k and -k. There xx and
-!> yy hold s and d, and the difference between two time steps is taken before the transform. The
-!> approximate inverse belongs to a shorter period in y there: a quarter of the window as padding serves
-!> as well as a whole one. In x the sum over the way through the contact area needs the room.
+!> Small windows transform both tangential fields at once. With X = F(a + i b), and s and d half the sum and half the difference
+!> of the spectra xx and yy, the product with the block of xx, yy, xy is s X(k) + (d + i xy) conj(X(-k)), because these spectra
+!> are equal at k and -k. In this case xx and yy contain s and d, and the difference between two time steps is taken before the
+!> transform. The approximate inverse then has a shorter period in y: padding by a quarter of the window is as good as by a
+!> whole one. In x the sum along the path through the contact area needs the full padding.
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -25,18 +23,18 @@ module contact_elastic_operator
 
    public :: elastic_operator
 
-   !> Holds plans, spectra and scratch; its table reaches to offsets of half the padded window
+   !> Contains plans, spectra and workspace; its table extends to offsets of half the padded window
    type, extends(compliance) :: elastic_operator
       type(fft_plan) :: plan
-      !> Approximate inverses on a shorter period
+      !> For approximate inverses, on a shorter period
       type(fft_plan), private :: normal_inverse_plan, inverse_plan
-      !> Both fields at once on small windows, for products and for inverses
+      !> For both fields at once on small windows, for products and for inverses
       type(paired_plan), private :: pair, inverse_pair
-      !> Is the window small? Children that use the spectra xx and yy by themselves say no
+      !> Is the window small? False for children that use the spectra xx and yy separately
       logical :: small = .false.
-      !> Spectra over padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
+      !> Spectra divided by the padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
       real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
-      !> Inverse of the 2 by 2 tangential symbol and of the normal symbol, circulant
+      !> Inverse of the 2 by 2 tangential symbol, and of the normal symbol; circulant
       real(wp), allocatable, private :: ixx(:, :), iyy(:, :), ixy(:, :), inn(:, :)
       !> 1 - exp(i direction kappa), shape (kx)
       complex(wp), allocatable :: difference(:)
@@ -57,11 +55,11 @@ module contact_elastic_operator
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
       procedure :: release
-      !> Spectra of all kernels
+      !> Compute the spectra of all kernels
       procedure :: need_all
    end type elastic_operator
 
-   !> Largest decay per element of sums along rolling: in windows of a few elements `decay` would leave nothing of the sum
+   !> Maximum decay per element of sums along rolling: in windows of a few elements `decay` would suppress the sum completely
    real(wp), parameter :: largest_decay = 0.9_wp
 
 contains
@@ -80,12 +78,12 @@ contains
       integer :: px, py, k
       complex(wp) :: turn
       logical :: same
-      !> Decay of the preconditioner per element is this over sqrt(mx), chosen by measurement
+      !> Decay of the preconditioner per element, times sqrt(mx); chosen by measurement
       real(wp), parameter :: decay = 0.5_wp
 
       same = self%is_for(model, dx, dy, mx, my)
       if (.not. same) then
-         ! one element more than a plain product needs: the shifted kernel of steady rolling
+         ! one more element than for a plain product, for the shifted kernel of steady rolling
          px = fast_size(2*mx + 1)
          py = merge(1, fast_size(2*my), my == 1)
          call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
@@ -120,7 +118,7 @@ contains
       end if
    end subroutine prepare
 
-   !> Spectra for the normal problem, on first use
+   !> Compute the spectra for the normal problem, on first use
    subroutine need_normal(self)
       class(elastic_operator), intent(inout) :: self
       real(wp) :: scale, smallest
@@ -140,15 +138,15 @@ contains
       self%has_normal = .true.
    end subroutine need_normal
 
-   !> Elements of a period that serves an approximate inverse: a quarter of the window more than it has
+   !> Number of elements of a period for an approximate inverse: a quarter more than the window
    pure integer function padded_a_little(n) result(period)
-      !> Elements of the window
+      !> Number of elements of the window
       integer, intent(in) :: n
 
       period = n + (n + 3)/4
    end function padded_a_little
 
-   !> Spectra for the tangential problem, on first use
+   !> Compute the spectra for the tangential problem, on first use
    subroutine need_tangential(self)
       class(elastic_operator), intent(inout) :: self
       integer :: py
@@ -177,7 +175,7 @@ contains
       self%has_tangential = .true.
    end subroutine need_tangential
 
-   !> Spectra xx, yy, xy on a period in y
+   !> Spectra xx, yy, xy for a given period in y
    subroutine tangential_spectra(self, py, xx, yy, xy)
       class(elastic_operator), intent(in) :: self
       integer, intent(in) :: py
@@ -190,7 +188,7 @@ contains
       end associate
    end subroutine tangential_spectra
 
-   !> Spectra of the coupling between pressures and tangential displacements, on first use
+   !> Compute the spectra of the coupling between pressures and tangential displacements, on first use
    subroutine need_coupling(self)
       class(elastic_operator), intent(inout) :: self
 

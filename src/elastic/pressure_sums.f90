@@ -1,7 +1,7 @@
-!> Normal displacements in a few elements by pressures, summed directly
+!> Normal displacements of a few elements due to pressures, by direct summation
 !>
-!> Where few displacements are wanted no transforms are needed, and no spectra for a window whose size changes from one solution
-!> to the next: coefficients are kept for the largest window so far.
+!> For a few displacements no transforms are needed, and no spectra for a window whose size changes from one solution to the
+!> next: coefficients are kept for the largest window so far.
 module contact_elastic_pressure_sums
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : fill_coefficients
@@ -12,15 +12,15 @@ module contact_elastic_pressure_sums
 
    public :: pressure_sums
 
-   !> Coefficients of normal displacements by pressures
+   !> Coefficients of normal displacements due to pressures
    type :: pressure_sums
       private
       type(kernel_table) :: table
       type(elastic_model) :: model
    contains
-      !> Is there one table of coefficients for all elements of such bodies?
+      !> Does a single table of coefficients describe all elements of such bodies?
       procedure, nopass :: suits
-      !> Coefficients for a window; everything is kept when it has them
+      !> Compute the coefficients for a window; existing ones are kept if they suffice
       procedure :: prepare
       !> Weighted sum of displacements
       procedure :: weighted
@@ -29,20 +29,20 @@ module contact_elastic_pressure_sums
 contains
 
    pure logical function suits(model)
-      !> The bodies
+      !> Bodies to check
       type(elastic_model), intent(in) :: model
       suits = model%is_flat() .and. .not. allocated(model%memory)
    end function suits
 
    subroutine prepare(self, model, dx, dy, mx, my)
       class(pressure_sums), intent(inout) :: self
-      !> Bodies that are suited
+      !> Elastic model that `suits` accepts
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       !> Size of the window
       integer, intent(in) :: mx, my
-      !> Windows grow: room for a quarter more
+      !> Factor by which windows may grow before coefficients are recomputed
       real(wp), parameter :: room = 1.25_wp
       logical :: same
 
@@ -61,7 +61,7 @@ contains
    !> Sum of weight times displacement [mm]
    pure real(wp) function weighted(self, weight, p) result(total)
       class(pressure_sums), intent(in) :: self
-      !> Weights, few of them not zero [-], and pressures [N/mm2]; both of the shape of the window
+      !> Weights, few of them non-zero [-], and pressures [N/mm2]; both of the shape of the window
       real(wp), contiguous, intent(in) :: weight(:, :), p(:, :)
       real(wp) :: here, row(4)
       integer :: ix, iy, k, l, m, first(size(p, 2)), last(size(p, 2))
@@ -81,7 +81,7 @@ contains
             if (.not. weight(ix, iy) > 0.0_wp) cycle
             here = 0.0_wp
             do l = 1, size(p, 2)
-               ! four sums at once do not wait for each other; coefficients are even in both directions
+               ! four independent sums avoid waiting for the previous addition; coefficients are even in both directions
                row = 0.0_wp
                do k = first(l), last(l) - 3, 4
                   do m = 0, 3

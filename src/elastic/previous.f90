@@ -1,7 +1,7 @@
-!> Displacements of particles at the previous time: convolution with a shifted kernel
+!> Displacements of particles at the previous time, by convolution with a shifted kernel
 !>
-!> The particle that is at x now was at x + (shift_x, shift_y) in the frame of the old tractions;
-!> the kernel is sampled at that point. It has no symmetry, so its spectra are complex.
+!> The particle now at x was at x + (shift_x, shift_y) in the frame of the previous tractions; the kernel is sampled at that
+!> point. It has no symmetry, so its spectra are complex.
 module contact_elastic_previous
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : fill_shifted_coefficients
@@ -13,7 +13,7 @@ module contact_elastic_previous
 
    public :: previous_operator
 
-   !> Spectra of a shifted kernel on a window; kept while nothing changes
+   !> Spectra of a shifted kernel on a window; kept while the parameters are unchanged
    type :: previous_operator
       integer :: mx = 0, my = 0
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp, shift_x = 0.0_wp, shift_y = 0.0_wp
@@ -27,7 +27,7 @@ module contact_elastic_previous
       procedure :: prepare
       !> Free the plans
       procedure :: release
-      !> Tangential displacements u_t' by all tractions
+      !> Tangential displacements u_t' due to all tractions
       procedure :: tangential
    end type previous_operator
 
@@ -41,13 +41,13 @@ contains
 
    subroutine prepare(self, model, dx, dy, mx, my, shift_x, shift_y)
       class(previous_operator), intent(inout) :: self
-      !> The bodies whose surfaces are displaced
+      !> Elastic model of the bodies
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       !> Size of the window
       integer, intent(in) :: mx, my
-      !> Displacement of the observation points [mm]
+      !> Shift of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y
       type(kernel_table) :: table
 

@@ -1,7 +1,7 @@
-!> Operators of windows that were in use before: their plans, coefficients and spectra are kept by size
+!> Cache of operators by window size, with their plans, coefficients and spectra
 !>
-!> A contact that moves changes the size of its window by a row or a column and back again. Whoever owns an operator has a
-!> shelf beside it, and fetches the one for the window at hand before it is prepared.
+!> The window of a moving contact changes by a row or a column and back again. The owner of an operator has a shelf for it, and
+!> fetches the operator of the current window before preparing it.
 module contact_elastic_shelf
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -13,43 +13,43 @@ module contact_elastic_shelf
 
    public :: operator_shelf
 
-   !> A place for an operator
+   !> An entry of the cache
    type :: place_type
       class(compliance), allocatable :: operator
-      !> When it was put there; the highest number is the latest
+      !> Clock value when it was stored; larger is more recent
       integer :: since = 0
    end type place_type
 
-   !> Places of one owner, who calls release before it goes
+   !> Cache of one owner, which must call release
    type :: operator_shelf
       type(place_type), allocatable, private :: place(:)
       integer, private :: clock = 0
    contains
-      !> The operator of a window instead of that of another one
+      !> Exchange the operator of the last window for that of another one
       procedure :: fetch
-      !> Free all of them
+      !> Free all operators
       procedure :: release
    end type operator_shelf
 
-   !> Operators that are kept at most
+   !> Maximum number of operators
    integer, parameter :: places = 6
-   !> Larger windows are not kept: they are few, and take memory
+   !> Larger windows are not kept: they are few and need much memory
    integer, parameter :: largest_kept = 4096
 
 contains
 
-   !> Exchange an operator for the one that was prepared for a window, if there is one; it is put on the shelf
+   !> Exchange an operator for the one that was prepared for a given window, if there is one, and store it on the shelf
    !>
-   !> Where there is none, the operator is the one that was not in use for the longest time, or unallocated.
+   !> If there is none, the result is the least recently used operator, or unallocated.
    subroutine fetch(self, model, dx, dy, mx, my, operator)
       class(operator_shelf), intent(inout) :: self
-      !> Bodies that an operator is wanted for
+      !> Model for which an operator is required
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       !> Size of the window in elements
       integer, intent(in) :: mx, my
-      !> That of the last window, unallocated when there was none; still to be prepared on exit
+      !> Operator of the last window, unallocated if there was none; to be prepared after the call
       class(compliance), allocatable, intent(inout) :: operator
       class(compliance), allocatable :: last
       integer :: k, found, oldest
@@ -74,7 +74,8 @@ contains
       self%place(found)%since = self%clock
    end subroutine fetch
 
-   !> Is it that of plain half-spaces or of bodies that remember, on a window of a size that is kept? The others belong to one patch
+   !> Is it an operator of half-spaces or of viscoelastic bodies, for a window small enough to be kept? Others belong to a
+   !> single patch
    pure logical function keeps(operator)
       class(compliance), intent(in) :: operator
 

@@ -1,7 +1,7 @@
 !> Spectra of influence coefficients on a period of elements, and their products with transforms of fields
 !>
-!> Kernels that are even or odd in each coordinate have real or imaginary spectra: one real array for each. The pairs of spectra
-!> that small windows use are told in contact_elastic_operator.
+!> Kernels that are even or odd in each coordinate have real or imaginary spectra: one real array each. The pairs of spectra for
+!> small windows are described in contact_elastic_operator.
 module contact_elastic_spectra
    use contact_base_kinds, only : wp
    use contact_fft_lines, only : multiply_opposites, turn_one
@@ -11,24 +11,25 @@ module contact_elastic_spectra
 
    public :: invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
 
-   !> Floor of spectra that are divided by, relative to their maximum: a complete period has a positive spectrum, the floor
-   !> guards against rounding where elements are of extreme shapes
+   !> Lower bound of spectra used as divisors, relative to their maximum. A complete period has a positive spectrum; the bound
+   !> protects against round-off for elements of extreme aspect ratio
    real(wp), parameter :: spectrum_floor = 1.0e-10_wp
 
 contains
 
-   !> Spectrum of one kernel on a period, scaled for the back transform: real if the kernel is even or odd in both coordinates,
-   !> else the imaginary part
+   !> Spectrum of a kernel on a period, scaled for the back transform: real if the kernel is even or odd in both coordinates,
+   !> otherwise the imaginary part
    !>
-   !> A quarter of the period is transformed, zero-padded; its mirror images have the same spectrum with opposite frequencies.
+   !> A zero-padded quarter of the period is transformed; its mirror images have the same spectrum with opposite frequencies.
    subroutine make_spectrum(nx, ny, kernel, odd_x, odd_y, px, py, spectrum)
-      !> Coefficients, offsets -nx:nx, -ny:ny
+      !> Maximum offsets of the coefficients
       integer, intent(in) :: nx, ny
-      !> At these offsets, receiving minus loaded element [mm/(N/mm2)]; with a memory the part counts that is even or odd in x
+      !> Coefficients at these offsets, receiving minus loaded element [mm/(N/mm2)]; with memory the part that is even or odd in
+      !> x is used
       real(wp), intent(in) :: kernel(-nx:, -ny:)
-      !> Coordinates in which the kernel is odd, else even
+      !> Is the kernel odd in x, y? Otherwise it is even
       logical, intent(in) :: odd_x, odd_y
-      !> Size of the period, even or 1
+      !> Length of the period, even or 1
       integer, intent(in) :: px, py
       !> Shape (py, px/2 + 1)
       real(wp), allocatable, intent(inout) :: spectrum(:, :)
@@ -47,7 +48,7 @@ contains
             quarter(k, l) = 0.5_wp*scale*(kernel(k, l) + sign_x*kernel(-k, l))
          end do
       end do
-      ! what is its own mirror image counts half; an odd kernel vanishes there
+      ! entries that are their own mirror image have weight one half; an odd kernel is zero there
       do k = 0, px/2, max(1, px/2)
          quarter(k, :) = merge(0.0_wp, 0.5_wp, odd_x)*quarter(k, :)
       end do
@@ -72,11 +73,11 @@ contains
       end do
    end subroutine make_spectrum
 
-   !> Spectra of the inverse block
+   !> Spectra of the inverse of a block
    pure subroutine invert_block(elements, xx, yy, xy)
-      !> Elements in a period, by which spectra are divided for the back transform
+      !> Number of elements of a period, by which spectra are divided for the back transform
       real(wp), intent(in) :: elements
-      !> Spectra on entry, those of the inverse on exit; shape (py, px/2 + 1)
+      !> On entry spectra, on exit those of the inverse; shape (py, px/2 + 1)
       real(wp), contiguous, intent(inout) :: xx(:, :), yy(:, :), xy(:, :)
       real(wp) :: det, floor_, keep, scale
       integer :: k, l
@@ -94,9 +95,9 @@ contains
       end do
    end subroutine invert_block
 
-   !> Half the sum and half the difference in place of two spectra
+   !> Replace two spectra by half their sum and half their difference
    elemental subroutine take_mean(xx, yy)
-      !> Spectra on entry; half their sum and half their difference on exit
+      !> On entry spectra, on exit half their sum and half their difference
       real(wp), intent(inout) :: xx, yy
       real(wp) :: difference
 
@@ -111,15 +112,15 @@ contains
       opposite = merge(1, n + 2 - k, k == 1)
    end function opposite
 
-   !> Product of a spectrum of two fields with a symmetric 2 by 2 block, times a factor per column
+   !> Product of a spectrum of two fields and a symmetric 2 by 2 block, times a factor per column
    !>
-   !> A spectrum of two real fields mixes frequencies with their opposites: these are done together.
+   !> The spectrum of two real fields mixes opposite frequencies, which are therefore processed together.
    pure subroutine multiply_paired(mean, half, mixed, spectrum, factor)
       !> Half the sum and half the difference of the spectra xx and yy, and xy, shape (py, px/2 + 1)
       real(wp), contiguous, intent(in) :: mean(:, :), half(:, :), mixed(:, :)
       !> Shape (py, px)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      !> One per column, shape (px/2 + 1): of the difference between two time steps; absent: 1
+      !> One per column, shape (px/2 + 1), for the difference between two time steps; absent: 1
       complex(wp), contiguous, intent(in), optional :: factor(:)
       complex(wp) :: turn
       integer :: l, j, n, px, py
@@ -129,7 +130,7 @@ contains
       do l = 1, px/2 + 1
          j = opposite(l, px)
          if (j == l) then
-            ! one or two rows are their own opposites
+            ! the first one or two rows are their own opposites
             n = py/2 + 1
             call multiply_own(mean(1, l), half(1, l), mixed(1, l), spectrum(1, l))
             if (mod(py, 2) == 0) call multiply_own(mean(n, l), half(n, l), mixed(n, l), spectrum(n, l))
@@ -149,7 +150,7 @@ contains
       end do
    end subroutine multiply_paired
 
-   !> Product for one frequency that is its own opposite
+   !> Product for a frequency that is its own opposite
    pure subroutine multiply_own(mean, half, mixed, x)
       real(wp), intent(in) :: mean, half, mixed
       complex(wp), intent(inout) :: x

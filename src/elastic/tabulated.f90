@@ -1,9 +1,8 @@
-!> Compliance from a table of influence coefficients, e.g. of finite elements
+!> Compliance from a table of influence coefficients, for example from finite elements
 !>
-!> Coefficients depend on the offset in x only, or on the offsets in x and y. Rows are transformed in
-!> x; pairs of rows are multiplied one by one, so that one kind of product serves both. Mirror
-!> symmetry in x makes each spectrum real (nn, xx, yy, ny, yn) or imaginary (nx, xn, xy, yx).
-!> Approximate inverses are those of half-spaces of the same materials.
+!> Coefficients depend on the offset in x only, or on the offsets in x and y. Rows are transformed in x, and pairs of rows are
+!> multiplied individually, so that both cases use the same product. Mirror symmetry in x makes each spectrum real (nn, xx, yy,
+!> ny, yn) or imaginary (nx, xn, xy, yx). Approximate inverses are those of half-spaces of the same materials.
 module contact_elastic_tabulated
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
@@ -14,17 +13,17 @@ module contact_elastic_tabulated
 
    public :: tabulated_operator
 
-   !> Directions in the order of the table
+   !> Directions, in the order of the table
    integer, parameter :: n = 1, x = 2, y = 3
 
    !> Rows with spectra in x
    type, extends(moving_operator) :: tabulated_operator
-      !> Transforms of one row: of the window, and of a whole period
+      !> Transforms of one row: of the window, and of a complete period
       type(fft_plan), private :: row, period
-      !> Position in the table of the first row of the window, minus 1; 0 when all rows are alike
+      !> Index in the table of the first row of the window, minus 1; 0 if all rows are alike
       integer, private :: row_offset = 0
-      !> Spectra, scaled for the back transform, shape (kx, rows, 9, slices): rows are offsets -(my-1) to my-1 with one
-      !> slice for all, or receiving rows 1 to my with a slice for each loaded row [mm/(N/mm2)]
+      !> Spectra, scaled for the back transform [mm/(N/mm2)], shape (kx, rows, 9, slices): rows are offsets -(my-1)...my-1 with
+      !> one slice for all, or receiving rows 1...my with one slice per loaded row
       real(wp), allocatable, private :: spectrum(:, :, :, :)
       !> Spectra of rows, shape (kx, my)
       complex(wp), allocatable, private :: source(:, :), response(:, :)
@@ -41,13 +40,13 @@ module contact_elastic_tabulated
 
 contains
 
-   !> Nothing is known of larger elements
+   !> There are no coefficients for larger elements
    pure logical function can_coarsen(self)
       class(tabulated_operator), intent(in) :: self
       can_coarsen = self%mx < 0
    end function can_coarsen
 
-   !> The table of the parent holds the coefficients of half-spaces
+   !> The table of the parent contains the coefficients of half-spaces
    pure logical function has_table(self)
       class(tabulated_operator), intent(in) :: self
       has_table = self%mx < 0
@@ -72,7 +71,7 @@ contains
       call make_spectra(self)
    end subroutine prepare
 
-   !> Spectra of the rows that meet in the window
+   !> Compute the spectra of the rows of the window
    subroutine make_spectra(self)
       class(tabulated_operator), intent(inout) :: self
       complex(wp), allocatable :: s(:, :)
@@ -87,7 +86,7 @@ contains
          if (allocated(self%spectrum)) deallocate(self%spectrum, self%source, self%response)
          allocate(self%spectrum(kx, rows, 9, slices), self%source(kx, self%my), self%response(kx, self%my))
          allocate(s(1, kx), values(px, 1))
-         ! one column more than the window has: the shifted kernel of steady rolling
+         ! one more column than the window has, for the shifted kernel of steady rolling
          highest = min(self%mx, t%nx)
          do slice = 1, slices
             do b = 1, 9
@@ -122,13 +121,13 @@ contains
       end associate
    end subroutine make_spectra
 
-   !> Does a block, counted nn nx ny xn xx xy yn yx yy, change sign with x?
+   !> Does a block, in the order nn nx ny xn xx xy yn yx yy, change sign with x?
    pure logical function is_odd(block)
       integer, intent(in) :: block
       is_odd = block == 2 .or. block == 4 .or. block == 6 .or. block == 8
    end function is_odd
 
-   !> Add the displacements in direction i by the transformed tractions in direction j
+   !> Add the displacements in direction i due to the transformed tractions in direction j
    subroutine add_block(self, i, j)
       class(tabulated_operator), intent(inout) :: self
       integer, intent(in) :: i, j
@@ -170,7 +169,7 @@ contains
       self%transforms = self%transforms + 1
    end subroutine send
 
-   !> Response to a displacement field, or to its difference between two time steps
+   !> Get a displacement field from its transform, or its difference between two time steps
    subroutine fetch(self, u, change)
       class(tabulated_operator), intent(inout) :: self
       real(wp), contiguous, intent(inout) :: u(:, :)

@@ -1,12 +1,12 @@
 !> The normal contact problem by active sets, for operators that are not symmetric
 !>
-!> Conjugate gradients need a symmetric operator. That of viscoelastic bodies is not: an element feels the pressures ahead
-!> of it more than those behind. Where relaxation lengths are about the size of an element NormCG stagnates. Here the
-!> pressures of a set of elements are solved for as linear equations, and the set is changed by what
-!> violates the contact conditions p >= 0, e >= 0: all of it at once, and one element at a time while that does not help. With
-!> a positive definite symmetric part the latter ends (block principal pivoting, Judice and Pires 1994; one at a time
-!> after Murty 1974). The linear equations are solved by generalised conjugate residuals (Eisenstat, Elman and
-!> Schultz 1983), which need no symmetry either.
+!> Conjugate gradients need a symmetric operator. That of viscoelastic bodies is not symmetric: an element responds more to the
+!> pressures ahead of it than to those behind, and NormCG stagnates for relaxation lengths of about the element size. Here the
+!> pressures of a set of elements are the solution of linear equations, and the set is changed where the contact conditions p >=
+!> 0, e >= 0 are violated: at all elements at once, or at one element at a time if this does not help. If the symmetric part is
+!> positive definite the latter terminates (block principal pivoting, Judice and Pires 1994; one at a time after Murty 1974).
+!> The linear equations are solved by generalised conjugate residuals (Eisenstat, Elman and Schultz 1983), which do not need
+!> symmetry either.
 module contact_normal_active_sets
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
@@ -18,35 +18,35 @@ module contact_normal_active_sets
 
    public :: solve_by_active_sets
 
-   !> Sets that are tried at most, sets without improvement before elements are changed one at a time
+   !> Maximum number of sets; number of sets without improvement before elements are changed one at a time
    integer, parameter :: max_sets = 500, patience = 6
-   !> Directions that are kept, part of the tolerance that is left to the linear equations
+   !> Maximum number of stored directions; fraction of the tolerance allowed for the linear equations
    integer, parameter :: kept = 40
    real(wp), parameter :: linear_part = 0.1_wp
 
    !> Fields of a solution, shape (mx, my)
    type :: fields
-      !> Pressures [N/mm2], their displacements and r = pen - h - u [mm]
+      !> Pressures [N/mm2], their displacements, and residual r = pen - h - u [mm]
       real(wp), allocatable :: p(:, :), u(:, :), r(:, :)
-      !> Elements whose pressures are solved for
+      !> Elements of the active set
       logical, allocatable :: active(:, :)
-      !> Directions and what the operator makes of them, shape (mx, my, kept)
+      !> Directions and their products with the operator, shape (mx, my, kept)
       real(wp), allocatable :: z(:, :, :), q(:, :, :)
    end type fields
 
 contains
 
-   !> Pressures and approach or force, from those where another method gave up
+   !> Solve for the pressures and the approach or the force, starting from the result of another method that failed
    subroutine solve_by_active_sets(problem, operator, p, pen, report)
       !> Undeformed distance, prescribed force or approach, tolerance
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
-      !> Estimate on entry, pressures on exit [N/mm2], shape (mx, my); the estimate if this fails
+      !> On entry an estimate, on exit pressures [N/mm2], shape (mx, my); the estimate on failure
       real(wp), contiguous, intent(inout) :: p(:, :)
-      !> Approach [mm]: prescribed, or an exit value
+      !> Approach [mm]: prescribed, or result
       real(wp), intent(inout) :: pen
-      !> Of the method that gave up on entry
+      !> On entry the report of the method that failed
       type(solve_report), intent(inout) :: report
       type(fields) :: now
       type(solve_report) :: own
@@ -75,7 +75,7 @@ contains
       report%residual = own%residual
    end subroutine solve_by_active_sets
 
-   !> Solve on a set, look at the contact conditions, change the set
+   !> Solve on a set, check the contact conditions, and change the set
    subroutine change_sets(problem, operator, now, pen, report)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -98,7 +98,7 @@ contains
          call solve_linear(problem, operator, now, pen, report)
          largest = maxval(abs(now%p))
          if (.not. largest <= huge(largest)) exit
-         ! the signs decide: pressures that pull, and surfaces that overlap outside
+         ! the signs decide: tensile pressures, and surfaces that overlap outside the set
          leaves = now%active .and. now%p < 0.0_wp
          enters = .not. now%active .and. problem%h < excluded_threshold .and. now%r > 0.0_wp
          call judge(problem, operator, now, pen, worst, scale)
@@ -121,7 +121,7 @@ contains
       report%ended = ending%stagnated
    end subroutine change_sets
 
-   !> Pressures of the active set that close the gap there; of the right total when the force is prescribed
+   !> Pressures of the active set that close the gap on it, with the prescribed total force if there is one
    subroutine solve_linear(problem, operator, now, pen, report)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -171,11 +171,11 @@ contains
             where (now%active) now%r = now%r - alpha*q
          end associate
       end do
-      ! also outside, where surfaces may overlap
+      ! also outside the set, where surfaces may overlap
       call find_residual(problem, operator, now, pen)
    end subroutine solve_linear
 
-   !> r = pen - h - u everywhere; the approach of a prescribed force is the one with the mean 0 on the active set
+   !> Residual r = pen - h - u everywhere; for a prescribed force the approach makes its mean on the active set zero
    subroutine find_residual(problem, operator, now, pen)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -187,7 +187,7 @@ contains
       now%r = pen - problem%h - now%u
    end subroutine find_residual
 
-   !> Zero off the active set, and there of zero sum when the force is prescribed
+   !> Set a field to zero outside the active set, and to zero sum on it if the force is prescribed
    subroutine restrict(problem, active, field)
       type(normal_problem), intent(in) :: problem
       logical, contiguous, intent(in) :: active(:, :)
@@ -199,13 +199,13 @@ contains
       field = merge(field - mean, 0.0_wp, active)
    end subroutine restrict
 
-   !> The true violation of the contact conditions by pressures without tension
+   !> Violation of the contact conditions by the pressures without tension
    subroutine judge(problem, operator, now, pen, worst, scale)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(fields), intent(inout) :: now
       real(wp), intent(inout) :: pen
-      !> Largest violation [mm], and what it is compared with
+      !> Largest violation [mm], and the scale for it
       real(wp), intent(out) :: worst, scale
 
       now%p = max(now%p, 0.0_wp)
@@ -217,7 +217,7 @@ contains
       scale = approach_scale(pen, minval(problem%h), worst)
    end subroutine judge
 
-   !> Of all elements that would change, the last one alone
+   !> Keep only the last of all elements to be changed
    subroutine last_one_only(leaves, enters)
       logical, contiguous, intent(inout) :: leaves(:, :), enters(:, :)
       integer :: ix, iy

@@ -1,9 +1,8 @@
 !> ANALYN: contact area and pressures from Hertz's solution in each row
 !>
-!> After Sichani, Enblom and Berg (2014), in the variant that takes the curvatures of each row from the
-!> grid: the gap along a row and the one across the rows are quadratic near the smallest gap of the row;
-!> Hertz's ellipse for these two curvatures says how deep the surfaces penetrate, how long contact is
-!> and how high the pressure is in the row. Quadratic surfaces give Hertz's solution.
+!> After Sichani, Enblom and Berg (2014), in the variant that takes the curvatures of each row from the grid: the gaps along and
+!> across a row are quadratic near the smallest gap of the row. Hertz's ellipse for these two curvatures gives the penetration,
+!> the length of the contact and the maximum pressure of the row. For quadratic surfaces the result is Hertz's solution.
 !> Equations: doc/theory/approximate_normal.md
 module contact_normal_analyn
    use contact_base_choices, only : normal_control
@@ -16,20 +15,20 @@ module contact_normal_analyn
 
    public :: analyn_pressure
 
-   !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m, as in CONTACT; of bodies that
-   !> are flatter themselves, this part of their largest curvature at the deepest place
+   !> Smallest curvature that is distinguished from the unevenness of profiles [1/mm], a radius of 5 m, as in CONTACT; for
+   !> flatter bodies this fraction of the largest curvature at the deepest point
    real(wp), parameter :: min_curvature = 1.0e-4_wp, min_share = 0.1_wp
-   !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
-   !> each other rounding makes one the deeper one
+   !> Gaps whose difference is smaller than this fraction of the overlap are regarded as equal [-]: round-off makes one of two
+   !> mirrored elements the deeper one
    real(wp), parameter :: equally_small = 1.0e-9_wp
-   !> Overlap below which there is no contact [mm]; only to keep clear of underflow
+   !> Smaller overlaps are no contact [mm]; only prevents underflow
    real(wp), parameter :: min_overlap = 1.0e-30_wp
-   !> Samples on either side for the curvature along a row, at most; they end where the overlap has fallen
-   !> to this part
+   !> Maximum number of samples on either side for the curvature along a row; sampling ends where the overlap has decreased to
+   !> this fraction
    integer, parameter :: max_samples = 10
    real(wp), parameter :: fallen = 0.3_wp
 
-   !> Where the gap of a row is smallest
+   !> Point of a row with the smallest gap
    type :: low_place
       !> Position and gap [mm], half the second derivatives along and across the row [1/mm]
       real(wp) :: x = 0.0_wp, lowest = 0.0_wp, a1 = 0.0_wp, b1 = 0.0_wp
@@ -41,8 +40,8 @@ contains
    pure subroutine analyn_pressure(grid, gap, modulus, pn)
       !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
-      !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
-      !> they overlap, above excluded_threshold where there is no contact possible
+      !> Distance of the undeformed surfaces minus the approach [mm], shape (mx, my); negative if they overlap; above
+      !> excluded_threshold: contact is excluded
       real(wp), intent(in) :: gap(:, :)
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
@@ -92,16 +91,16 @@ contains
       end do
    end subroutine analyn_pressure
 
-   !> The next run of neighbours in a row whose gaps are equal to the smallest one
+   !> The next group of adjacent elements in a row whose gaps equal the smallest one
    !>
-   !> More than one element in a row that is symmetric about the side of an element; more than one run where two humps of
-   !> the same height are in contact.
+   !> A row that is symmetric about a side of an element has two such elements; there is more than one group if two summits of
+   !> equal height are in contact.
    pure subroutine next_run(row, tolerance, first, last)
-      !> Gap of the row [mm], and what counts as equal
+      !> Gaps of the row [mm], tolerance for equality
       real(wp), intent(in) :: row(:), tolerance
-      !> First element of the run, 0 when there is none
+      !> First element of the group, 0 if there is none
       integer, intent(out) :: first
-      !> Last element of the previous run on entry, 0 to begin with; of this one on exit
+      !> On entry last element of the previous group, 0 initially; on exit of this one
       integer, intent(inout) :: last
       real(wp) :: lowest
       integer :: ix
@@ -118,11 +117,11 @@ contains
       end do
    end subroutine next_run
 
-   !> Mean position, gap and curvatures of a run
+   !> Mean position, gap and curvatures of a group
    pure type(low_place) function lowest_place(grid, gap, iy, first, last, least) result(mean)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
-      !> Row, first and last element of the run
+      !> Row, first and last element of the group
       integer, intent(in) :: iy, first, last
       !> Lower bound of the curvatures [1/mm]
       real(wp), intent(in) :: least
@@ -141,13 +140,13 @@ contains
          & mean%b1/(last - first + 1))
    end function lowest_place
 
-   !> Where along a row the gap is smallest: vertex of the parabola through three elements
+   !> Position of the smallest gap along a row: vertex of the parabola through three elements
    !>
-   !> Differs from the original, which takes the centre of an element, because pressures would be off
-   !> the middle on grids with as many elements on either side.
+   !> The original takes the centre of an element instead, which makes pressures asymmetric on grids with an even number of
+   !> elements.
    pure subroutine lowest_point(grid, row, column, place, lowest)
       type(potential_contact), intent(in) :: grid
-      !> Gap of the row [mm], and place of its smallest value
+      !> Gaps of the row [mm], and column of the smallest one
       real(wp), intent(in) :: row(:)
       integer, intent(in) :: column
       !> Position and gap of the vertex [mm]
@@ -160,18 +159,18 @@ contains
       if (any(row(column - 1:column + 1) > excluded_threshold)) return
       slope = 0.5_wp*(row(column + 1) - row(column - 1))
       bend = row(column + 1) - 2.0_wp*row(column) + row(column - 1)
-      ! half an element away at most, since the element in the middle has the smallest value
+      ! at most half an element away, since the middle element has the smallest value
       if (.not. bend > abs(slope)) return
       place = place - grid%dx*slope/bend
       lowest = lowest - 0.5_wp*slope**2/bend
    end subroutine lowest_point
 
-   !> Half the second derivative of the gap along a row [1/mm]: least squares around its smallest value
+   !> Half the second derivative of the gap along a row [1/mm], by least squares around its smallest value
    pure real(wp) function curvature_along(grid, row, column) result(curvature)
       type(potential_contact), intent(in) :: grid
       !> Gap of the row [mm]
       real(wp), intent(in) :: row(:)
-      !> Place of the smallest gap
+      !> Column of the smallest gap
       integer, intent(in) :: column
       real(wp) :: sum2, sum4, moment0, moment2, n
       integer :: k, i, middle
@@ -201,12 +200,12 @@ contains
       curvature = (n*moment2 - sum2*moment0)/(n*sum4 - sum2**2)/grid%dx**2
    end function curvature_along
 
-   !> Half the second difference of the gap across the rows [1/mm], one-sided at the edges of the window
+   !> Half the second difference of the gap across the rows [1/mm], one-sided at the borders of the grid
    pure real(wp) function curvature_across(grid, column, iy) result(curvature)
       type(potential_contact), intent(in) :: grid
       !> Gap of all rows at one x [mm]
       real(wp), intent(in) :: column(:)
-      !> The row
+      !> Index of the row
       integer, intent(in) :: iy
       integer :: middle
 

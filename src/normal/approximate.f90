@@ -1,7 +1,7 @@
-!> Normal pressures by an approximate method instead of the full solution
+!> Normal pressures by approximate methods instead of the full solution
 !>
-!> One procedure for the methods that need a prescribed approach; closed-form pressures for a
-!> prescribed force are in contact_normal_estimate.
+!> One procedure for the methods with prescribed approach; closed-form pressures for a prescribed force are in
+!> contact_normal_estimate.
 module contact_normal_approximate
    use contact_base_choices, only : pressure_model
    use contact_base_kinds, only : wp
@@ -19,30 +19,30 @@ module contact_normal_approximate
 
 contains
 
-   !> Pressures for a prescribed approach.
+   !> Pressures for a prescribed approach
    !>
-   !> The report ends as "converged" after one pass, without iterations; its residual stays unknown,
-   !> since these methods do not fulfil the contact conditions to any tolerance. Where the surfaces overlap and no
-   !> element gets a pressure it ends as "stagnated", with a warning.
+   !> The report ends as "converged" after one pass, without iterations and with unknown residual, since these methods do not
+   !> satisfy the contact conditions to any tolerance. If the surfaces overlap but no element has a pressure, it ends as
+   !> "stagnated" with a warning.
    subroutine approximate_pressure(model, grid, gap, modulus, operator, sums, pn, report, log)
       !> Member of pressure_model: kpec or analyn
       integer, intent(in) :: model
       !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
-      !> Distance of the surfaces less the approach, with displacements by tangential tractions [mm],
-      !> shape (mx, my); negative where they overlap, above excluded_threshold: no contact possible
+      !> Gap including displacements by tangential tractions, minus the approach [mm], shape (mx, my); negative if the surfaces
+      !> overlap; above excluded_threshold: contact is excluded
       real(wp), contiguous, intent(in) :: gap(:, :)
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
-      !> Prepared for the window where `sums` do not suit the bodies
+      !> Prepared for the window if `sums` do not suit the bodies
       class(compliance), allocatable, intent(inout) :: operator
-      !> Prepared for the window where they suit the bodies
+      !> Prepared for the window if they suit the bodies
       type(pressure_sums), allocatable, intent(in) :: sums
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: pn(:, :)
-      !> How it ended; transforms are added to those of before
+      !> Outcome; transforms are added to the present count
       type(solve_report), intent(inout) :: report
-      !> Told why there are no pressures where surfaces overlap
+      !> Receives a warning if surfaces overlap without pressures
       type(log_type), intent(inout) :: log
 
       if (overlaps_at_edge(gap)) call log%warning("the surfaces overlap at the edge of the potential contact area; " &
@@ -58,13 +58,13 @@ contains
       report%iterations = 0
       report%ended = ending%converged
       if (any(pn > 0.0_wp) .or. .not. any(gap < 0.0_wp)) return
-      ! an ellipse that is smaller than an element, or too flat for the method
+      ! an ellipse smaller than an element, or too flat for the method
       report%ended = ending%stagnated
       call log%warning("the surfaces overlap, and " // trim(report%method) // " finds no element in contact. " &
          & // "Use smaller elements, or the full solution")
    end subroutine approximate_pressure
 
-   !> KPEC with the factor by which the displacement equals the largest overlap
+   !> KPEC, scaled so that the displacement equals the largest overlap
    subroutine scaled_kpec(grid, gap, operator, sums, pn, report)
       type(potential_contact), intent(in) :: grid
       real(wp), contiguous, intent(in) :: gap(:, :)
@@ -90,7 +90,7 @@ contains
       report%fft_pairs = report%fft_pairs + 1.0_wp
    end subroutine scaled_kpec
 
-   !> Do the surfaces overlap in an element at the edge of the window?
+   !> Do the surfaces overlap in an element at the border of the grid?
    pure logical function overlaps_at_edge(gap)
       real(wp), intent(in) :: gap(:, :)
       integer :: mx, my
@@ -99,7 +99,7 @@ contains
       my = size(gap, 2)
       overlaps_at_edge = .false.
       if (size(gap) == 0) return
-      ! a window of one row or column is a line contact, which has no edge on that side
+      ! a grid of one row or column is a line contact, which has no border on that side
       if (my > 1) overlaps_at_edge = any(gap(:, [1, my]) < 0.0_wp)
       if (mx > 1) overlaps_at_edge = overlaps_at_edge .or. any(gap([1, mx], :) < 0.0_wp)
    end function overlaps_at_edge

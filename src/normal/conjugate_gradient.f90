@@ -1,11 +1,9 @@
 !> NormCG: the normal contact problem by bound-constrained conjugate gradients
 !>
-!> Find p >= 0 with  e = h - pen + A p >= 0  and  p e = 0, for a prescribed approach or for a
-!> prescribed force. After Polonsky and Keer (1999) and Vollebregt (2014): conjugate gradients
-!> with Polak-Ribiere directions that are not restarted when the contact area changes, the
-!> circulant inverse of A as preconditioner, and for a prescribed force directions of zero total force
-!> (the approach is the multiplier that belongs to it). Inside nested iteration the number of
-!> transforms does not depend on the grid.
+!> Find p >= 0 with e = h - pen + A p >= 0 and p e = 0, for a prescribed approach or a prescribed force. After Polonsky and Keer
+!> (1999) and Vollebregt (2014): conjugate gradients with Polak-Ribiere directions that are not restarted when the contact area
+!> changes, preconditioned by the circulant inverse of A; for a prescribed force with directions of zero total force (the
+!> approach is the corresponding multiplier). Within nested iteration the number of transforms does not depend on the grid.
 module contact_normal_conjugate_gradient
    use contact_base_constants, only : excluded_distance, excluded_threshold
    use contact_base_kinds, only : wp
@@ -26,39 +24,40 @@ module contact_normal_conjugate_gradient
 
    public :: approach_scale, normal_problem, normal_workspace, pressure_displacement, release_normal, solve_normal
 
-   !> Scratch of one level of nested iteration
+   !> Workspace of one level of nested iteration
    type :: level_type
       type(normal_problem) :: problem
       class(compliance), allocatable :: operator
       real(wp), allocatable :: p(:, :)
       real(wp), allocatable :: u(:, :), r(:, :), z(:, :), d(:, :), q(:, :), previous(:, :)
-      !> 1 where an element has pressure or wants it, 0 elsewhere
+      !> 1 for elements that have pressure or overlap, 0 for others
       real(wp), allocatable :: free(:, :)
    end type level_type
 
-   !> Scratch of all levels, no meaning between calls; level 1 belongs to the finest grid
+   !> Workspace of all levels, without meaning between calls; level 1 is the finest grid
    type :: normal_workspace
       type(level_type), allocatable :: level(:)
-      !> What the same question would be answered with: tables of creep forces repeat one normal problem
+      !> The last problem and its solution: tables of creep forces repeat one normal problem
       type(answer_type), private :: last
-      !> That of the last contact of few elements, where problems follow each other
+      !> Factor of the last contact of few elements, for sequences of problems
       type(area_factor) :: factor
    end type normal_workspace
 
-   !> Largest number of levels
+   !> Maximum number of levels
    integer, parameter :: levels = 12
-   !> Smaller windows are solved directly
+   !> Smaller windows are solved without coarser levels
    integer, parameter :: smallest = 1500
-   !> Residual of the coarse levels; a better estimate than the second is not replaced by one from coarse grids
+   !> Tolerance of the coarse levels; an estimate better than the second value is not replaced by one from coarse grids
    real(wp), parameter :: coarse_tolerance = 5.0e-3_wp, good_estimate = 3.0e-2_wp
-   !> Iterations without a violation below this part of the least one count as stagnation; chosen
+   !> This number of iterations without a violation below this fraction of the smallest one is regarded as stagnation; chosen
    real(wp), parameter :: is_smaller = 0.9_wp
    integer, parameter :: patience = 60
-   !> The first pressures reach up to this part of the range of undeformed distances, at least to the length [mm]; chosen
+   !> The initial pressures extend to this fraction of the range of undeformed distances, and at least to the length [mm];
+   !> chosen
    real(wp), parameter :: first_depth = 0.3_wp, min_range = 1.0e-10_wp
-   !> Round-off of one product, relative to the largest displacement, and the part of the tolerance that it may reach; chosen
+   !> Round-off of one product relative to the largest displacement, and the fraction of the tolerance that it may reach; chosen
    real(wp), parameter :: of_a_product = 1.0e-15_wp, is_small = 1.0e-3_wp
-   !> Totals that agree to this are left as they are: round-off
+   !> Total forces with a smaller relative difference are not corrected: round-off
    real(wp), parameter :: same_force = 1.0e-14_wp
 
 contains
@@ -69,15 +68,15 @@ contains
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
-      !> Coarser levels, their operators and scratch, kept from call to call
+      !> Coarser levels with operators and workspace, kept from call to call
       type(normal_workspace), intent(inout) :: workspace
-      !> Estimate on entry (zero when there is none), pressures on exit [N/mm2], shape (mx, my)
+      !> On entry an estimate (zero if there is none), on exit pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
-      !> Approach [mm]: prescribed, or an exit value
+      !> Approach [mm]: prescribed, or result
       real(wp), intent(inout) :: pen
-      !> How it ended, iterations, residual; transforms are added to those of before
+      !> Outcome, iterations, residual; transforms are added to the present count
       type(solve_report), intent(inout) :: report
-      !> Gets a line per iteration from flow-trace level 6 on; absent: no trace
+      !> Receives a line per iteration from flow-trace level 6 on; absent: no trace
       type(log_type), intent(inout), optional :: log
       real(wp) :: pairs_before
       integer :: k, products_before
@@ -112,7 +111,7 @@ contains
       end do
    end subroutine solve_normal
 
-   !> One level: estimate from the next coarser one where that pays, then iterate
+   !> Solve on one level: estimate from the next coarser one if this is useful, then iterate
    recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report, log)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -192,7 +191,7 @@ contains
       call pressure_displacement(problem, operator, p, level%u)
       report%ended = ending%iteration_limit
       do it = 1, problem%maxgs + 1
-         ! for a prescribed force the approach that makes the residual vanish on average
+         ! for a prescribed force the approach that makes the mean residual zero
          if (problem%force_prescribed) pen = mean_gap(n, problem%h, level%u, p)
          worst = residuals(n, pen, problem%h, level%u, p, level%r)
          if (.not. worst <= huge(worst)) then
@@ -213,7 +212,7 @@ contains
                report%ended = ending%converged
                exit
             end if
-            ! products were added up, and their round-off counts: believe the end only when it is left out
+            ! displacements were updated by sums, whose round-off matters: accept convergence only after recomputing them
             call pressure_displacement(problem, operator, p, level%u)
             updates = 0
             cycle
@@ -237,8 +236,7 @@ contains
 
          call set_direction(problem, operator, level, p, it == 1, rz, dr, dq)
          if (.not. (dr > 0.0_wp .and. dq > 0.0_wp)) then
-            ! nothing is left to improve inside the contact area, and elements that want in have no room:
-            ! a contact of one element
+            ! the residual inside the contact area is zero, and elements that overlap cannot be added: a contact of one element
             report%ended = ending%stagnated
             exit
          end if
@@ -247,18 +245,18 @@ contains
       end do
    end subroutine iterate
 
-   !> The next direction d and its product q
+   !> Compute the next direction d and its product q
    subroutine set_direction(problem, operator, level, p, first, rz, dr, dq)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(level_type), intent(inout) :: level
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Is there no direction before?
+      !> Is this the first direction?
       logical, intent(in) :: first
-      !> r.z of the direction before on entry, of this one on exit
+      !> r.z of the previous direction on entry, of this one on exit
       real(wp), intent(inout) :: rz
-      !> d.r and d.A d; 0 where no direction lowers the energy
+      !> d.r and d.A d; 0 if no direction decreases the energy
       real(wp), intent(out) :: dr, dq
       real(wp) :: beta, products(2), rz_old
       integer :: n
@@ -290,7 +288,7 @@ contains
 
    contains
 
-      !> Zero outside of the free elements, and for a prescribed force in total; products with this and the previous residual
+      !> Project to the free elements, and for a prescribed force to zero sum; products with this and the previous residual
       subroutine settle(v)
          real(wp), contiguous, intent(inout) :: v(:, :)
          real(wp) :: mean
@@ -301,16 +299,16 @@ contains
       end subroutine settle
    end subroutine set_direction
 
-   !> Go along the direction; pressures below zero are cut off, the force is kept
+   !> Step along the direction; negative pressures are set to zero, and the force is preserved
    subroutine take_step(problem, operator, level, alpha, p, exact_u)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(level_type), intent(inout) :: level
-      !> Length of the step
+      !> Step length
       real(wp), intent(in) :: alpha
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
-      !> Were the displacements computed anew, not only changed by those of the step?
+      !> Were the displacements recomputed rather than updated by those of the step?
       logical, intent(out) :: exact_u
       real(wp) :: mean
       integer :: n
@@ -347,7 +345,7 @@ contains
       quality = quality/approach_scale(approach, minval(problem%h), quality)
    end function estimate_quality
 
-   !> First pressures without any estimate
+   !> Initial pressures without an estimate
    subroutine first_guess(problem, operator, level, p, pen)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -360,7 +358,7 @@ contains
       if (problem%force_prescribed) then
          h_max = maxval(problem%h, problem%h < excluded_threshold)
          p = max(0.0_wp, h_min + first_depth*max(h_max - h_min, min_range) - problem%h)
-         ! a level so far away that nothing can be added to it
+         ! a level so far away that adding to it has no effect
          if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
          p = p*(problem%fn/(sum(p)*problem%dx*problem%dy))
          return
@@ -370,7 +368,7 @@ contains
       p = p*(sum(p*p)/sum(p*level%u))
    end subroutine first_guess
 
-   !> The same problem with half as many elements; distances are averaged
+   !> The same problem with half as many elements per direction; distances are averaged
    subroutine coarsen(fine, coarse)
       type(normal_problem), intent(in) :: fine
       type(normal_problem), intent(inout) :: coarse
@@ -441,7 +439,7 @@ contains
       end do
    end subroutine release_normal
 
-   !> Allocate scratch; keeps it when the size is the same
+   !> Allocate workspace; kept if the size is unchanged
    subroutine fit_level(level, mx, my)
       type(level_type), intent(inout) :: level
       integer, intent(in) :: mx, my

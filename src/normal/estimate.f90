@@ -8,13 +8,13 @@ module contact_normal_estimate
 
    public :: elliptic_pressure, parabolic_pressure, sdec_pressure
 
-   !> Peak of a parabola of pressure over a line contact, relative to the force over the area of a semi-axis times the half
-   !> length: 3/8 by integration
+   !> Peak of a parabolic pressure on a line contact, relative to the force divided by semi-axis times half length: 3/8 by
+   !> integration
    real(wp), parameter :: parabola_peak = 0.375_wp
 
 contains
 
-   !> Hertz's pressure, a semi-ellipsoid, at the centres of the elements.
+   !> Hertz's pressure, a semi-ellipsoid, at the centres of the elements
    !>
    !> A line contact has the same semi-ellipse in each row with |y| <= bb.
    pure subroutine elliptic_pressure(grid, aa, bb, line_contact, fn, pn)
@@ -38,7 +38,7 @@ contains
       end if
    end subroutine elliptic_pressure
 
-   !> Paraboloid of pressure over the same area, the traction bound of the simplified theory
+   !> Parabolic pressure on the same area, the traction bound of simplified theory
    pure subroutine parabolic_pressure(grid, aa, bb, line_contact, fn, pn)
       !> Centres of the elements
       type(potential_contact), intent(in) :: grid
@@ -59,11 +59,11 @@ contains
       end if
    end subroutine parabolic_pressure
 
-   !> Pressure of the simple double-elliptical contact: two half ellipses joined at their widest row
+   !> Pressure of the simple double-elliptical contact: two half ellipses joined at their longest row
    pure subroutine sdec_pressure(grid, aa, bneg, bpos, fn, pn)
       !> Centres of the elements
       type(potential_contact), intent(in) :: grid
-      !> Semi-axis along x, extents towards negative and positive y from the widest row [mm]
+      !> Semi-axis along x, extents towards negative and positive y from the longest row [mm]
       real(wp), intent(in) :: aa, bneg, bpos
       !> Normal force [N]
       real(wp), intent(in) :: fn
@@ -111,7 +111,7 @@ contains
       end do
    end subroutine inverted_paraboloid
 
-   !> Multiply by force/(aa bb); nothing to do for an empty area or negative force
+   !> Multiply by force/(aa bb); zero for an empty area or negative force
    pure subroutine scale_pressure(force, aa, bb, pn)
       real(wp), intent(in) :: force, aa, bb
       real(wp), intent(inout) :: pn(:, :)

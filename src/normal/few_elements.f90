@@ -1,10 +1,11 @@
-!> The normal problem of a contact of few elements: active sets with a Cholesky factor that is kept
+!> Normal problem of a contact of few elements: active sets with a Cholesky factor that is reused
 !>
-!> Influence coefficients depend on offsets only, so that the matrix of the elements in contact is the same wherever they are. In a
-!> loop over time the area is often that of the last solution; then two triangles solve for the pressures, or their derivative to
-!> the approach, to the last figure. Elements under tension are left out, elements that overlap are taken in, until nothing
-!> changes. Where that does not end soon, conjugate gradients go on from there. The elements of a factor stand in the order of
-!> falling pressures, so that those at the border, which come and go, are the last ones: columns before the first that changes stay.
+!> Influence coefficients depend on offsets only, so that the matrix of the elements in contact does not depend on their
+!> position. In a time loop the contact area is often that of the last solution; two triangular solves then give the pressures,
+!> or their derivative with respect to the approach, to full accuracy. Elements under tension are removed and elements that
+!> overlap are added until nothing changes. If this does not terminate soon, conjugate gradients continue from there. The
+!> elements of a factor are in the order of decreasing pressure, so that those at the border, which change most often, are last:
+!> columns before the first change are reused.
 module contact_normal_few_elements
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
@@ -18,46 +19,46 @@ module contact_normal_few_elements
 
    public :: area_factor, solve_few
 
-   !> Elements of a factor at most: beyond, transforms take less time
+   !> Maximum number of elements of a factor: beyond, transforms are faster
    integer, parameter :: most = 200
-   !> Changes of the area before conjugate gradients take over, and elements at least
+   !> Maximum number of changes of the area before conjugate gradients take over, and minimum number of elements
    integer, parameter :: max_changes = 12, least = 4
-   !> Elements are put into a new order where less than this part of the factor stays
+   !> Elements are reordered if less than this fraction of the factor can be reused
    real(wp), parameter :: worth_keeping = 0.5_wp
 
-   !> The factor of a contact area, and scratch; not of meaning where `n` is 0
+   !> Factor of a contact area, and workspace; undefined if `n` is 0
    type :: area_factor
-      !> Elements in contact
+      !> Number of elements in contact
       integer, private :: n = 0
-      !> Their places in the window, those of the factor in the window that it was made in, shape (2, most)
+      !> Their positions in the window, and those of the factor in its own window, shape (2, most)
       integer, allocatable, private :: place(:, :), known(:, :)
-      !> First and last element of the factor with known(:, k), shape (2, 2)
+      !> Range of columns and rows of the factor in known(:, k), shape (2, 2)
       integer, private :: box(2, 2) = 0
-      !> Rows of the factor that new rows were, 0 for new elements, shape (most)
+      !> Rows of the existing factor for the new rows, 0 for new elements, shape (most)
       integer, allocatable, private :: row(:)
-      !> Is an element of the window in the factor? At least as many as the window has
+      !> Is an element of the window in the factor? Size at least that of the window
       logical, allocatable, private :: taken(:)
       !> Lower triangle, shape (most, most), and a vector, shape (most)
       real(wp), allocatable, private :: lower(:, :), x(:)
       !> Displacements and residuals on the window [mm], shape (mx, my)
       real(wp), allocatable, private :: u(:, :)
-      !> What the factor was made for
+      !> Parameters of the factor
       real(wp), private :: dx = 0.0_wp, dy = 0.0_wp
       type(elastic_model), private :: model
    contains
-      !> Make the factor of an area, or keep it
+      !> Compute the factor of an area, or reuse it
       procedure, private :: fit
-      !> Solve with the right-hand side x
+      !> Solve for the right-hand side x
       procedure, private :: substitute
-      !> Derivative of the pressures to the approach
+      !> Derivative of the pressures with respect to the approach
       procedure :: pressure_derivative
-      !> Derivatives of the pressures to changes of the distance
+      !> Derivatives of the pressures with respect to changes of the distance
       procedure :: pressure_responses
    end type area_factor
 
 contains
 
-   !> Pressures for a prescribed approach, from an estimate that is nearly right
+   !> Pressures for a prescribed approach, from an estimate close to the solution
    subroutine solve_few(problem, operator, factor, p, pen, report)
       !> Undeformed distance, tolerance
       type(normal_problem), intent(in) :: problem
@@ -65,11 +66,11 @@ contains
       class(compliance), intent(inout) :: operator
       !> Kept from call to call
       type(area_factor), intent(inout) :: factor
-      !> Estimate on entry, pressures on exit [N/mm2], shape (mx, my)
+      !> On entry an estimate, on exit pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
       !> Approach [mm]
       real(wp), intent(in) :: pen
-      !> Converged, or not started where another method has to do it
+      !> Converged, or not started if another method must be used
       type(solve_report), intent(inout) :: report
       real(wp) :: scale, worst, r
       integer :: change, ix, iy, k
@@ -115,7 +116,7 @@ contains
             do ix = 1, problem%mx
                if (p(ix, iy) > 0.0_wp .or. problem%h(ix, iy) > excluded_threshold) cycle
                if (.not. pen - problem%h(ix, iy) - factor%u(ix, iy) > problem%eps*scale) cycle
-               ! any pressure counts as contact: the factor tells how much it is
+               ! any positive pressure means contact: the factor gives its value
                p(ix, iy) = tiny(p)
                grows = .true.
             end do
@@ -124,7 +125,7 @@ contains
       end do
    end subroutine solve_few
 
-   !> Are the coefficients those of plain half-spaces, the same at opposite offsets?
+   !> Are the coefficients those of plain half-spaces, equal at opposite offsets?
    pure logical function is_plain(operator)
       class(compliance), intent(in) :: operator
 
@@ -136,14 +137,14 @@ contains
       end select
    end function is_plain
 
-   !> The factor for the elements with pressure
+   !> Compute the factor for the elements with pressure
    subroutine fit(self, operator, p, fits)
       class(area_factor), intent(inout) :: self
-      !> Its table has the coefficients
+      !> Operator whose table contains the coefficients
       class(compliance), intent(in) :: operator
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Are there neither too many elements nor too few?
+      !> Is the number of elements within the limits?
       logical, intent(out) :: fits
       integer :: box(2, 2), shift(2), n, kept
       logical :: is_for_others
@@ -185,7 +186,7 @@ contains
 
    !> Number of elements with pressure, and the window around them
    pure subroutine find_box(p, n, box)
-      !> [N/mm2]
+      !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
       integer, intent(out) :: n
       !> First and last column, first and last row
@@ -207,17 +208,17 @@ contains
       end do
    end subroutine find_box
 
-   !> Where the elements of the factor are in this window: the first or the last ones stay where they were in the area, or all do
-   !> in the window
+   !> Position of the elements of the factor in this window: relative to the area the first or the last ones are unchanged, or
+   !> relative to the window all of them
    pure subroutine find_shift(self, p, box, shift, kept)
       type(area_factor), intent(in) :: self
-      !> [N/mm2]
+      !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
       !> See `find_box`
       integer, intent(in) :: box(2, 2)
-      !> To be added to places in the window of the factor
+      !> To be added to positions in the window of the factor
       integer, intent(out) :: shift(2)
-      !> Elements of the factor before the first one that is not in contact
+      !> Number of elements of the factor before the first one that is not in contact
       integer, intent(out) :: kept
       integer :: candidate(2, 3), c, k
 
@@ -239,9 +240,9 @@ contains
       end do
    end subroutine find_shift
 
-   !> Does an element have pressure? None has beyond the window
+   !> Does an element have pressure? False outside the window
    pure logical function in_contact(p, place)
-      !> [N/mm2]
+      !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
       integer, intent(in) :: place(2)
 
@@ -249,11 +250,11 @@ contains
       if (in_contact) in_contact = p(place(1), place(2)) > 0.0_wp
    end function in_contact
 
-   !> Elements with pressure, the highest ones first
+   !> Positions of the elements with pressure, largest pressure first
    pure subroutine put_in_order(p, place)
-      !> [N/mm2]
+      !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Column and row in the first places
+      !> Column and row of each element
       integer, contiguous, intent(inout) :: place(:, :)
       integer :: ix, iy, j, k
 
@@ -273,10 +274,10 @@ contains
       end do
    end subroutine put_in_order
 
-   !> Elements of the factor that are still in contact in their order, and new ones behind them
+   !> Keep the order of the elements of the factor that are still in contact, and append new ones
    subroutine keep_order(self, p, shift, kept)
       type(area_factor), intent(inout) :: self
-      !> [N/mm2]
+      !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
       !> See `find_shift`
       integer, intent(in) :: shift(2), kept
@@ -308,12 +309,12 @@ contains
       end do
    end subroutine keep_order
 
-   !> The factor of the elements in `place`, whose first columns are those of the last one
+   !> Compute the factor of the elements in `place`, whose first columns are those of the existing one
    subroutine extend(self, operator, n, kept, fits)
       type(area_factor), intent(inout) :: self
-      !> Its table has the coefficients
+      !> Operator whose table contains the coefficients
       class(compliance), intent(in) :: operator
-      !> Elements, and columns that are kept
+      !> Number of elements, and number of columns reused
       integer, intent(in) :: n, kept
       !> Is the matrix positive definite?
       logical, intent(out) :: fits
@@ -346,11 +347,11 @@ contains
       call factorize(self%lower, n, kept + 1, fits)
    end subroutine extend
 
-   !> Cholesky factor in place, four columns taken off at a time
+   !> Cholesky factorisation in place, by blocks of four columns
    pure subroutine factorize(a, n, first, is_positive)
-      !> Lower triangle of a symmetric matrix on entry, of its factor on exit
+      !> On entry the lower triangle of a symmetric matrix, on exit that of its factor
       real(wp), contiguous, intent(inout) :: a(:, :)
-      !> Size of the matrix, and the first column that is not that of the factor on entry
+      !> Size of the matrix, and first column that is not yet factorised on entry
       integer, intent(in) :: n, first
       !> Is the matrix positive definite?
       logical, intent(out) :: is_positive
@@ -380,7 +381,7 @@ contains
       is_positive = .true.
    end subroutine factorize
 
-   !> Forward and backward
+   !> Forward and backward substitution
    pure subroutine substitute(self)
       class(area_factor), intent(inout) :: self
       integer :: i, j
@@ -398,16 +399,16 @@ contains
       end associate
    end subroutine substitute
 
-   !> Derivative of the pressures to the approach while the area is kept, where the factor is that of the area
+   !> Derivative of the pressures with respect to the approach for a fixed area, if the factor is that of the area
    subroutine pressure_derivative(self, operator, p, q, found)
       class(area_factor), intent(inout) :: self
       !> Prepared for the window
       class(compliance), intent(in) :: operator
       !> Pressures of the last solution [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Derivative [N/mm3], shape (mx, my); zero outside of the area
+      !> Derivative [N/mm3], shape (mx, my); zero outside the area
       real(wp), contiguous, intent(inout) :: q(:, :)
-      !> Unchanged where it is not found
+      !> Was the factor suitable? Otherwise q is unchanged
       logical, intent(out) :: found
       integer :: k
 
@@ -424,18 +425,18 @@ contains
       end do
    end subroutine pressure_derivative
 
-   !> Pressures that bring about displacements while the area is kept, where a factor of the area suits
+   !> Pressures that cause given displacements for a fixed area, if there is a factor for the area
    subroutine pressure_responses(self, operator, p, displacement, response, found)
       class(area_factor), intent(inout) :: self
       !> Prepared for the window
       class(compliance), intent(in) :: operator
       !> Pressures of the last solution [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Wanted on the area [mm per unit], shape (mx, my, cases)
+      !> Required displacements on the area [mm per unit], shape (mx, my, cases)
       real(wp), contiguous, intent(in) :: displacement(:, :, :)
-      !> [N/mm2 per unit], of the same shape; zero outside of the area
+      !> Pressures [N/mm2 per unit], same shape; zero outside the area
       real(wp), contiguous, intent(inout) :: response(:, :, :)
-      !> Unchanged where it is not found
+      !> Was the factor suitable? Otherwise the response is unchanged
       logical, intent(out) :: found
       integer :: j, k
 

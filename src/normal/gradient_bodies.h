@@ -1,4 +1,4 @@
-/* Loops of gradient_loops.c, for one kind of processor; see lanes.h. Each ends with what is left over, up to three elements */
+/* Loops of gradient_loops.c, for one kind of processor; see lanes.h. Each ends with the remaining elements, up to three */
 
 /* Mean of h + u where p is positive */
 TARGET static double OF(mean_gap)(int n, const double *h, const double *u, const double *p) {
@@ -19,7 +19,7 @@ TARGET static double OF(mean_gap)(int n, const double *h, const double *u, const
   return sum / (count > 0.0 ? count : 1.0);
 }
 
-/* r = pen - h - u, without what is negative where p is not positive; the largest magnitude, which is no number if one is */
+/* r = pen - h - u, set to 0 where negative and p is not positive; the largest magnitude, NaN if one is NaN */
 TARGET static double OF(residuals)(int n, double pen, const double *h, const double *u, const double *p, double *r) {
   four largest = {0.0};
   int k = 0;
@@ -39,7 +39,7 @@ TARGET static double OF(residuals)(int n, double pen, const double *h, const dou
   return worst;
 }
 
-/* free = 1 where p or r is positive and h is not too high, else 0, as is r there */
+/* free = 1 where p or r is positive and h is not too large, else 0; r is set to 0 there too */
 TARGET static void OF(choose_free)(int n, const double *p, const double *h, double highest, double *free, double *r) {
   const four ones = {1.0, 1.0, 1.0, 1.0};
   int k = 0;
@@ -102,7 +102,7 @@ TARGET static void OF(turn)(int n, double beta, const double *z, const double *r
   }
 }
 
-/* p := p + alpha d, but at least 0; the lowest value before that, or 0 */
+/* p := p + alpha d, but at least 0; the smallest value before the limit, or 0 */
 TARGET static double OF(go_along)(int n, double alpha, const double *d, double *p) {
   four lowest = {0.0};
   int k = 0;

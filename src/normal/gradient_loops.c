@@ -1,4 +1,5 @@
-/* Loops over the elements of a window between two products of conjugate gradients; gradient_loops.f90 tells what, lanes.h why in C */
+/* Loops over the elements of a window, used by conjugate gradients between two products; described in gradient_loops.f90. lanes.h
+ * explains why they are in C */
 #include "../base/lanes.h"
 
 double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p);

@@ -1,8 +1,8 @@
 !> Hertz's solution: frictionless contact of two quadratic surfaces, and of cylinders
 !>
-!> The undeformed distance is h = a1 x**2 + b1 y**2; the contact area is an ellipse with
-!> semi-axes aa, bb along x and y. Each procedure starts from other knowns and completes
-!> the rest. Theory and symbols: doc/theory/hertz.md, after Hertz (1882) and Johnson (1985).
+!> The undeformed distance is h = a1 x**2 + b1 y**2; the contact area is an ellipse with semi-axes aa, bb along x and y. Each
+!> procedure starts from different known quantities and computes the others. Theory and symbols: doc/theory/hertz.md, after
+!> Hertz (1882) and Johnson (1985).
 module contact_normal_hertz
    use contact_base_choices, only : normal_control
    use contact_base_constants, only : pi
@@ -16,20 +16,20 @@ module contact_normal_hertz
    public :: line_contact_by_curvature, line_contact_by_axes
    public :: curvature_ratio, axis_ratio
 
-   !> Approach that stands for "just touching" when an area is prescribed without a load [mm]
+   !> Approach that represents "just touching" if an area is prescribed without load [mm]
    real(wp), parameter :: min_approach = 1.0e-9_wp
 
-   !> What presses the bodies together
+   !> Load of the contact
    type :: hertz_load
-      !> Member of normal_control: which of force and approach is prescribed
+      !> Member of normal_control: force or approach prescribed
       integer :: control = normal_control%force
-      !> Prescribed normal force [N] or approach [mm]; negative values count as zero
+      !> Prescribed normal force [N] or approach [mm]; negative values are treated as zero
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp) :: modulus = 1.0_wp
    end type hertz_load
 
-   !> A complete solution
+   !> Complete solution
    type :: hertz_contact
       !> Curvatures of the undeformed distance along x and y [1/mm]
       real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp
@@ -39,15 +39,15 @@ module contact_normal_hertz
       real(wp) :: aob = 1.0_wp
       !> Effective radius of curvature 2/(a1 + b1) [mm], effective semi-axis [mm]
       real(wp) :: rho = 0.0_wp, cp = 0.0_wp
-      !> Normal force [N] and approach [mm]; the approach of a line contact is not defined: 0
+      !> Normal force [N] and approach [mm]; the approach of a line contact is undefined and set to 0
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp
    end type hertz_contact
 
 contains
 
-   !> Ratio of the smaller to the larger curvature for an ellipse of given ratio.
+   !> Ratio of the smaller to the larger curvature for an ellipse of given aspect ratio
    !>
-   !> The larger curvature belongs to the smaller semi-axis.
+   !> The larger curvature is in the direction of the smaller semi-axis.
    elemental function curvature_ratio(g) result(ratio)
       !> Ratio of the smaller to the larger semi-axis [-], 0 < g <= 1
       real(wp), intent(in) :: g
@@ -58,11 +58,10 @@ contains
       ratio = g**2*(integrals%d/integrals%b)
    end function curvature_ratio
 
-   !> Ratio of the smaller to the larger semi-axis for given curvatures: inverse of curvature_ratio.
+   !> Ratio of the smaller to the larger semi-axis for given curvatures: inverse of curvature_ratio
    !>
-   !> Newton's method for log(ratio) as a function of log(g), whose slope lies between 3/2
-   !> (circle) and 2 (narrow ellipse): it needs about five steps for any ratio. Differs from
-   !> bisection of the modulus k, which cannot tell narrow ellipses apart.
+   !> Newton's method for log(ratio) as a function of log(g), whose slope is between 3/2 (circle) and 2 (slender ellipse), needs
+   !> about five steps for any ratio. Unlike bisection of the modulus k it resolves slender ellipses.
    elemental function axis_ratio(ratio) result(g)
       !> Ratio of the smaller to the larger curvature [-], 0 < ratio <= 1
       real(wp), intent(in) :: ratio
@@ -90,11 +89,11 @@ contains
       !> The integrals for this g
       type(elliptic_integrals), intent(in) :: integrals
       real(wp) :: slope
-      !> Squared modulus below which the derivative of D is taken at the circle
+      !> Squared modulus below which the derivative of D at the circle is used
       real(wp), parameter :: nearly_circular = 1.0e-6_wp
       real(wp) :: m, db, dd
 
-      ! Derivatives with respect to m = k**2, times g**2
+      ! derivatives with respect to m = k**2, times g**2
       m = (1.0_wp - g)*(1.0_wp + g)
       if (m > nearly_circular) then
          dd = 0.5_wp*(integrals%b - g**2*integrals%d)/m
@@ -105,7 +104,7 @@ contains
       slope = 2.0_wp - 2.0_wp*(dd/integrals%d - db/integrals%b)
    end function ratio_slope
 
-   !> Both curvatures given
+   !> Solution for given curvatures
    elemental function hertz_by_curvatures(load, a1, b1) result(hertz)
       !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
@@ -121,7 +120,7 @@ contains
       call press_together(load, g, hertz)
    end function hertz_by_curvatures
 
-   !> Curvature along x and ratio of the semi-axes given
+   !> Solution for given curvature along x and ratio of semi-axes
    elemental function hertz_by_ratio(load, a1, aob) result(hertz)
       !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
@@ -138,12 +137,12 @@ contains
       call press_together(load, g, hertz)
    end function hertz_by_ratio
 
-   !> Complete a solution of which curvatures and ratio of the axes are known
+   !> Complete a solution from curvatures and ratio of the axes
    pure subroutine press_together(load, g, hertz)
       type(hertz_load), intent(in) :: load
       !> Ratio of the smaller to the larger semi-axis [-]
       real(wp), intent(in) :: g
-      !> In: a1, b1, aob
+      !> On entry a1, b1, aob are set
       type(hertz_contact), intent(inout) :: hertz
       type(elliptic_integrals) :: integrals
 
@@ -171,10 +170,10 @@ contains
       fn = 4.0_wp*pi*cp**3*modulus*sqrt(g)/(3.0_wp*rho*integrals%e)
    end function force_of_axis
 
-   !> Both semi-axes given; the curvatures follow from the load.
+   !> Solution for given semi-axes; the curvatures follow from the load
    !>
-   !> Without load the curvatures are those of a very small approach; force and approach are
-   !> then zero when a force was prescribed, and the small ones otherwise.
+   !> Without load the curvatures are those of a very small approach; force and approach are then zero if the force was
+   !> prescribed, and otherwise those of this approach.
    elemental function hertz_by_axes(load, aa, bb) result(hertz)
       !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
@@ -210,9 +209,9 @@ contains
       hertz%b1 = merge(ratio*larger, larger, aa <= bb)
    end function hertz_by_axes
 
-   !> Line contact of finite length: curvature along x and half the length given
+   !> Solution of a line contact of finite length, for given curvature along x and half length
    elemental function line_contact_by_curvature(load, a1, bb) result(hertz)
-      !> The force is prescribed
+      !> Load with prescribed force
       type(hertz_load), intent(in) :: load
       !> Curvature along x [1/mm], half length along y [mm], positive
       real(wp), intent(in) :: a1, bb
@@ -223,11 +222,11 @@ contains
       call complete_line(a1, bb, hertz)
    end function line_contact_by_curvature
 
-   !> Line contact of finite length: half width and half length given.
+   !> Solution of a line contact of finite length, for given half width and half length
    !>
-   !> Without load the curvature is a very small one.
+   !> Without load the curvature is very small.
    elemental function line_contact_by_axes(load, aa, bb) result(hertz)
-      !> The force is prescribed
+      !> Load with prescribed force
       type(hertz_load), intent(in) :: load
       !> Half width along x, half length along y [mm], positive
       real(wp), intent(in) :: aa, bb
@@ -241,10 +240,10 @@ contains
       call complete_line(a1, bb, hertz)
    end function line_contact_by_axes
 
-   !> Complete a line contact of which force and half width are known
+   !> Complete a line contact from force and half width
    pure subroutine complete_line(a1, bb, hertz)
       real(wp), intent(in) :: a1, bb
-      !> In: fn, aa
+      !> On entry fn and aa are set
       type(hertz_contact), intent(inout) :: hertz
 
       hertz%a1 = a1

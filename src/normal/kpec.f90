@@ -1,9 +1,8 @@
 !> KPEC: contact area and shape of the pressures from the interpenetration of the surfaces
 !>
-!> Kik and Piotrowski (1996) let the surfaces overlap by a fixed part of the approach and take the
-!> overlap for the contact area. Here the part varies from row to row as it does for an ellipse
-!> (Vollebregt, in the guide of CONTACT), so that Hertz's area comes out where the surfaces are quadratic. Pressures
-!> are semi-ellipses along each row, all with the same quotient of height and length.
+!> Kik and Piotrowski (1996) let the surfaces overlap by a fixed fraction of the approach and use the overlap as contact area.
+!> Here the fraction varies from row to row as for an ellipse (Vollebregt, guide of CONTACT), so that Hertz's area is obtained
+!> for quadratic surfaces. Pressures are semi-ellipses along each row, all with the same ratio of height to length.
 !> Equations: doc/theory/approximate_normal.md
 module contact_normal_kpec
    use contact_base_choices, only : normal_control
@@ -16,49 +15,50 @@ module contact_normal_kpec
 
    public :: kpec_shape
 
-   !> Overlap below which there is no contact [mm]; only to keep clear of underflow
+   !> Smaller overlaps are no contact [mm]; only prevents underflow
    real(wp), parameter :: min_overlap = 1.0e-30_wp
-   !> Level at which the extent of the overlap is measured, as a part of the approach [-]
+   !> Level at which the extent of the overlap is measured, as a fraction of the approach [-]
    real(wp), parameter :: half_way = 0.5_wp
-   !> Smallest curvature that counts: it would open the gap by this part of the overlap along the window [-]
+   !> Smallest effective curvature: it would open the gap by this fraction of the overlap along the grid [-]
    real(wp), parameter :: min_rise = 0.25_wp
-   !> Elements whose gap is larger than the smallest one by less than this part of the overlap stand for the deepest place,
-   !> with a weight that falls to zero there [-]. With one element alone pressures would jump where another one takes its place
+   !> Elements whose gap exceeds the smallest one by less than this fraction of the overlap represent the deepest point, with
+   !> weights that decrease to zero at the limit [-]. With a single element pressures would jump when another element becomes
+   !> the deepest
    real(wp), parameter :: nearly_deepest = 0.01_wp
-   !> Distance of the ends of a row of contact beyond the outermost centres, at least, in elements [-]; only to keep an
-   !> element of contact
+   !> Minimum distance between the ends of a row of contact and the outermost centres, in elements [-]; only keeps such an
+   !> element in contact
    real(wp), parameter :: min_overhang = 1.0e-4_wp
-   !> Extent across the rows, at least, in rows [-]
+   !> Minimum extent across the rows, in rows [-]
    real(wp), parameter :: min_extent = 0.02_wp
 
-   !> The ellipse that gives the threshold of each row
+   !> Ellipse that gives the threshold of each row
    type :: threshold_ellipse
-      !> Middle of the overlap across the rows [mm]
+      !> Centre of the overlap across the rows [mm]
       real(wp) :: ym = 0.0_wp
       !> Semi-axis across the rows [mm]
       real(wp) :: bb = 1.0_wp
-      !> Heights at the ends of the semi-axes along x and y, as parts of the approach [-]
+      !> Heights at the ends of the semi-axes along x and y, as fractions of the approach [-]
       real(wp) :: level_x = half_way, level_y = half_way
    end type threshold_ellipse
 
-   !> A contact area of one row reaches at least so many times as far across as the middle of that row is from its centre; chosen
+   !> Minimum lateral extent of a contact area of one row, relative to the offset of the centre of the row; chosen
    real(wp), parameter :: beyond_row = 1.1_wp
 
 contains
 
-   !> Pressures up to a factor.
+   !> Pressures up to a factor
    !>
-   !> The factor is found by the caller, who knows the compliance: at the deepest place the pressures bring about a
-   !> displacement equal to the overlap.
+   !> The caller, who knows the compliance, determines the factor such that the displacement at the deepest point equals the
+   !> overlap.
    pure subroutine kpec_shape(grid, gap, shape_, weight)
       !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
-      !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
-      !> they overlap, above excluded_threshold where there is no contact possible
+      !> Distance of the undeformed surfaces minus the approach [mm], shape (mx, my); negative if they overlap; above
+      !> excluded_threshold: contact is excluded
       real(wp), intent(in) :: gap(:, :)
-      !> Pressures [-], shape (mx, my): positive in contact, largest 1 or less; all zero without overlap
+      !> Pressures [-], shape (mx, my): positive in contact, at most 1; all zero without overlap
       real(wp), intent(out) :: shape_(:, :)
-      !> Weights of the elements in what is told of the deepest place [-], shape (mx, my); their sum is 1 where there is overlap
+      !> Weights of the elements that represent the deepest point [-], shape (mx, my); their sum is 1 if there is overlap
       real(wp), intent(out) :: weight(:, :)
       type(threshold_ellipse) :: ellipse
       real(wp) :: overlap, longest
@@ -87,7 +87,7 @@ contains
       end do
    end subroutine kpec_shape
 
-   !> Part of the approach by which the gap may have opened at the rim of contact in a row [-]
+   !> Gap opening at the edge of contact in a row, as a fraction of the approach [-]
    pure real(wp) function row_level(ellipse, y) result(level)
       type(threshold_ellipse), intent(in) :: ellipse
       !> Position of the row [mm]
@@ -101,9 +101,9 @@ contains
    pure function fit_ellipse(grid, gap, weight, overlap) result(ellipse)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
-      !> Weights of the elements at the deepest place [-], shape (mx, my)
+      !> Weights of the elements that represent the deepest point [-], shape (mx, my)
       real(wp), intent(in) :: weight(:, :)
-      !> Overlap there [mm]
+      !> Overlap at the deepest point [mm]
       real(wp), intent(in) :: overlap
       type(threshold_ellipse) :: ellipse
       type(hertz_contact) :: hertz
@@ -129,12 +129,12 @@ contains
 
    !> Half the second derivative of the gap along a row [1/mm], over the length of half the overlap
    !>
-   !> Not negative, since the gap is smallest in the middle; min_rise makes it positive.
+   !> Not negative, as the gap is smallest in the middle; min_rise makes it positive.
    pure real(wp) function curvature_along(grid, row, middle, overlap) result(curvature)
       type(potential_contact), intent(in) :: grid
       !> Gap of the row [mm]
       real(wp), intent(in) :: row(:)
-      !> Place of the smallest gap
+      !> Column of the smallest gap
       integer, intent(in) :: middle
       real(wp), intent(in) :: overlap
       real(wp) :: rise, next_rise, low, high, gap_before, part
@@ -150,13 +150,13 @@ contains
          else if (rise > 0.0_wp) then
             exit
          else
-            ! the smallest gap is beside the window or an excluded element: the same on the other side
+            ! the smallest gap is next to the border or an excluded element: assume symmetry
             low = row(merge(middle - k, middle + k, is_possible(row, middle - k)))
             high = low
          end if
          next_rise = (0.5_wp*(low + high) + overlap)/(k*grid%dx)**2
          if (max(low, high) > -half_way*overlap) then
-            ! between the elements on either side of the level, so that it passes from one to the next without a jump
+            ! interpolated between the elements on either side of the level, so that it varies continuously
             part = 1.0_wp
             if (k > 1) part = (-half_way*overlap - gap_before)/(max(low, high) - gap_before)
             rise = rise + part*(next_rise - rise)
@@ -168,7 +168,7 @@ contains
       curvature = max(rise, min_rise*overlap/(size(row)*grid%dx)**2)
    end function curvature_along
 
-   !> Is there such an element, and may it be in contact?
+   !> Does the element exist, and is contact possible there?
    pure logical function is_possible(row, ix)
       real(wp), intent(in) :: row(:)
       integer, intent(in) :: ix
@@ -177,14 +177,14 @@ contains
       if (is_possible) is_possible = row(ix) < excluded_threshold
    end function is_possible
 
-   !> Between which positions the surfaces overlap by half of the largest overlap
+   !> Positions between which the surfaces overlap by more than half of the largest overlap
    pure subroutine extent_across(grid, gap, overlap, start, end_, one_row)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
       real(wp), intent(in) :: overlap
       !> Positions [mm], start < end_
       real(wp), intent(out) :: start, end_
-      !> Does one row only overlap so much?
+      !> Does only one row have such an overlap?
       logical, intent(out) :: one_row
       real(wp) :: lowest(size(gap, 2)), widen
       integer :: iy, first, last
@@ -205,14 +205,14 @@ contains
       end_ = end_ + widen
    end subroutine extent_across
 
-   !> Distance from a row to where the smallest gaps of the rows reach a level, in rows: linear between the row and
-   !> the next one outwards; linear extrapolation at the edge of the window
+   !> Distance from a row to the point where the smallest gaps of the rows reach a level, in rows: by linear interpolation to
+   !> the next row outwards, or linear extrapolation at the border of the grid
    pure real(wp) function steps_to_level(lowest, row, outwards, level) result(steps)
       !> Smallest gap of each row [mm]
       real(wp), intent(in) :: lowest(:)
-      !> Last row with a gap below the level; +1 or -1
+      !> Last row with a gap below the level; direction +1 or -1
       integer, intent(in) :: row, outwards
-      !> [mm]
+      !> Level [mm]
       real(wp), intent(in) :: level
       real(wp) :: here, there
 
@@ -229,10 +229,10 @@ contains
       end if
    end function steps_to_level
 
-   !> Middle and half the length of the contact area in one row; half length 0: no contact
+   !> Centre and half length of the contact area in one row; half length 0: no contact
    pure subroutine row_extent(grid, row, limit, middle, half_length)
       type(potential_contact), intent(in) :: grid
-      !> Gap of the row, and the largest gap in contact [mm]
+      !> Gaps of the row, and the largest gap in contact [mm]
       real(wp), intent(in) :: row(:), limit
       real(wp), intent(out) :: middle, half_length
       real(wp) :: trailing, leading
@@ -253,10 +253,10 @@ contains
       half_length = 0.5_wp*(leading - trailing)
    end subroutine row_extent
 
-   !> How far contact goes on beyond the centre of its last element, in elements
+   !> Distance by which contact extends beyond the centre of its last element, in elements
    pure real(wp) function overhang(row, ix, outwards, limit)
       real(wp), intent(in) :: row(:)
-      !> Last element in contact, +1 or -1
+      !> Last element in contact, direction +1 or -1
       integer, intent(in) :: ix, outwards
       real(wp), intent(in) :: limit
 

@@ -1,4 +1,4 @@
-!> The last normal problem that was solved, and its answer: tables of creep forces ask the same question again and again
+!> The last normal problem and its solution, kept because tables of creep forces solve the same problem repeatedly
 module contact_normal_last_answer
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
@@ -10,9 +10,9 @@ module contact_normal_last_answer
 
    public :: answer_type
 
-   !> A problem that was solved, the estimate it was solved from, and the answer
+   !> A solved problem, its initial estimate, and its solution
    type :: answer_type
-      !> Is there an answer?
+      !> Is there a solution?
       logical :: is_known = .false.
       type(normal_problem) :: problem
       type(elastic_model) :: model
@@ -30,12 +30,12 @@ module contact_normal_last_answer
 
 contains
 
-   !> Bit by bit what was solved last, with the same estimate
+   !> Is this exactly the last problem, with the same estimate?
    pure logical function is_same_question(self, problem, operator, p, pen) result(same)
       class(answer_type), intent(in) :: self
-      !> The question that is asked now
+      !> Current problem
       type(normal_problem), intent(in) :: problem
-      !> Operator that would answer it
+      !> Operator for it
       class(compliance), intent(in) :: operator
       !> Pressures [N/mm2], shape (mx, my), and approach [mm]
       real(wp), contiguous, intent(in) :: p(:, :)
@@ -60,12 +60,12 @@ contains
       end associate
    end function is_same_question
 
-   !> Arrays that fit are kept, which a copy of the problem as a whole would not do
+   !> Record a problem. Allocated arrays of the same size are reused, which copying the problem as a whole would not do
    subroutine note_question(self, problem, operator, p)
       class(answer_type), intent(inout) :: self
-      !> Copied, but for its deadline
+      !> Copied, except for its deadline
       type(normal_problem), intent(in) :: problem
-      !> Operator that will answer it; its model and window are noted
+      !> Operator for it; its model and window are recorded
       class(compliance), intent(in) :: operator
       !> Estimate [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
@@ -88,16 +88,16 @@ contains
       self%estimate = p
    end subroutine note_question
 
-   !> Keep an answer, if the method converged
+   !> Record the solution, if the method converged
    subroutine note_answer(self, problem, p, pen, report)
       class(answer_type), intent(inout) :: self
-      !> The question that was noted
+      !> The problem that was recorded
       type(normal_problem), intent(in) :: problem
       !> Pressures [N/mm2], shape (mx, my), and approach [mm]
       real(wp), contiguous, intent(in) :: p(:, :)
       !> Approach of the solution [mm]
       real(wp), intent(in) :: pen
-      !> How the method ended
+      !> Outcome of the method
       type(solve_report), intent(in) :: report
 
       if (report%ended /= ending%converged .or. allocated(problem%parts)) return

@@ -1,8 +1,7 @@
-!> Patches of several parts between which pressures act with less than full strength
+!> Patches of several parts with reduced interaction between them
 !>
-!> Two contact areas of wheel and rail that come close to each other are one problem before they meet: the
-!> displacement in part p by pressures in part q is that of the half-space times a factor f(p, q) between
-!> 0 and 1, symmetric, f(p, p) = 1.
+!> Two contact areas of wheel and rail that are close to each other form one problem before they merge: the displacement in part
+!> p due to pressures in part q is that of the half-space times a factor f(p, q) between 0 and 1, symmetric, with f(p, p) = 1.
 module contact_normal_parts
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -11,22 +10,22 @@ module contact_normal_parts
 
    public :: contact_parts, displacement_between
 
-   !> The parts of a patch
+   !> Parts of a patch
    type :: contact_parts
-      !> Number of the part that an element belongs to, 0 for none, shape (mx, my)
+      !> Index of the part to which an element belongs, 0: none, shape (mx, my)
       integer, allocatable :: label(:, :)
       !> Factors, shape (parts, parts)
       real(wp), allocatable :: interaction(:, :)
    contains
-      !> Normal displacements by pressures
+      !> Normal displacements due to pressures
       procedure :: displacement
    end type contact_parts
 
 contains
 
-   !> Normal displacements by pressures, in one part or several
+   !> Normal displacements due to pressures, in one part or several
    subroutine displacement_between(parts, operator, p, u)
-      !> Unallocated: everything acts with full strength
+      !> Unallocated: full interaction
       type(contact_parts), allocatable, intent(in) :: parts
       !> Prepared for the window
       class(compliance), intent(inout) :: operator

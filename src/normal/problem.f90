@@ -1,4 +1,4 @@
-!> A normal contact problem on a window, and what every method for it needs
+!> Normal contact problem on a window, and procedures shared by all methods
 module contact_normal_problem
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
@@ -11,9 +11,9 @@ module contact_normal_problem
    public :: approach_scale, carries_nothing, force_round_off, load_lowest_element, make_admissible, normal_problem, &
       & pressure_displacement
 
-   !> Estimates that carry less than this part of the force are none; chosen
+   !> Estimates with less than this fraction of the force are discarded; chosen
    real(wp), parameter :: carries_nothing = 1.0e-3_wp
-   !> Part of a prescribed force by which the sum of the pressures may differ by rounding
+   !> Fraction of a prescribed force by which the sum of the pressures may differ due to round-off
    real(wp), parameter :: force_round_off = 1.0e-12_wp
 
    !> Data of a normal problem on a window; constant during the solution
@@ -22,29 +22,29 @@ module contact_normal_problem
       integer :: mx = 0, my = 0
       !> Sides of the elements [mm]
       real(wp) :: dx = 1.0_wp, dy = 1.0_wp
-      !> Undeformed distance with displacements by tangential tractions [mm], shape (mx, my);
-      !> above excluded_threshold: no contact possible
+      !> Undeformed distance including displacements due to tangential tractions [mm], shape (mx, my); above excluded_threshold:
+      !> contact is excluded
       real(wp), allocatable :: h(:, :)
-      !> Is the force prescribed, or the approach?
+      !> Is the force prescribed rather than the approach?
       logical :: force_prescribed = .true.
       !> Normal force [N]
       real(wp) :: fn = 0.0_wp
-      !> Tolerance on the contact conditions relative to the approach, largest number of iterations
+      !> Tolerance of the contact conditions relative to the approach, maximum number of iterations
       real(wp) :: eps = 1.0e-6_wp
       integer :: maxgs = 999
-      !> Are the pressures that the solver starts from those of a problem that differs a little, again and again?
+      !> Is the problem one of a sequence, with the solution of a slightly different one as estimate?
       logical :: follows = .false.
-      !> When the time is up
+      !> Deadline of the case
       type(deadline_type) :: deadline
-      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
+      !> Parts with reduced interaction; unallocated: full interaction
       type(contact_parts), allocatable :: parts
    end type normal_problem
 
 contains
 
-   !> Normal displacements by pressures [mm]
+   !> Normal displacements due to pressures [mm]
    subroutine pressure_displacement(problem, operator, p, u)
-      !> Its parts decide what acts on each other
+      !> Problem with its parts
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
@@ -56,7 +56,7 @@ contains
       call displacement_between(problem%parts, operator, p, u)
    end subroutine pressure_displacement
 
-   !> What violations of the contact conditions are compared with [mm]: the approach, as far as numbers tell it
+   !> Scale for violations of the contact conditions [mm]: the approach, limited by round-off
    pure real(wp) function approach_scale(pen, h_min, violation) result(scale)
       !> Approach, smallest undeformed distance, and the violation [mm]
       real(wp), intent(in) :: pen, h_min, violation
@@ -64,7 +64,7 @@ contains
       scale = max(abs(pen - h_min), epsilon(scale)*max(abs(h_min), violation), tiny(scale))
    end function approach_scale
 
-   !> Pressures that are not negative, zero where contact is impossible, and of the right total
+   !> Make pressures non-negative, zero where contact is excluded, and of the prescribed total
    subroutine make_admissible(problem, p)
       !> Undeformed distance, and the force if it is prescribed
       type(normal_problem), intent(in) :: problem
@@ -75,7 +75,7 @@ contains
       where (problem%h > excluded_threshold .or. .not. p > 0.0_wp) p = 0.0_wp
       if (.not. problem%force_prescribed) return
       total = sum(p)*problem%dx*problem%dy
-      ! pressures that carry the force stay as they are, to the last digit
+      ! pressures that already carry the force are not changed, not even by round-off
       if (abs(total - problem%fn) <= force_round_off*problem%fn) return
       if (total > carries_nothing*problem%fn) then
          p = p*(problem%fn/total)
@@ -84,7 +84,7 @@ contains
       end if
    end subroutine make_admissible
 
-   !> Put the load on the element that is nearest to contact
+   !> Put the load on the element with the smallest distance
    subroutine load_lowest_element(problem, p)
       !> Undeformed distance, and the force if it is prescribed
       type(normal_problem), intent(in) :: problem

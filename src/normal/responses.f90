@@ -1,8 +1,8 @@
-!> Derivatives of the pressures to changes of the distance of the bodies, at a solution of the normal problem
+!> Derivatives of the pressures with respect to changes of the distance of the bodies, at a solution of the normal problem
 !>
-!> On the contact area A p = pen - h. While the area is kept, pressures change by q with A q = d(pen - h). The systems of
-!> several inputs share their search directions, which are conjugate to each other: each one begins with the best of those
-!> before it, and smooth changes of the distance have most of their directions in common.
+!> On the contact area A p = pen - h. For a fixed area pressures change by q with A q = d(pen - h). The systems of several
+!> inputs share their conjugate search directions: each one starts from the best combination of the existing ones, and smooth
+!> changes of the distance have most directions in common.
 module contact_normal_responses
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -13,7 +13,7 @@ module contact_normal_responses
 
    public :: pressure_responses
 
-   !> Search directions that are kept at most
+   !> Maximum number of stored search directions
    integer, parameter :: most_kept = 60
 
 contains
@@ -22,21 +22,21 @@ contains
    subroutine pressure_responses(operator, factor, parts, p, displacement, tolerance, max_iterations, response, reached)
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
-      !> May be that of the contact area
+      !> Possibly the factor of the contact area
       type(area_factor), intent(inout) :: factor
-      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
+      !> Parts with reduced interaction; unallocated: full interaction
       type(contact_parts), allocatable, intent(in) :: parts
-      !> Pressures of the solution [N/mm2], shape (mx, my); where they are positive is contact
+      !> Pressures of the solution [N/mm2], shape (mx, my); positive in contact
       real(wp), contiguous, intent(in) :: p(:, :)
       !> Changes of pen - h [mm per unit], shape (mx, my, cases)
       real(wp), contiguous, intent(in) :: displacement(:, :, :)
-      !> On the residuals, relative to the displacements, roots of the mean squares over the contact area
+      !> Tolerance of the residuals relative to the displacements, root mean square over the contact area
       real(wp), intent(in) :: tolerance
-      !> Products for one displacement at most
+      !> Maximum number of products per displacement
       integer, intent(in) :: max_iterations
-      !> Changes of the pressures [N/mm2 per unit], zero outside the contact area; of the shape of `displacement`
+      !> Changes of the pressures [N/mm2 per unit], zero outside the contact area; same shape as `displacement`
       real(wp), contiguous, intent(inout) :: response(:, :, :)
-      !> Largest relative residual that was reached
+      !> Largest relative residual
       real(wp), intent(out) :: reached
       real(wp), allocatable :: d(:, :), u(:, :), q(:), r(:), field(:, :), image(:, :)
       real(wp) :: curvature(most_kept), start, share

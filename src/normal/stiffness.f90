@@ -1,9 +1,8 @@
-!> Derivative of the pressures to the approach at a solution of the normal problem
+!> Derivative of the pressures with respect to the approach, at a solution of the normal problem
 !>
-!> On the contact area the pressures fulfil A p = pen - h, so that A q = 1 for their derivative q while
-!> the area is kept, and dFn/dpen is dx dy times the sum of q. Elements that come into contact do so
-!> with zero pressure and add nothing to first order. (Of q the sum is known best: its error is
-!> quadratic in that of q.)
+!> On the contact area the pressures satisfy A p = pen - h, so that their derivative q for a fixed area satisfies A q = 1, and
+!> dFn/dpen is dx dy times the sum of q. Elements that come into contact have zero pressure and contribute nothing to first
+!> order. (The sum of q is the most accurate quantity: its error is quadratic in that of q.)
 module contact_normal_stiffness
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -19,19 +18,19 @@ contains
    subroutine pressure_derivative(operator, parts, contact, tolerance, max_iterations, q, reached, from_estimate)
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
-      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
+      !> Parts with reduced interaction; unallocated: full interaction
       type(contact_parts), allocatable, intent(in) :: parts
       !> Elements in contact, shape (mx, my)
       logical, contiguous, intent(in) :: contact(:, :)
-      !> On the residual relative to 1, root of the mean square over the contact area
+      !> Tolerance of the residual relative to 1, root mean square over the contact area
       real(wp), intent(in) :: tolerance
-      !> Iterations after which the best so far is handed back
+      !> Maximum number of iterations; the best solution so far is then returned
       integer, intent(in) :: max_iterations
       !> Derivative of the pressures [N/mm3], zero outside the contact area
       real(wp), contiguous, intent(inout) :: q(:, :)
-      !> Residual that was reached
+      !> Residual
       real(wp), intent(out) :: reached
-      !> Is q an estimate on entry? Default no
+      !> Is q an estimate on entry? Default: no
       logical, intent(in), optional :: from_estimate
       real(wp), allocatable :: r(:, :), z(:, :), d(:, :), u(:, :)
       real(wp) :: rz, previous, curvature, start
@@ -53,7 +52,7 @@ contains
       reached = 1.0_wp
       if (has_estimate) then
          call displacement_between(parts, operator, q, u)
-         ! the sum of q is right to second order with a residual perpendicular to it
+         ! the sum of q is accurate to second order if the residual is orthogonal to it
          curvature = sum(q*u)
          rz = 0.0_wp
          if (curvature > 0.0_wp) rz = sum(q)/curvature
