@@ -1,8 +1,8 @@
-/* Loops of lines.c, for one kind of processor: OF(name) is what a function is called there, TARGET its attribute.
+/* Loops of lines.c for one kind of processor: OF(name) is the name of a function in that version, TARGET its attribute.
  *
- * Two complex numbers are taken at once. Each loop ends with what is left over, an odd number. */
+ * Two complex numbers are processed at once. Each loop ends with the remaining one of an odd number. */
 
-/* Products of two spectra with a symmetric 2 by 2 block, then with one number unless turn is null */
+/* Products of two spectra with a symmetric 2 by 2 block, then with a scalar unless turn is null */
 TARGET static void OF(block)(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
   const double re = turn ? turn[0] : 1.0, im = turn ? turn[1] : 0.0;
   const four along = {re, re, re, re}, across = {-im, im, -im, im};
@@ -29,7 +29,7 @@ TARGET static void OF(block)(int n, const double *xx, const double *yy, const do
   turn_number(re, im, b + 2 * k);
 }
 
-/* Product of a spectrum with a real one */
+/* Product of a complex spectrum and a real one */
 TARGET static void OF(one)(int n, const double *xx, double *a) {
   int k = 0;
   for (; k + 1 < n; k += 2) FOUR(a + 2 * k) *= EACH_TWICE(xx + k);
@@ -38,7 +38,7 @@ TARGET static void OF(one)(int n, const double *xx, double *a) {
   a[2 * k + 1] *= xx[k];
 }
 
-/* Product of a spectrum with one number */
+/* Product of a spectrum with a scalar */
 TARGET static void OF(turn)(int n, const double *turn, double *a) {
   const four along = {turn[0], turn[0], turn[0], turn[0]}, across = {-turn[1], turn[1], -turn[1], turn[1]};
   int k = 0;
@@ -86,7 +86,7 @@ TARGET static void OF(pair)(int px, const double *xx, const double *yy, const do
   if (k < n) multiply_pair(xx[k], yy[k], xy[k], z + 2 * k, z + 2 * (px - k));
 }
 
-/* Such a transform times that of one more real line, of which a half is given */
+/* Product of such a transform and that of another real line, of which one half is given */
 TARGET static void OF(turn_pair)(int px, const double *factor, double *z) {
   const int n = (px + 1) / 2;
   int k = 1;
@@ -104,7 +104,7 @@ TARGET static void OF(turn_pair)(int px, const double *factor, double *z) {
   turn_number(factor[2 * k], -factor[2 * k + 1], z + 2 * (px - k));
 }
 
-/* Twice the transforms of two rows, from that of the first + i times the second; each frequency of both lies side by side */
+/* Twice the transforms of two rows, from that of the first + i times the second; both values of a frequency are adjacent */
 TARGET static void OF(apart)(int px, const double *z, size_t stride, double *both) {
   int k = 1;
   for (; k + 1 <= px / 2; k += 2) {
@@ -124,7 +124,7 @@ TARGET static void OF(apart)(int px, const double *z, size_t stride, double *bot
   }
 }
 
-/* The transform of the first row + i times the second, from theirs side by side */
+/* Transform of the first row + i times the second, from the adjacent values of both */
 TARGET static void OF(together)(int px, size_t stride, const double *both, double *z) {
   const int n = (px + 1) / 2;
   int k = 1;

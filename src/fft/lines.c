@@ -1,5 +1,5 @@
-/* What is done to rows and columns between their transforms, where it takes time; lines.f90 tells what, lanes.h why in C. Complex
- * numbers are pairs of real ones. */
+/* Time-consuming operations on rows and columns between their transforms, described in lines.f90; lanes.h explains why they are in
+ * C. Complex numbers are pairs of real ones. */
 #include "../base/lanes.h"
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-/* Loops of vectors.c, for one kind of processor: OF(name) is what a function is called there, TARGET its attribute */
+/* Loops of vectors.c for one kind of processor: OF(name) is the name of a function in that version, TARGET its attribute */
 
 /* Inner product */
 TARGET static double OF(inner)(int n, const double *a, const double *b) {

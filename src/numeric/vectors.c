@@ -1,4 +1,4 @@
-/* Sums and inner products of long vectors; vectors.f90 tells what, lanes.h why in C */
+/* Sums and inner products of long vectors, described in vectors.f90; lanes.h explains why they are in C */
 #include "../base/lanes.h"
 
 double contact_vectors_inner(int n, const double *a, const double *b);

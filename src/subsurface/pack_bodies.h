@@ -1,13 +1,13 @@
 /* Loops of pack_products.c, for one kind of processor; see lanes.h */
 
-/* One number of the product: factor times a complex number, and times i if that is wanted */
+/* One entry of the product: factor times a complex number, optionally times i */
 TARGET static void OF(one)(double factor, int turned, int added, const double *traction, double *product) {
   const double re = turned ? -factor * traction[1] : factor * traction[0], im = turned ? factor * traction[0] : factor * traction[1];
   product[0] = added ? product[0] + re : re;
   product[1] = added ? product[1] + im : im;
 }
 
-/* A column of n numbers: the first half has the factors as they stand, the others have them in reverse, times another number */
+/* A column of n numbers: the first half has the stored factors, the rest has them in reverse order, times another number */
 TARGET static void OF(column)(int n, int half, const double *factor, double other_half, int turned, int added, const double *traction,
                               double *product) {
   const four turn = {-1.0, 1.0, -1.0, 1.0};

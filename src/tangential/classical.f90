@@ -1,4 +1,4 @@
-!> The classical solvers by name, with prescribed creepages or forces
+!> The classical solvers, selected by name, with prescribed creepages or forces
 module contact_tangential_classical
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
@@ -25,9 +25,9 @@ module contact_tangential_classical
       integer :: tang_cg = 1
       !> Gauss-Seidel on increments; steady rolling along x, one element per step
       integer :: steady_gs = 2
-      !> Gauss-Seidel on tractions; everything
+      !> Gauss-Seidel on tractions; for all problems
       integer :: convex_gs = 3
-      !> Gradient descent on increments, SteadyGS when it fails; as SteadyGS
+      !> Gradient descent on increments, followed by SteadyGS if it fails; same problems as SteadyGS
       integer :: gd_steady = 4
    end type classical_method_list
    !> Names of the methods
@@ -35,14 +35,14 @@ module contact_tangential_classical
 
    !> Tolerance of the tractions relative to that of prescribed forces; chosen
    real(wp), parameter :: inner_share = 0.2_wp
-   !> True residual at which updates that have become small mean a standstill, not a solution; chosen
+   !> True residual above which small updates mean stagnation rather than a solution; chosen
    real(wp), parameter :: no_solution = 0.2_wp
 
-   !> What one call of solve_classical works with
+   !> Data of one call of solve_classical
    type :: classical_solver
-      !> Member of classical_method; GDsteady is replaced for good when it fails
+      !> Member of classical_method; GDsteady is replaced permanently if it fails
       integer :: method = 0
-      !> Steady rolling with a shifted table of coefficients? Does the method see rows?
+      !> Steady rolling with a shifted table of coefficients? Does the method process rows?
       logical :: general = .false., with_rows = .false.
       type(streaming_rows) :: rows
       !> Tolerance of the updates, relative to the tractions [-]
@@ -79,10 +79,10 @@ contains
       end select
    end function method_name
 
-   !> Solve a tangential problem from the estimate in the solution
+   !> Solve a tangential problem, starting from the estimate in the solution
    !>
-   !> Always ends. The solution is admissible and finite in every case; report%ended tells
-   !> what it is worth. A method that does not suit the problem is replaced by one that does.
+   !> Always terminates. The solution is admissible and finite in every case; report%ended describes its quality. A method that
+   !> is not applicable to the problem is replaced by one that is.
    subroutine solve_classical(problem, operator, choice, solution, report, log, shifted)
       !> Rigid slip, bounds, prescribed forces, tolerance
       type(tangential_problem), intent(in) :: problem
@@ -90,14 +90,14 @@ contains
       class(compliance), intent(inout) :: operator
       !> Member of classical_method
       integer, intent(in) :: choice
-      !> Estimate of tractions and creepages on entry; solution with slip and element states on exit
+      !> On entry an estimate of tractions and creepages, on exit the solution with slip and element states
       type(tangential_solution), intent(inout) :: solution
-      !> Products and transforms are added up, everything else is of this call
+      !> Products and transforms are accumulated, all other components describe this call
       type(solve_report), intent(inout) :: report
-      !> Takes a line per iteration from flow-trace level 5 on, and warnings of a method that was replaced
+      !> Receives a line per iteration from flow-trace level 5 on, and warnings if a method is replaced
       type(log_type), intent(inout) :: log
-      !> Coefficients of the same particles at the previous time, in steady rolling with steps
-      !> other than one element or in an oblique direction (ConvexGS only)
+      !> Coefficients of the same particles at the previous time, in steady rolling with steps other than one element or in an
+      !> oblique direction (ConvexGS only)
       type(kernel_table), intent(in), optional :: shifted
       type(classical_solver) :: self
       real(wp) :: pairs_before
@@ -157,7 +157,7 @@ contains
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
    end subroutine solve_classical
 
-   !> Make an estimate admissible: finite, within the bounds
+   !> Make an estimate admissible: finite and within the bounds
    subroutine make_admissible(problem, solution, clean)
       type(tangential_problem), intent(in) :: problem
       type(tangential_solution), intent(inout) :: solution
@@ -184,7 +184,7 @@ contains
       if (.not. clean) solution%slip = 0.0_wp
    end subroutine make_admissible
 
-   !> Solve again and again with other creepages until the forces are the prescribed ones
+   !> Solve repeatedly for different creepages until the forces equal the prescribed ones
    subroutine find_creepages(self, problem, operator, solution, report, log)
       class(classical_solver), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -195,7 +195,7 @@ contains
       type(force_iteration) :: forces
       real(wp) :: creep(2), force(2), sum_g
 
-      ! forces are compared at the tolerance eps, which takes tractions that are better
+      ! forces are compared with the tolerance eps, which requires more accurate tractions
       self%eps = inner_share*problem%settings%eps
       sum_g = sum(problem%bound, mask=problem%contact)
       call forces%start(problem, operator, solution%sensitivity)
@@ -219,7 +219,7 @@ contains
       end if
    end subroutine find_creepages
 
-   !> Solve with the creepages of the solution
+   !> Solve for the creepages of the solution
    subroutine solve(self, problem, operator, solution, report, log)
       class(classical_solver), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -276,7 +276,7 @@ contains
       call self%rows%get_tractions(solution%p)
    end subroutine sweep
 
-   !> Element states of the estimate: slip where the bound is reached
+   !> Element states of the estimate: slip if the bound is reached
    subroutine mark_states(problem, solution)
       type(tangential_problem), intent(in) :: problem
       type(tangential_solution), intent(inout) :: solution
@@ -287,10 +287,10 @@ contains
          & solution%division = element%slip
    end subroutine mark_states
 
-   !> One line of the flow trace for each prescribed force
+   !> Write a line of the flow trace for each prescribed force
    subroutine trace_forces(problem, creep, force, evaluations, iterations, log)
       type(tangential_problem), intent(in) :: problem
-      !> Creepages [-] and the relative forces that they give [-]
+      !> Creepages [-], and the corresponding relative forces [-]
       real(wp), intent(in) :: creep(2), force(2)
       !> Evaluations so far, and iterations of the last one
       integer, intent(in) :: evaluations, iterations
@@ -305,7 +305,7 @@ contains
       call log%trace(4, trim(text))
    end subroutine trace_forces
 
-   !> The method asked for, or one that can do the problem
+   !> The selected method, or one that is applicable to the problem
    pure integer function suitable_method(problem, choice, general) result(method)
       type(tangential_problem), intent(in) :: problem
       integer, intent(in) :: choice
@@ -315,7 +315,7 @@ contains
       if (problem%steady .and. choice == classical_method%tang_cg) method = classical_method%steady_gs
       if (.not. problem%steady .and. (choice == classical_method%steady_gs &
          & .or. choice == classical_method%gd_steady)) method = classical_method%tang_cg
-      ! the limit of a yielding element depends on its plastic displacement: element problems only
+      ! the limit of a yielding element depends on its plastic displacement: requires element problems
       if (problem%hardens()) then
          if (.not. problem%steady) method = classical_method%convex_gs
          if (problem%steady .and. method /= classical_method%convex_gs) method = classical_method%steady_gs

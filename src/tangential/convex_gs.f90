@@ -1,8 +1,8 @@
 !> ConvexGS: Gauss-Seidel on the tractions, for shifts, transient and steady rolling
 !>
-!> One element problem after the other, rows and elements from trailing to leading edge: in steady rolling the
-!> other order does not converge. In a shift every step decreases
-!> the energy of a convex problem, hence it converges always; Kalker (1990).
+!> Solves one element problem after the other, with rows and elements ordered from the trailing to the leading edge: in steady
+!> rolling the opposite order does not converge. In a shift each step decreases the energy of a convex problem, so that the
+!> method always converges; Kalker (1990).
 module contact_tangential_convex_gs
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -17,12 +17,12 @@ module contact_tangential_convex_gs
 
    public :: convex_gs
 
-   !> Sweeps after which slip elements are treated in every second sweep only
+   !> Number of sweeps after which slip elements are processed in every second sweep only
    integer, parameter :: patience = 1000
 
 contains
 
-   !> Iterate from the tractions in the rows; they stay admissible whatever happens
+   !> Iterate from the tractions in the rows; they remain admissible in all cases
    subroutine convex_gs(problem, rows, eps, report, log)
       !> Rigid slip, bounds, relaxation and number of iterations
       type(tangential_problem), intent(in) :: problem
@@ -30,14 +30,14 @@ contains
       type(streaming_rows), intent(inout) :: rows
       !> Tolerance of the updates
       real(wp), intent(in) :: eps
-      !> Gets ended, iterations
+      !> Receives ended, iterations
       type(solve_report), intent(inout) :: report
-      !> Takes a line per iteration from flow-trace level 5 on
+      !> Receives a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       type(element_compliance) :: own, here
       real(wp), allocatable :: before(:, :, :)
-      !> Displacements within a row by a unit change of traction, offset "receiving minus loaded"
+      !> Displacements within a row due to a unit change of traction, by offset "receiving minus loaded"
       real(wp) :: kxx(0:rows%mx - 1), kyy(0:rows%mx - 1), kxy(0:rows%mx - 1)
       real(wp) :: slip(rows%mx, 2), s0(2), old(2), p(2), change(2)
       integer :: i, iy, row, sweep, n
@@ -92,7 +92,7 @@ contains
 
    contains
 
-      !> Add the displacements by a change of traction to the elements still to come
+      !> Add the displacements due to a change of traction to the remaining elements of the row
       subroutine spread(change, i, last)
          real(wp), intent(in) :: change(2)
          integer, intent(in) :: i, last

@@ -1,16 +1,14 @@
-!> The contact conditions of one element when all other elements are frozen
+!> Contact conditions of one element with all other elements fixed
 !>
-!> With the compliance C of the element on itself and the slip S0 it would have without its own
-!> traction: find |p| <= g such that S0 + C p = -sigma p, sigma >= 0, and sigma = 0 unless
-!> |p| = g. For a symmetric positive definite C this is the minimum of a quadratic function on a
-!> disc; it exists, is unique and needs one scalar root (the "secular equation" of trust-region
-!> methods, Moré and Sorensen 1983). Differs from a search through the element states: the state
-!> follows from the exact solution, relaxation comes afterwards.
+!> With the compliance C of the element on itself and the slip S0 without its own traction: find |p| <= g such that S0 + C p =
+!> -sigma p, sigma >= 0, and sigma = 0 unless |p| = g. For a symmetric positive definite C this is the minimum of a quadratic
+!> function on a disc. It exists, is unique and requires one scalar root (the "secular equation" of trust-region methods, Moré
+!> and Sorensen 1983). Instead of a search through the element states, the state follows from the exact solution; relaxation is
+!> applied afterwards.
 !>
-!> In an element that yields, S0 + C p = -m p/|p| with |p| = t + k m (contact_tangential_yield), the
-!> same for the root of another scalar function. For a falling limit, k < 0, there may be several
-!> solutions; taken is the one with the smallest plastic displacement, the first one that is met
-!> when the load grows from zero.
+!> In an element that yields, S0 + C p = -m p/|p| with |p| = t + k m (contact_tangential_yield), which is the same problem with
+!> another scalar function. For a decreasing limit, k < 0, there may be several solutions; the one with the smallest plastic
+!> displacement is taken, which is reached first when the load increases from zero.
 module contact_tangential_element_problem
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -26,7 +24,7 @@ module contact_tangential_element_problem
       real(wp) :: xx = 1.0_wp, yy = 1.0_wp, xy = 0.0_wp
    end type element_compliance
 
-   !> Bounds below this value count as zero [N/mm2]
+   !> Smaller bounds are treated as zero [N/mm2]
    real(wp), parameter :: no_bound = 1.0e-200_wp
 
    !> The element problem in the principal axes of the compliance
@@ -72,7 +70,7 @@ contains
       call find_traction(axes, g, 0.0_wp, p, found)
    end subroutine solve_element
 
-   !> The same for an element that may yield
+   !> Solve the problem of an element that may yield
    pure subroutine solve_yielding_element(c, s0, g, before, slope, lowest, p, point)
       !> Coefficients of the element on itself
       type(element_compliance), intent(in) :: c
@@ -80,7 +78,7 @@ contains
       real(wp), intent(in) :: s0(2)
       !> Traction bound and yield limit before the step [N/mm2]
       real(wp), intent(in) :: g, before
-      !> As in yield_data
+      !> Slope and lower limit as in yield_data
       real(wp), intent(in) :: slope, lowest
       !> Traction [N/mm2]
       real(wp), intent(out) :: p(2)
@@ -99,7 +97,7 @@ contains
       point%state = element%plastic
       call find_traction(axes, before, slope, p, found)
       if (slope > 0.0_wp .and. hypot(p(1), p(2)) > g) then
-         ! hardened up to the friction bound, the rest is slip
+         ! hardened up to the friction bound; the remainder is slip
          call find_traction(axes, g, 0.0_wp, p, found)
          point%state = element%slip
          point%limit = g
@@ -118,7 +116,7 @@ contains
       is_positive = c%xx > 0.0_wp .and. c%xx*c%yy - c%xy**2 > 0.0_wp
    end function is_positive
 
-   !> The traction that keeps the element from slipping [N/mm2]
+   !> Traction for which the element does not slip [N/mm2]
    pure function adhering(c, s0) result(p)
       type(element_compliance), intent(in) :: c
       real(wp), intent(in) :: s0(2)
@@ -145,29 +143,29 @@ contains
       axes%length = hypot(s0(1), s0(2))
    end function principal_axes
 
-   !> Traction with |p| = limit + slope*m, m = |S0 + C p|, where the adhering one is larger than the limit
+   !> Traction with |p| = limit + slope*m, m = |S0 + C p|, if that for adhesion exceeds the limit
    !>
-   !> m = sigma |p| and p = -(C + sigma)**-1 S0 make it 1/|p(sigma)| + slope/limit*sigma = 1/limit. The
-   !> left side is concave and too small at sigma = 0, so that Newton's method climbs monotonically
-   !> from any lower bound to the smallest root; without a root the slope vanishes on the way.
+   !> With m = sigma |p| and p = -(C + sigma)**-1 S0 the condition is 1/|p(sigma)| + slope/limit*sigma = 1/limit. The left-hand
+   !> side is concave and too small at sigma = 0, so that Newton's method increases monotonically from any lower bound to the
+   !> smallest root; if there is no root the derivative vanishes on the way.
    pure subroutine find_traction(axes, limit, slope, p, found)
       type(principal_problem), intent(in) :: axes
-      !> [N/mm2], above 0
+      !> Limit [N/mm2], above 0
       real(wp), intent(in) :: limit
-      !> [N/mm3]
+      !> Slope [N/mm3]
       real(wp), intent(in) :: slope
-      !> [N/mm2]
+      !> Traction [N/mm2]
       real(wp), intent(out) :: p(2)
       logical, intent(out) :: found
       real(wp) :: sigma, n, target, rise
       integer :: trial
       integer, parameter :: max_trials = 40
-      !> A traction that exceeds the limit by less than this part is on it: some roundings
+      !> A traction that exceeds the limit by less than this fraction is on it: some round-off errors
       real(wp), parameter :: on_bound = 1.0e-14_wp
 
       found = .false.
       sigma = 0.0_wp
-      ! |p| <= |S0|/(lambda + sigma) with the larger of the two lambda
+      ! |p| <= |S0|/(lambda + sigma) with the larger lambda
       rise = 1.0_wp + slope*axes%length/limit
       if (rise > 0.0_wp) sigma = max(0.0_wp, axes%length/limit - maxval(axes%lambda))/rise
       do trial = 1, max_trials
@@ -184,8 +182,8 @@ contains
       p = [axes%cosine*p(1) - axes%sine*p(2), axes%sine*p(1) + axes%cosine*p(2)]
    end subroutine find_traction
 
-   !> Move from the old traction part of the way to the new one: along the line in adhesion,
-   !> along the circle in slip. Admissible whenever the old traction is.
+   !> Move a fraction of the way from the old traction to the new one: along a straight line in adhesion, along the circle in
+   !> slip. Admissible if the old traction is.
    pure subroutine relax_element(old, g, omegah, omegas, state, p)
       !> Traction before the relaxation [N/mm2]
       real(wp), intent(in) :: old(2)

@@ -1,7 +1,7 @@
-!> Prescribed forces beyond friction: the whole contact slides, and the tractions are at their bounds
+!> Prescribed forces above the friction bound: the whole contact slides, and all tractions are at their bounds
 !>
-!> No creepage brings about more force than the sum of the bounds. Instead of a search that cannot end well, the
-!> creepages are put so far out that all elements slide in the direction that gives most of the force asked for.
+!> No creepage gives more force than the sum of the bounds. Instead of a search that cannot succeed, the creepages are set so
+!> large that all elements slide in the direction that gives most of the prescribed force.
 module contact_tangential_full_sliding
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
@@ -14,33 +14,33 @@ module contact_tangential_full_sliding
 
    public :: is_beyond_friction, slide_fully
 
-   !> Slip by creepages, as a multiple of what tractions and given rigid slip make together
+   !> Slip due to creepages, relative to that due to tractions and given rigid slip
    real(wp), parameter :: far_out = 100.0_wp
-   !> Passes for the directions of sliding
+   !> Number of passes for the directions of sliding
    integer, parameter :: passes = 3
 
 contains
 
-   !> Are more tangential forces prescribed than the traction bounds give?
+   !> Do the prescribed tangential forces exceed the traction bounds?
    pure logical function is_beyond_friction(problem) result(beyond)
       !> Traction bounds and prescribed forces
       type(tangential_problem), intent(in) :: problem
 
       beyond = .false.
-      ! limits that rise with the plastic displacement are not known beforehand
+      ! limits that increase with plastic displacement are not known in advance
       if (problem%n_forces == 0 .or. problem%hardens()) return
       beyond = norm2(problem%target(:problem%n_forces)) > (1.0_wp + problem%settings%eps)*sum(problem%bound, mask=problem%contact)
    end function is_beyond_friction
 
-   !> Tractions at the bounds, against slip in the direction of the forces
+   !> Set the tractions to their bounds, opposite to slip in the direction of the forces
    subroutine slide_fully(problem, operator, solution, report)
       !> Traction bounds and prescribed forces
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Solution on exit; what it holds on entry does not matter
+      !> On exit the solution; values on entry are ignored
       type(tangential_solution), intent(inout) :: solution
-      !> Gets ended, iterations, residual
+      !> Receives ended, iterations, residual
       type(solve_report), intent(inout) :: report
       real(wp) :: direction(2), slip, length
       integer :: ix, iy, k, products_before

@@ -1,12 +1,10 @@
 !> GDsteady: descent along weighted residuals in steady rolling, all products by transforms
 !>
-!> The residual of the unknowns that are left (slip in adhesion, its part along the tangent in
-!> slip) is taken as a change of the increments p(i) - p(i + 1), since in increments the
-!> operator is symmetric positive definite. Row by row, from the leading edge, increments
-!> become tractions that keep slip elements on their circles; a line search on the weighted
-!> residual follows. An experimental method of CONTACT (Vollebregt). Simplified: the weight of
-!> slip elements, the share of the angle between p and -S that one element removes by turning
-!> S, is taken in its limit for small angles, C_tt/(C_tt + sigma).
+!> The residual of the remaining unknowns (slip in adhesion, its tangential component in slip) is used as a change of the
+!> increments p(i) - p(i + 1), as the operator is symmetric positive definite for increments. Row by row from the leading edge,
+!> increments are converted to tractions that keep slip elements on their circles; a line search on the weighted residual
+!> follows. An experimental method of CONTACT (Vollebregt). Simplified: the weight of slip elements, the fraction of the angle
+!> between p and -S that one element removes by rotating S, is used in its limit for small angles, C_tt/(C_tt + sigma).
 module contact_tangential_gd_steady
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -22,37 +20,37 @@ module contact_tangential_gd_steady
    public :: gd_steady
 
    type :: projection_list
-      !> All of a change is carried downstream
+      !> The whole change is carried downstream
       integer :: trail = 1
-      !> A fraction of it
+      !> A fraction of the change is carried downstream
       integer :: keep = 2
-      !> It is taken back after some elements
+      !> The change is reversed after some elements
       integer :: down = 3
    end type projection_list
-   !> How increments of adhering elements become tractions
+   !> Conversion of increments of adhering elements to tractions
    type(projection_list), parameter :: projection = projection_list()
 
-   ! Tuning numbers as in CONTACT (Vollebregt), but where another origin is told
-   !> FDECAY above and below which all of a change is carried on, or taken back
+   ! tuning parameters as in CONTACT (Vollebregt), unless another origin is given
+   !> FDECAY above which the whole change is carried downstream, and below which none
    real(wp), parameter :: all_carried = 0.999_wp, none_carried = 0.001_wp
-   !> Iterations with the other projection after one with poor progress
+   !> Number of iterations with the other projection after one with poor progress
    integer, parameter :: iterations_down = 2
-   !> A weight is at most this multiple of the one downstream
+   !> Maximum ratio of a weight to the one downstream
    real(wp), parameter :: weight_growth = 50.0_wp
-   !> Changes of tractions in slip, as multiples of the bound, are at most this
+   !> Maximum change of tractions in slip, relative to the bound
    real(wp), parameter :: largest_turn = 1000.0_wp
-   !> First step of the line search relative to the estimate, and its relative tolerance
+   !> First step of the line search relative to the estimated one, and its relative tolerance
    real(wp), parameter :: first_share = 0.6_wp, line_tolerance = 1.0e-3_wp
    !> Limits of the estimated step; chosen
    real(wp), parameter :: smallest_step = 1.0e-3_wp, largest_step = 1.0e3_wp
-   !> Estimated step when the residual and its change have nothing in common; chosen
+   !> Estimated step if the residual and its change are orthogonal; chosen
    real(wp), parameter :: blind_step = 0.5_wp
-   !> Updates count as larger than they are where the residual falls by less than `slow` in an iteration: by slow over the
-   !> progress, and by `stuck_factor` where that is below `stuck`
+   !> If the residual decreases by less than `slow` per iteration, updates are regarded as larger by slow over the progress, and
+   !> by `stuck_factor` below `stuck`
    real(wp), parameter :: slow = 0.1_wp, stuck = 1.0e-3_wp, stuck_factor = 100.0_wp
-   !> Tolerance of the updates from then on, where they are small and the residual is not; chosen
+   !> Factor of the tolerance of the updates after they became small while the residual did not; chosen
    real(wp), parameter :: sharper = 0.3_wp
-   !> Iterations without a residual smaller than this part of the least one count as stagnation; chosen
+   !> Number of iterations without a residual below this fraction of the smallest one that is regarded as stagnation; chosen
    real(wp), parameter :: is_smaller = 0.999_wp
    integer, parameter :: patience = 30
 
@@ -62,16 +60,16 @@ module contact_tangential_gd_steady
       real(wp), allocatable, dimension(:, :, :) :: slip, r, v, q
       !> Weights of the residual, shape (mx, my)
       real(wp), allocatable :: weight(:, :)
-      !> Compliance of an element on itself, its change carried one element downstream [mm/(N/mm2)]
+      !> Compliance of an element on itself minus that carried one element downstream [mm/(N/mm2)]
       real(wp) :: own(2) = 1.0_wp
-      !> Member of projection; the fraction that is kept, the elements after which it is taken back
+      !> Member of projection; fraction carried downstream, number of elements after which it is reversed
       integer :: mode = 0, span = 1
       real(wp) :: fraction = 1.0_wp
-      !> Iterations left with the other projection
+      !> Number of remaining iterations with the other projection
       integer :: iterations_left = 0
-      !> By how much the last iteration lowered the residual, relative
+      !> Relative decrease of the residual in the last iteration
       real(wp) :: progress = 1.0_wp
-      !> Step of the iteration before
+      !> Step of the previous iteration
       real(wp) :: last_step = 0.0_wp
    contains
       procedure :: start
@@ -89,23 +87,24 @@ module contact_tangential_gd_steady
 
 contains
 
-   !> Iterate from given tractions; they stay admissible whatever happens
+   !> Iterate from given tractions; they remain admissible in all cases
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
       !> Rigid slip, bounds, number of iterations
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Tolerance of the updates, relative to the tractions [-]; the contact conditions end within that of the settings
+      !> Tolerance of the updates, relative to the tractions [-]; at the end the contact conditions hold within the tolerance of
+      !> the settings
       real(wp), intent(in) :: eps
       !> Creepages [-]
       real(wp), intent(in) :: creep(2)
-      !> Tractions [N/mm2], shape (mx, my, 2); admissible estimate on entry
+      !> Tractions [N/mm2], shape (mx, my, 2); on entry an admissible estimate
       real(wp), contiguous, intent(inout) :: p(:, :, :)
-      !> Element states, shape (mx, my); from the tractions on entry
+      !> Element states, shape (mx, my); on entry those of the tractions
       integer, contiguous, intent(inout) :: state(:, :)
-      !> Gets ended, iterations; stagnated asks for another method
+      !> Receives ended, iterations; "stagnated" requests another method
       type(solve_report), intent(inout) :: report
-      !> Takes a line per iteration from flow-trace level 5 on
+      !> Receives a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       type(descent) :: self
@@ -157,7 +156,7 @@ contains
          call watch%judge(sum(((p - before)*doubt(self%progress))**2), sum(p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "GDsteady", state)
          if (report%ended == ending%converged .and. moved) report%ended = ending%not_started
-         ! small updates are no small residual; whether forces are met is the caller's question
+         ! small updates do not imply a small residual; whether forces are met is checked by the caller
          if (report%ended == ending%converged) then
             if (contact_residual(problem, p, self%slip, scale) > problem%settings%eps) then
                report%ended = ending%not_started
@@ -172,7 +171,7 @@ contains
       end if
    end subroutine gd_steady
 
-   !> Factor of the updates where they are small because the method hardly moves
+   !> Factor of updates that are small because the method makes little progress
    pure real(wp) function doubt(progress)
       !> Relative decrease of the residual [-]
       real(wp), intent(in) :: progress
@@ -237,7 +236,7 @@ contains
       end associate
    end subroutine set_weights
 
-   !> First and last column from trailing to leading side
+   !> First and last column from the trailing to the leading side
    pure subroutine downstream_range(problem, i0, i1)
       type(tangential_problem), intent(in) :: problem
       integer, intent(out) :: i0, i1
@@ -245,7 +244,7 @@ contains
       i1 = problem%mx + 1 - i0
    end subroutine downstream_range
 
-   !> Slip in adhesion, its part along the tangent in slip, negative
+   !> Residual: minus the slip in adhesion, minus its tangential component in slip
    subroutine set_residual(self, problem, p, state)
       class(descent), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -263,7 +262,7 @@ contains
                   r(ix, iy, :) = -s(ix, iy, :)
                else if (state(ix, iy) == element%slip .and. problem%bound(ix, iy) > 0.0_wp) then
                   t = [-p(ix, iy, 2), p(ix, iy, 1)]/problem%bound(ix, iy)
-                  ! where slip and traction agree the element is about to adhere
+                  ! where slip and traction have the same direction the element is about to adhere
                   if (dot_product(p(ix, iy, :), s(ix, iy, :)) > 0.0_wp) then
                      r(ix, iy, :) = -s(ix, iy, :)
                   else
@@ -286,7 +285,7 @@ contains
       end do
    end function square
 
-   !> The projection asked for; for two iterations another one when progress was poor
+   !> Select the projection of the settings, or for two iterations another one after poor progress
    subroutine choose_projection(self, problem)
       class(descent), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -309,7 +308,7 @@ contains
       end associate
    end subroutine choose_projection
 
-   !> Changes of traction that follow from the residual as changes of increments
+   !> Convert the residual, as changes of increments, to changes of traction
    subroutine set_direction(self, problem, p, state)
       class(descent), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -359,7 +358,7 @@ contains
       end associate
    end subroutine set_direction
 
-   !> Search along the line; the step is kept in last_step
+   !> Line search; the step is stored in last_step
    subroutine find_step(self, p, state)
       class(descent), intent(inout) :: self
       !> Tractions [N/mm2] and element states
@@ -374,7 +373,7 @@ contains
       self%last_step = search%best
    end subroutine find_step
 
-   !> Length of the step that would be best without changes of direction and bound
+   !> Optimal step if directions and bounds were constant
    pure real(wp) function estimated_step(self) result(step)
       class(descent), intent(in) :: self
       real(wp) :: rq, qq
@@ -393,10 +392,10 @@ contains
       if (self%last_step > 0.0_wp) step = 0.5_wp*(step + self%last_step)
    end function estimated_step
 
-   !> Weighted residual after a step, slip continued linearly; the arrays are those of a descent
+   !> Weighted residual after a step, with slip extrapolated linearly; the arrays are those of a descent
    pure real(wp) function square_after(step, p, slip, v, q, weight, state) result(value)
       real(wp), intent(in) :: step
-      !> Tractions before the step [N/mm2], slip [mm], their changes by a step of 1
+      !> Tractions before the step [N/mm2], slip [mm], and their changes for a unit step
       real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :), v(:, :, :), q(:, :, :)
       real(wp), contiguous, intent(in) :: weight(:, :)
       integer, contiguous, intent(in) :: state(:, :)
@@ -444,7 +443,7 @@ contains
       end do
    end subroutine take_step
 
-   !> Adhesion to slip at the bound, slip to adhesion where slip and traction agree
+   !> Change adhesion to slip at the bound, slip to adhesion where slip and traction have the same direction
    subroutine move_elements(self, problem, p, state, any_moved)
       class(descent), intent(in) :: self
       type(tangential_problem), intent(in) :: problem
@@ -459,7 +458,7 @@ contains
          do ix = 1, problem%mx
             if (state(ix, iy) == element%adhesion) then
                if (hypot(p(ix, iy, 1), p(ix, iy, 2)) < at_bound*problem%bound(ix, iy)) cycle
-               ! at the bound with slip along the traction it comes back by itself
+               ! at the bound with slip in the direction of the traction it returns by itself
                if (dot_product(self%slip(ix, iy, :), p(ix, iy, :)) > 0.0_wp) cycle
                state(ix, iy) = element%slip
                any_moved = .true.

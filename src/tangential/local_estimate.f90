@@ -1,10 +1,8 @@
-!> First estimate of tractions by a local model
+!> Initial estimate of tractions by a local model
 !>
-!> As in Kalker's simplified theory (1973), displacements are taken for proportional to the
-!> tractions of the same place, u = L p. Without slip, tractions in steady rolling grow by -W/L from
-!> one element to the next, counted from the leading edge, and are clipped to the bound; in a shift every
-!> element is by itself. The flexibility L is what tractions in proportion to the bound have
-!> in the mean.
+!> As in Kalker's simplified theory (1973), displacements are assumed proportional to the local tractions, u = L p. Without
+!> slip, tractions in steady rolling increase by -W/L per element from the leading edge, and are limited by the bound; in a
+!> shift the elements are independent. The flexibility L is the mean of that for tractions proportional to the bound.
 module contact_tangential_local_estimate
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -18,17 +16,18 @@ contains
 
    !> Tractions for given creepages
    subroutine estimate_locally(problem, operator, p, scratch)
-      !> With friction in some element
+      !> Problem with friction in at least one element
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: p(:, :, :)
-      !> Of the same shape
+      !> Workspace, same shape
       real(wp), contiguous, intent(inout) :: scratch(:, :, :)
       real(wp) :: stiffness(2), q(2), length
       integer :: ix, iy, k
-      !> Tractions that grow up to the trailing edge displace less: force of full adhesion, measured
+      !> Tractions that increase up to the trailing edge cause smaller displacements: factor from the force of full adhesion,
+      !> measured
       real(wp), parameter :: growing = 2.0_wp
 
       do k = 1, 2

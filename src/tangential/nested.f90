@@ -1,8 +1,8 @@
-!> Newton-Krylov method inside nested iteration: coarse grids provide the first estimate
+!> Newton-Krylov method with nested iteration: coarse grids provide the initial estimate
 !>
-!> Every level halves the number of elements in the directions that are long enough. Bounds
-!> and rigid slip are averaged, tractions relative to the bound are interpolated bilinearly,
-!> extended over the edge by a few rings, and clipped to the discs.
+!> Each level has half the number of elements in the directions that are long enough. Bounds and rigid slip are averaged;
+!> tractions relative to the bound are interpolated bilinearly, extended beyond the edge by a few rings of elements, and limited
+!> to the discs.
 module contact_tangential_nested
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -21,7 +21,7 @@ module contact_tangential_nested
 
    public :: nested_workspace, release_nested, solve_newton_krylov, traction_adjoint, traction_derivative
 
-   !> Scratch of one level
+   !> Workspace of one level
    type :: level_type
       type(tangential_problem) :: problem
       type(tangential_solution) :: solution
@@ -32,33 +32,33 @@ module contact_tangential_nested
       logical, allocatable :: known(:, :), fresh(:, :)
    end type level_type
 
-   !> Scratch of all levels; level 1 is the finest and keeps only what the caller's does not
+   !> Workspace of all levels; level 1 is the finest and contains only what the caller does not provide
    type :: nested_workspace
       type(level_type), allocatable :: level(:)
    end type nested_workspace
 
-   !> Largest number of levels
+   !> Maximum number of levels
    integer, parameter :: levels = 12
-   !> Windows with fewer elements are solved directly
+   !> Windows with fewer elements are solved without coarser levels
    integer, parameter :: smallest = 900
-   !> Residual of the coarse levels
+   !> Tolerance of the coarse levels
    real(wp), parameter :: coarse_tolerance = 1.0e-2_wp
-   !> A better estimate than this is not replaced by one from coarse grids
+   !> An estimate better than this is not replaced by one from coarse grids
    real(wp), parameter :: good_estimate = 5.0e-2_wp
 
 contains
 
-   !> Solve a tangential problem by Newton-Krylov; nested iteration where that pays
+   !> Solve a tangential problem by Newton-Krylov, with nested iteration if this is faster
    subroutine solve_newton_krylov(problem, operator, workspace, solution, report, log)
-      !> Rigid slip, bounds, prescribed forces, tolerance; where it is of second order, its turns are renewed
+      !> Rigid slip, bounds, prescribed forces, tolerance; for the second-order scheme its turns are updated
       type(tangential_problem), intent(inout) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Coarser levels with their operators, and scratch, kept from call to call
+      !> Coarser levels with operators and workspace, kept from call to call
       type(nested_workspace), intent(inout) :: workspace
-      !> Estimate on entry (zero tractions when there is none)
+      !> Estimate on entry (zero tractions if there is none)
       type(tangential_solution), intent(inout) :: solution
-      !> How it ended, iterations, residual; transforms are added to those of before
+      !> Outcome, iterations, residual; transforms are added to the present count
       type(solve_report), intent(inout) :: report
       !> For the flow trace; absent: none
       type(log_type), intent(inout), optional :: log
@@ -74,7 +74,7 @@ contains
       if (operator%can_coarsen() .and. is_large(problem)) then
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
-         ! limits that are followed along rows need a start near the solution
+         ! limits that are followed along rows require an estimate near the solution
          if (residual > good_estimate .or. (problem%hardens() .and. .not. any(abs(solution%p) > 0.0_wp))) then
             call solve_coarse(problem, operator, workspace, 2, solution, log)
          end if
@@ -93,50 +93,50 @@ contains
       end do
    end subroutine solve_newton_krylov
 
-   !> Derivative of the tractions at a solution, whatever method found it; see newton_derivative
+   !> Derivative of the tractions at a solution found by any method; see newton_derivative
    subroutine traction_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
       !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Of the linear system, relative to its right-hand side [-]
+      !> Tolerance of the linear system, relative to its right-hand side [-]
       real(wp), intent(in) :: tolerance
-      !> That of the solution, or any other: only its scratch is used
+      !> Workspace of the solution or any other; its contents are overwritten
       type(nested_workspace), intent(inout) :: workspace
-      !> Where the derivative is taken
+      !> Solution at which the derivative is taken
       type(tangential_solution), intent(in) :: solution
-      !> Derivative of the rigid slip per step by a parameter, shape (mx, my, 2)
+      !> Derivative of the rigid slip per step with respect to a parameter, shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: shift(:, :, :)
-      !> Derivative of the traction bound by the same parameter, shape (mx, my)
+      !> Derivative of the traction bound with respect to the same parameter, shape (mx, my)
       real(wp), contiguous, intent(in) :: bound(:, :)
-      !> Derivative of the tractions by the parameter, shape (mx, my, 2)
+      !> Derivative of the tractions with respect to the parameter, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: derivative(:, :, :)
-      !> Relative residual of the linear system that was reached [-]
+      !> Relative residual of the linear system [-]
       real(wp), intent(out) :: reached
 
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
       call newton_derivative(problem, operator, tolerance, workspace%level(1)%newton, solution, shift, bound, derivative, reached)
    end subroutine traction_derivative
 
-   !> Derivatives of weighted sums of tractions at a solution, whatever method found it; see newton_adjoint
+   !> Derivatives of weighted sums of tractions at a solution found by any method; see newton_adjoint
    subroutine traction_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
       !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Of the linear systems, relative to their right-hand sides [-]
+      !> Tolerance of the linear systems, relative to their right-hand sides [-]
       real(wp), intent(in) :: tolerance
-      !> That of the solution, or any other: only its scratch is used
+      !> Workspace of the solution or any other; its contents are overwritten
       type(nested_workspace), intent(inout) :: workspace
-      !> Where the derivatives are taken
+      !> Solution at which the derivatives are taken
       type(tangential_solution), intent(in) :: solution
       !> Weights of the sums, shape (mx, my, 2, sums)
       real(wp), contiguous, intent(in) :: weight(:, :, :, :)
-      !> Derivatives to the slip per step, shape (mx, my, 2, sums)
+      !> Derivatives with respect to the slip per step, shape (mx, my, 2, sums)
       real(wp), contiguous, intent(inout) :: by_slip(:, :, :, :)
-      !> Derivatives to the traction bound, shape (mx, my, sums)
+      !> Derivatives with respect to the traction bound, shape (mx, my, sums)
       real(wp), contiguous, intent(inout) :: by_bound(:, :, :)
-      !> Largest relative residual that was reached [-]
+      !> Largest relative residual [-]
       real(wp), intent(out) :: reached
 
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
@@ -155,13 +155,13 @@ contains
       end do
    end subroutine release_nested
 
-   !> Do coarse grids pay?
+   !> Is nested iteration faster?
    pure logical function is_large(problem)
       type(tangential_problem), intent(in) :: problem
       is_large = problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side
    end function is_large
 
-   !> Estimate where there is none yet and creepages are given; with forces prescribed the method starts by itself
+   !> Initial estimate without an earlier one for given creepages; with prescribed forces the method provides its own
    subroutine estimate_from_nothing(problem, operator, solution)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -172,14 +172,14 @@ contains
       call estimate_locally(problem, operator, solution%p, solution%slip)
    end subroutine estimate_from_nothing
 
-   !> Estimate for a problem from the next coarser level
+   !> Estimate the solution from the next coarser level
    recursive subroutine solve_coarse(fine, fine_operator, workspace, k, solution, log)
       type(tangential_problem), intent(in) :: fine
       class(compliance), intent(in) :: fine_operator
       type(nested_workspace), intent(inout) :: workspace
-      !> Number of the coarse level
+      !> Index of the coarse level
       integer, intent(in) :: k
-      !> Solution of the fine problem to be estimated
+      !> Solution of the fine problem, receives the estimate
       type(tangential_solution), intent(inout) :: solution
       type(log_type), intent(inout), optional :: log
       type(newton_outcome) :: outcome
@@ -196,13 +196,13 @@ contains
             & call solve_coarse(level%problem, level%operator, workspace, k + 1, level%solution, log)
          call estimate_from_nothing(level%problem, level%operator, level%solution)
          call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome, log)
-         ! a coarse solution without success is an estimate all the same: it lies inside the discs
+         ! even an unconverged coarse solution is a useful estimate: it is inside the discs
          if (outcome%ended == ending%diverged) return
          call prolong(level, fine, solution)
       end associate
    end subroutine solve_coarse
 
-   !> The same contact with half as many elements
+   !> The same contact with half as many elements per direction
    subroutine coarsen(fine, coarse)
       type(tangential_problem), intent(in) :: fine
       type(tangential_problem), intent(inout) :: coarse
@@ -254,7 +254,7 @@ contains
 
    contains
 
-      !> Mean shares of the step
+      !> Average the fractions of the step
       subroutine coarsen_share()
          integer :: last_x, last_y
 
@@ -269,7 +269,7 @@ contains
          end do
       end subroutine coarsen_share
 
-      !> Mean yield limits; plastic displacements do not depend on the size of the elements
+      !> Average the yield limits; plastic displacements do not depend on the element size
       subroutine coarsen_limits()
          allocate(coarse%yield)
          coarse%yield%slope = fine%yield%slope
@@ -330,7 +330,7 @@ contains
       solution%creep = level%solution%creep
    end subroutine prolong
 
-   !> One ring of elements around the known ones gets the mean of its known neighbours
+   !> Extend the known elements by one ring, with the mean of the known neighbours
    subroutine extend(level)
       type(level_type), intent(inout) :: level
       integer :: ix, iy, jx, jy, n

@@ -1,9 +1,9 @@
 !> Semismooth Newton-Krylov method for friction on a given contact area
 !>
-!> Solves  p - P_g(p - r S(p)) = 0  (see contact_tangential_problem), with prescribed forces as
-!> one or two more unknowns, the creepages. After Alart and Curnier (1991) and Hueeber, Stadler
-!> and Wohlmuth (2008) for the formulation; Eisenstat and Walker (1996) for the accuracy of the
-!> inner iteration. The Jacobian is `newton_jacobian`, the linear systems are `newton_linear`; here are the steps.
+!> Solves p - P_g(p - r S(p)) = 0 (see contact_tangential_problem); with prescribed forces the creepages are one or two
+!> additional unknowns. After Alart and Curnier (1991) and Hueeber, Stadler and Wohlmuth (2008) for the formulation, and
+!> Eisenstat and Walker (1996) for the accuracy of the inner iteration. The Jacobian is in `newton_jacobian`, the linear systems
+!> in `newton_linear`, the steps are here.
 module contact_tangential_newton
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -20,55 +20,55 @@ module contact_tangential_newton
 
    public :: newton_workspace, newton_outcome, newton_derivative, newton_solve
 
-   !> How a solve ended
+   !> Outcome of a solve
    type :: newton_outcome
       !> Member of ending
       integer :: ended = ending%not_started
-      !> Newton steps and applications of the preconditioner
+      !> Numbers of Newton steps and of applications of the preconditioner
       integer :: steps = 0, preconditionings = 0
       !> True residual on exit
       real(wp) :: residual = 0.0_wp
    end type newton_outcome
 
-   !> Newton steps; chosen
+   !> Maximum number of Newton steps; chosen
    integer, parameter :: max_steps = 60
-   !> The method gives up when the residual has not fallen to this part in that many steps; chosen
+   !> The method stops if the residual has not decreased to this fraction within this number of steps; chosen
    real(wp), parameter :: halved = 0.5_wp
    integer, parameter :: patience = 8
-   !> Accuracy of the linear systems: the largest, and factor and power of the ratio of residuals of Eisenstat and Walker
-   !> (1996), whose power is (1 + sqrt(5))/2
+   !> Tolerance of the linear systems: maximum, and factor and exponent of the ratio of residuals of Eisenstat and Walker
+   !> (1996), whose exponent is (1 + sqrt(5))/2
    real(wp), parameter :: rough = 0.2_wp, forcing_factor = 0.5_wp, forcing_power = 1.5_wp
-   !> No more accuracy than this part of the tolerance needs, but at least the other; chosen
+   !> Lower limits of that tolerance: this fraction of the tolerance of the problem, but not below the other value; chosen
    real(wp), parameter :: enough = 0.3_wp, min_accuracy = 0.1_wp
-   !> Lengths of steps that are tried in turn; the first that lowers the residual by this part of its length is taken; chosen
+   !> Step lengths tried in turn; the first that decreases the residual by this fraction of its length is accepted; chosen
    real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
    real(wp), parameter :: decrease = 0.1_wp
-   !> Largest change of creepages at first, as a part of the slip that full sliding brings about, and its growth after a step
-   !> that was cut short and did well; see doc/theory/solvers.md
+   !> Initial limit of the change of creepages, relative to the slip that full sliding causes, and its growth after a limited
+   !> step that succeeded; see doc/theory/solvers.md
    real(wp), parameter :: first_range = 0.2_wp, range_growth = 3.0_wp
-   !> Slip is turned from that residual on, or after so many steps; measured
+   !> Residual below which slip is turned, or number of steps after which it is; measured
    real(wp), parameter :: turn_below = 0.03_wp
    integer, parameter :: late = 12
-   !> Least weight of an element in the mean slip, relative to its bound; chosen
+   !> Minimum weight of an element in the mean slip, relative to its bound; chosen
    real(wp), parameter :: min_weight = 1.0e-3_wp
 
 contains
 
    !> Improve a solution until the true residual is below a tolerance
    subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome, log)
-      !> Rigid slip, bounds, prescribed forces, limits of the iteration; where it is of second order, its turns are renewed
+      !> Rigid slip, bounds, prescribed forces, limits of the iteration; for the second-order scheme its turns are updated
       type(tangential_problem), intent(inout) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> On the true residual [-]
+      !> Tolerance of the true residual [-]
       real(wp), intent(in) :: tolerance
-      !> Scratch of the size of the window, fitted here
+      !> Workspace of the size of the window, allocated here
       type(newton_workspace), intent(inout) :: workspace
-      !> Tractions inside the discs and creepages to start from
+      !> Initial creepages, and tractions inside the discs
       type(tangential_solution), intent(inout) :: solution
-      !> How it ended, steps, residual
+      !> Outcome, steps, residual
       type(newton_outcome), intent(out) :: outcome
-      !> Gets a line per step from flow-trace level 5 on; absent: no trace
+      !> Receives a line per step from flow-trace level 5 on; absent: no trace
       type(log_type), intent(inout), optional :: log
       type(linear_system) :: system
       real(wp) :: residual, previous, forcing, history(0:max_steps), best, creep_range, correction(2), unbalance(2)
@@ -81,7 +81,7 @@ contains
       system = new_system(problem, operator)
       system%n_forces = problem%n_forces
       if (system%g_norm <= 0.0_wp) then
-         ! no friction at all
+         ! no friction in any element
          solution%p = 0.0_wp
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
@@ -92,7 +92,7 @@ contains
 
       creep_range = huge(creep_range)
       if (problem%n_forces > 0) then
-         ! slip that full sliding in one direction would bring about
+         ! slip caused by full sliding in one direction
          workspace%trial(:, :, 1) = problem%bound
          workspace%trial(:, :, 2) = 0.0_wp
          call apply_operator(problem, operator, workspace%trial, workspace%trial_slip)
@@ -126,7 +126,7 @@ contains
          do k = 1, problem%n_forces
             unbalance(k) = (sum(solution%p(:, :, k)) - problem%target(k))/system%g_sum
          end do
-         ! no more accuracy than the next residual can make use of
+         ! no more accuracy than the next residual can benefit from
          forcing = min(rough, forcing_factor*(residual/max(previous, residual))**forcing_power)
          forcing = max(forcing, min(min_accuracy, enough*tolerance/residual))
          if (step == 0) forcing = rough
@@ -143,14 +143,14 @@ contains
       call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
    end subroutine newton_solve
 
-   !> Is the iteration over before the next step, and how?
+   !> Decide whether the iteration ends before the next step, and how
    subroutine judge(problem, step, since, history, tolerance, ended)
       type(tangential_problem), intent(in) :: problem
-      !> Steps so far, and those before the equations changed last
+      !> Number of steps so far, and number of steps at the last change of the equations
       integer, intent(in) :: step, since
       !> Residuals after 0 to `step` steps, and the tolerance [-]
       real(wp), intent(in) :: history(0:), tolerance
-      !> Member of ending; not_started when the iteration goes on
+      !> Member of ending; not_started if the iteration continues
       integer, intent(out) :: ended
 
       ended = ending%not_started
@@ -169,7 +169,7 @@ contains
       end associate
    end subroutine judge
 
-   !> Go along the correction, in shorter steps until the residual falls enough; the best of them is taken
+   !> Step along the correction, with shorter steps until the residual decreases sufficiently; the best step is used
    subroutine take_step(problem, operator, system, correction, residual, creep_range, workspace, solution, best)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -178,12 +178,12 @@ contains
       real(wp), intent(in) :: correction(2)
       !> Residual before the step [-]
       real(wp), intent(in) :: residual
-      !> Largest change of the creepages [-]; may grow
+      !> Limit of the change of the creepages [-]; may increase
       real(wp), intent(inout) :: creep_range
       type(newton_workspace), intent(inout) :: workspace
-      !> Unchanged when no step is possible
+      !> Unchanged if no step is possible
       type(tangential_solution), intent(inout) :: solution
-      !> Residual after the step [-]; huge when no step is possible
+      !> Residual after the step [-]; huge if no step is possible
       real(wp), intent(out) :: best
       real(wp) :: alpha, longest, trial, creep(2), best_creep(2)
       integer :: attempt
@@ -199,7 +199,7 @@ contains
          creep = solution%creep + alpha*correction
          call slip_of(problem, operator, workspace%trial, creep, workspace%trial_slip)
          trial = true_residual(problem, workspace%trial, workspace%trial_slip, system%r)
-         ! in full sliding the force no longer depends on the creepage: no place to continue from
+         ! in full sliding the force does not depend on the creepage: not a point to continue from
          if (slides_too_far(problem, system, workspace)) cycle
          if (trial < best) then
             best = trial
@@ -209,7 +209,7 @@ contains
          end if
          if (trial < residual*(1.0_wp - decrease*alpha)) exit
       end do
-      ! a step that was cut short and still did well: the next one may go farther
+      ! a limited step that succeeded: the next one may be longer
       if (longest < 1.0_wp .and. attempt == 1) creep_range = range_growth*creep_range
       if (.not. best < huge(best)) return
       solution%p = workspace%residual
@@ -217,27 +217,27 @@ contains
       solution%creep = best_creep
    end subroutine take_step
 
-   !> Derivative of the tractions at a solution, while rigid slip and bounds change and creepages do not
+   !> Derivative of the tractions at a solution with respect to rigid slip and bounds, for constant creepages
    !>
-   !> One more system with the Jacobian of the method: J dp = -r D dS + n dg in slip, where n is the direction
-   !> of the tractions. In adhesion the bound has no influence. Where an element is about to
-   !> change between adhesion and slip, it is the derivative to the side on which the element is.
+   !> Requires one more system with the Jacobian of the method: J dp = -r D dS + n dg in slip, with n the direction of the
+   !> tractions. In adhesion the bound has no influence. For an element at the transition between adhesion and slip it is the
+   !> one-sided derivative for its present state.
    subroutine newton_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
       !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Relative to the right-hand side
+      !> Tolerance relative to the right-hand side
       real(wp), intent(in) :: tolerance
-      !> Scratch of the size of the window, fitted here
+      !> Workspace of the size of the window, allocated here
       type(newton_workspace), intent(inout) :: workspace
-      !> Where the derivative is taken
+      !> Solution at which the derivative is taken
       type(tangential_solution), intent(in) :: solution
       !> Derivatives of the rigid slip per step, shape (mx, my, 2), and of the bound, shape (mx, my)
       real(wp), contiguous, intent(in) :: shift(:, :, :), bound(:, :)
       !> Derivative of the tractions, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: derivative(:, :, :)
-      !> Relative residual that was reached
+      !> Relative residual
       real(wp), intent(out) :: reached
       type(linear_system) :: system
       type(tangential_solution) :: at
@@ -249,7 +249,7 @@ contains
       if (.not. any(problem%bound > 0.0_wp)) return
       call fit_workspace(workspace, problem%mx, problem%my)
       system = new_system(problem, operator)
-      ! the slip of a settled solution has no plastic part
+      ! after `settle` the slip contains no plastic part
       at = solution
       call slip_of(problem, operator, at%p, at%creep, at%slip)
       call linearise(problem, system, at, workspace)
@@ -271,11 +271,11 @@ contains
       derivative = workspace%step
    end subroutine newton_derivative
 
-   !> Slip and residual of the estimate, with creepages that suit its tractions
+   !> Slip and residual of the estimate, with creepages that match its tractions
    !>
-   !> With prescribed forces and no tractions yet, they start as the same share of the bound
-   !> everywhere, which has the right total. Creepages that cancel the mean slip of the elements
-   !> far from their bound replace the given ones when the residual gets smaller by it.
+   !> With prescribed forces and no tractions yet, tractions start as a constant fraction of the bound, with the right total.
+   !> Creepages that cancel the mean slip of the elements far below their bound replace the given ones if this reduces the
+   !> residual.
    subroutine start_values(problem, operator, system, solution, workspace, residual)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -321,15 +321,15 @@ contains
 
    !> Does the whole contact area slide in one direction, with more force than prescribed?
    !>
-   !> Where all elements slide the same way the force is at its limit and no longer depends on the
-   !> creepages. Sliding with spin or lateral motion is another thing: there the force does change.
+   !> If all elements slide in the same direction the force is at its limit and does not depend on the creepages. With spin or
+   !> lateral motion it does.
    pure logical function slides_too_far(problem, system, workspace)
       type(tangential_problem), intent(in) :: problem
       type(linear_system), intent(in) :: system
       type(newton_workspace), intent(in) :: workspace
       integer :: ix, iy, k
       real(wp) :: force, target
-      !> Distance to the limit, relative to that of the target, below which the force counts as constant
+      !> Distance from the limit, relative to that of the target, below which the force is regarded as constant
       real(wp), parameter :: near_limit = 0.05_wp
 
       slides_too_far = .false.
@@ -351,7 +351,7 @@ contains
       slides_too_far = .true.
    end function slides_too_far
 
-   !> One line of the flow trace about a Newton step
+   !> Write a line of the flow trace for a Newton step
    subroutine trace_step(problem, step, residual, solution, log)
       type(tangential_problem), intent(in) :: problem
       integer, intent(in) :: step

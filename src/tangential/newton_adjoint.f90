@@ -1,14 +1,14 @@
-!> What the tangential forces owe to slip and bound of each element: the adjoint of Newton's linear system
+!> Derivatives of the tangential forces with respect to slip and bound of each element: the adjoint of Newton's linear system
 !>
-!> Tractions fulfil J dp = -r D dS + n dg (see `newton_derivative`). A force c'p changes by l'(-r D dS + n dg) with J'l = c:
-!> one system for each force, whatever number of inputs follows. The transposed convolution B' is B between fields that are
-!> turned by half a turn; with the same turn of D,
+!> Tractions satisfy J dp = -r D dS + n dg (see `newton_derivative`). A force c'p changes by l'(-r D dS + n dg) with J'l = c:
+!> one system per force, regardless of the number of inputs. The transposed convolution B' is B for fields rotated by 180
+!> degrees; with the same rotation of D,
 !>
 !>    l = c + (1 - r B) e,   (1 - D (1 - r B)) e = D c,   D l = e,
 !>
-!> so that the preconditioner is that of the method itself. With slip that is turned (`contact_tangential_slip_turns`) B T' takes
-!> the place of B, T the derivative of the acting slip, of the turned contact as well. Search directions of one force serve
-!> the next ones.
+!> so that the preconditioner is that of the method itself. With turned slip (`contact_tangential_slip_turns`) B T' replaces B,
+!> where T is the derivative of the acting slip, also for the rotated contact. Search directions of one force are reused for the
+!> next ones.
 module contact_tangential_newton_adjoint
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -21,47 +21,48 @@ module contact_tangential_newton_adjoint
 
    public :: newton_adjoint
 
-   !> Most products for one force
+   !> Maximum number of products per force
    integer, parameter :: most_products = 120
 
    !> Search directions and their images, J Z = Q R with orthonormal Q, all in the range of D
    type :: search_space
-      !> Unknowns, and directions in use
+      !> Number of unknowns, and number of directions in use
       integer :: n = 0, used = 0
       !> Column, row and component of each unknown, shape (3, n), and its direction, shape (2, n)
       integer, allocatable :: place(:, :)
       real(wp), allocatable :: along(:, :)
       !> Z and Q, shape (n, restart)
       real(wp), allocatable :: z(:, :), q(:, :)
-      !> What is left of the right-hand side, and the solution
+      !> Remainder of the right-hand side, and the solution
       real(wp), allocatable :: left(:), x(:)
-      !> The triangle R
+      !> Triangular factor R
       real(wp) :: r(restart, restart) = 0.0_wp
    end type search_space
 
 contains
 
-   !> Derivatives of weighted sums of tractions to the rigid slip and the bound of each element, at a solution
+   !> Derivatives of weighted sums of tractions with respect to the rigid slip and the bound of each element, at a solution
    !>
-   !> Prescribed forces and yield limits with a slope have other systems and must not be asked for.
+   !> Not for prescribed forces and yield limits with a slope, which have other systems.
    subroutine newton_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
-      !> The problem that was solved, with given creepages
+      !> Problem that was solved, with given creepages
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem; the same for all elements, without memory
       class(compliance), intent(inout) :: operator
-      !> Of the linear systems, relative to their right-hand sides [-]
+      !> Tolerance of the linear systems, relative to their right-hand sides [-]
       real(wp), intent(in) :: tolerance
-      !> Scratch of the size of the window, fitted here
+      !> Workspace of the size of the window, allocated here
       type(newton_workspace), intent(inout) :: workspace
-      !> Where the derivatives are taken
+      !> Solution at which the derivatives are taken
       type(tangential_solution), intent(in) :: solution
       !> Weights c of the sums, shape (mx, my, 2, sums)
       real(wp), contiguous, intent(in) :: weight(:, :, :, :)
-      !> Derivatives of the sums to the slip per step, unit of the weights times (N/mm2)/mm, shape (mx, my, 2, sums)
+      !> Derivatives of the sums with respect to the slip per step, unit of the weights times (N/mm2)/mm, shape (mx, my, 2,
+      !> sums)
       real(wp), contiguous, intent(inout) :: by_slip(:, :, :, :)
-      !> To the traction bound, unit of the weights, shape (mx, my, sums)
+      !> Derivatives with respect to the traction bound, unit of the weights, shape (mx, my, sums)
       real(wp), contiguous, intent(inout) :: by_bound(:, :, :)
-      !> Largest relative residual that was reached
+      !> Largest relative residual
       real(wp), intent(out) :: reached
       type(linear_system) :: system
       type(search_space) :: space
@@ -96,7 +97,7 @@ contains
          call apply_d(workspace, workspace%residual)
          call solve(turned, operator, system, workspace, space, tolerance, left)
          reached = max(reached, left)
-         ! l = c + e - r B e, turned back
+         ! l = c + e - r B e, rotated back
          call weighted_responses(turned, operator, system, workspace, workspace%step)
          by_slip(:, :, :, j) = -system%r*workspace%trial_slip(mx:1:-1, my:1:-1, :)
          by_bound(:, :, j) = sum((weight(:, :, :, j) + workspace%trial(mx:1:-1, my:1:-1, :))*direction, dim=3)
@@ -105,7 +106,7 @@ contains
 
    !> trial_slip := T' e, trial := e - r B T' e
    subroutine weighted_responses(problem, operator, system, workspace, e)
-      !> Turned by half a turn
+      !> Rotated by 180 degrees
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
@@ -119,7 +120,7 @@ contains
       workspace%trial = e - system%r*workspace%trial
    end subroutine weighted_responses
 
-   !> The unknowns of the systems: both components in adhesion, that across the traction in slip
+   !> Number the unknowns of the systems: both components in adhesion, the component perpendicular to the traction in slip
    subroutine number_unknowns(workspace, space)
       !> Weights and directions
       type(newton_workspace), intent(in) :: workspace
@@ -152,7 +153,7 @@ contains
       allocate(space%q(n, restart), space%z(n, restart), space%left(n), space%x(n))
    end subroutine number_unknowns
 
-   !> The unknowns in a field
+   !> Extract the unknowns from a field
    pure subroutine gather(space, field, v)
       type(search_space), intent(in) :: space
       !> Shape (mx, my, 2)
@@ -167,7 +168,7 @@ contains
       end do
    end subroutine gather
 
-   !> A field from its unknowns
+   !> Set a field from its unknowns
    pure subroutine spread_out(space, v, field)
       type(search_space), intent(in) :: space
       real(wp), contiguous, intent(in) :: v(:)
@@ -183,13 +184,13 @@ contains
       end do
    end subroutine spread_out
 
-   !> Take the parts along orthonormal vectors off a vector, four at a time
+   !> Remove the components along orthonormal vectors from a vector, four at a time
    pure subroutine project(q, k, v, share)
-      !> Its first k columns
+      !> The first k columns are used
       real(wp), contiguous, intent(in) :: q(:, :)
       integer, intent(in) :: k
       real(wp), contiguous, intent(inout) :: v(:)
-      !> The parts
+      !> Components along the columns
       real(wp), contiguous, intent(inout) :: share(:)
       real(wp) :: h(4)
       integer :: i, j
@@ -213,12 +214,12 @@ contains
       end do
    end subroutine project
 
-   !> Solve J step = residual by minimal residuals over directions that are kept from system to system
+   !> Solve J step = residual by minimal residuals, reusing the directions of earlier systems
    subroutine solve(problem, operator, system, workspace, space, tolerance, reached)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
-      !> The right-hand side in `residual`, which is overwritten, the solution in `step`
+      !> Right-hand side in `residual`, which is overwritten; solution in `step`
       type(newton_workspace), intent(inout) :: workspace
       type(search_space), intent(inout) :: space
       real(wp), intent(in) :: tolerance

@@ -1,9 +1,8 @@
 !> Linearised contact conditions: the derivative D of the projection or of the return map, and the Jacobian
 !>
-!> In an element D is the derivative of the projection: the identity where |z| <= g, z = p - r S, and
-!> (g/|z|)(1 - n n'), n = z/|z|, elsewhere; the Jacobian is J dp = dp - D(dp - r B dp). Where the yield limit has a slope,
-!> the return map takes the place of the projection: D gets a radial part, and in steady rolling the limit carries changes
-!> downstream along each row.
+!> In an element D is the derivative of the projection: the identity if |z| <= g, z = p - r S, and (g/|z|)(1 - n n'), n = z/|z|,
+!> otherwise; the Jacobian is J dp = dp - D(dp - r B dp). If the yield limit has a slope, the return map replaces the
+!> projection: D has a radial part, and in steady rolling the limit carries changes downstream along each row.
 module contact_tangential_newton_jacobian
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -19,36 +18,36 @@ module contact_tangential_newton_jacobian
    public :: apply_d, apply_jacobian, add_radial, differentiate_return_map, fit_workspace, linear_system, linearise, &
       & most_pieces, new_system, newton_workspace, restart
 
-   !> Largest Krylov space between restarts; chosen
+   !> Maximum dimension of the Krylov space before a restart; chosen
    integer, parameter :: restart = 40
-   !> Pieces of vectors in orthogonalisation at most; chosen
+   !> Maximum number of pieces of vectors in the orthogonalisation; chosen
    integer, parameter :: most_pieces = 64
 
-   !> Scratch of one window size; no meaning between calls
+   !> Workspace for one window size, without meaning between calls
    type :: newton_workspace
       integer :: mx = 0, my = 0
-      !> Krylov basis and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
+      !> Krylov basis, and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
       real(wp), allocatable :: basis(:, :), preconditioned(:, :)
       !> The Jacobian in that basis, shape (restart + 1, restart), and sums over pieces of vectors, shape (restart + 1,
-      !> most_pieces): stacks may be small
+      !> most_pieces); allocated, as stacks may be small
       real(wp), allocatable :: hessenberg(:, :), part(:, :)
-      !> Solution, right-hand side and scratch of the linear system, shape (2 mx my + 2)
+      !> Solution, right-hand side and workspace of the linear system, shape (2 mx my + 2)
       real(wp), allocatable :: x(:), b(:), work(:)
       !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
       real(wp), allocatable :: weight(:, :), direction(:, :, :)
-      !> Trial tractions and slip, residual, and two scratch fields
+      !> Trial tractions and slip, residual, and two fields of workspace
       real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), step(:, :, :), best_slip(:, :, :)
       !> Border columns after preconditioning
       real(wp), allocatable :: border(:, :, :, :)
-      !> Linearised return map, shape (mx, my); unallocated where the yield limit has no slope
+      !> Linearised return map, shape (mx, my); unallocated if the yield limit has no slope
       type(yield_point), allocatable :: point(:, :)
-      !> Linearised turns of the slip, where the scheme is of second order
+      !> Linearised turns of the slip, for the second-order scheme
       type(slip_turns) :: turns
    end type newton_workspace
 
-   !> One linearised system with its scales
+   !> A linearised system with its scales
    type :: linear_system
-      !> Unknown creepages
+      !> Number of unknown creepages
       integer :: n_forces = 0
       !> Number of traction unknowns
       integer :: n = 0
@@ -62,11 +61,11 @@ module contact_tangential_newton_jacobian
 
 contains
 
-   !> Scales of a problem; those of the creepages and the Schur complement are left to the caller
+   !> Scales of a problem; those of the creepages and the Schur complement are set by the caller
    type(linear_system) function new_system(problem, operator) result(system)
-      !> Its size, forces and bounds give the scales
+      !> Problem whose size, forces and bounds determine the scales
       type(tangential_problem), intent(in) :: problem
-      !> Its diagonal coefficients give the scale of the slip
+      !> Operator whose diagonal coefficients determine the scale of the slip
       class(compliance), intent(in) :: operator
 
       system%n = 2*problem%mx*problem%my
@@ -75,9 +74,9 @@ contains
       system%g_sum = sum(problem%bound)
    end function new_system
 
-   !> Allocate scratch for a window; keeps it when the size is the same
+   !> Allocate workspace for a window; kept if the size is unchanged
    subroutine fit_workspace(workspace, mx, my)
-      !> Scratch that gets its arrays
+      !> Receives its arrays
       type(newton_workspace), intent(inout) :: workspace
       !> Size of the window in elements
       integer, intent(in) :: mx, my
@@ -88,7 +87,7 @@ contains
          deallocate(workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
          deallocate(workspace%residual, workspace%step, workspace%best_slip, workspace%border)
       end if
-      ! memory is touched when a vector is first used
+      ! memory is touched only when a vector is first used
       allocate(workspace%basis(2*mx*my + 2, restart + 1), workspace%preconditioned(2*mx*my + 2, restart))
       if (.not. allocated(workspace%hessenberg)) &
          & allocate(workspace%hessenberg(restart + 1, restart), workspace%part(restart + 1, most_pieces))
@@ -101,15 +100,15 @@ contains
       workspace%my = my
    end subroutine fit_workspace
 
-   !> Weights and directions of D, and the residual field, at the present tractions
+   !> Weights and directions of D, and the residual field, at the current tractions
    subroutine linearise(problem, system, solution, workspace)
-      !> Bounds, yield data, and the elements that count
+      !> Bounds, yield data, and elements in contact
       type(tangential_problem), intent(in) :: problem
       !> Scale of the slip, and those of tractions and creepages
       type(linear_system), intent(in) :: system
       !> Tractions and slip at which the derivatives are taken
       type(tangential_solution), intent(in) :: solution
-      !> Gets weights, directions and the residual field
+      !> Receives weights, directions and the residual field
       type(newton_workspace), intent(inout) :: workspace
 
       if (allocated(workspace%point)) deallocate(workspace%point)
@@ -127,7 +126,7 @@ contains
          & workspace%weight, workspace%direction, workspace%residual)
    end subroutine linearise
 
-   !> The same where the yield limit has a slope
+   !> The same if the yield limit has a slope
    subroutine linearise_return_map(problem, system, solution, workspace)
       type(tangential_problem), intent(in) :: problem
       type(linear_system), intent(in) :: system
@@ -162,13 +161,13 @@ contains
       end do
    end subroutine linearise_return_map
 
-   !> v := v + n radial n.w, what the derivative of the return map has along n
+   !> v := v + n radial n.w, the radial part of the derivative of the return map
    subroutine add_radial(workspace, w, v)
       !> Radial parts n, from `linearise`
       type(newton_workspace), intent(in) :: workspace
       !> Field whose part along n is taken, shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: w(:, :, :)
-      !> Field that the part is added to, shape (mx, my, 2)
+      !> Field to which the part is added, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
       integer :: ix, iy
       real(wp) :: c
@@ -181,7 +180,7 @@ contains
       end do
    end subroutine add_radial
 
-   !> Change of the returned tractions by changes of z = p - r S, and of the bound
+   !> Change of the returned tractions due to changes of z = p - r S and of the bound
    !>
    !> In steady rolling the changes of the yield limits are carried downstream.
    subroutine differentiate_return_map(problem, workspace, z, out, bound)
@@ -213,7 +212,7 @@ contains
                   & + (point%radius_by_length*c + point%radius_by_limit*limit + g)*n
                if (problem%steady) then
                   limit = point%limit_by_length*c + point%limit_by_limit*limit
-                  ! the limit has risen to the bound
+                  ! the limit has increased to the bound
                   if (point%plastic > 0.0_wp) limit = limit + g
                end if
             end associate
@@ -236,17 +235,17 @@ contains
 
    !> out := J y, y = (tractions, creepages), both scaled
    subroutine apply_jacobian(problem, operator, system, workspace, y, out)
-      !> The problem that is solved
+      !> Problem to solve
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Scales of tractions, slip and creepages
       type(linear_system), intent(in) :: system
-      !> Weights and directions, from `linearise`; its scratch is overwritten
+      !> Weights and directions, from `linearise`; its workspace is overwritten
       type(newton_workspace), intent(inout) :: workspace
-      !> Scaled tractions, then the scaled creepages that are unknown; shape (2 mx my + n_forces)
+      !> Scaled tractions, then scaled unknown creepages; shape (2 mx my + n_forces)
       real(wp), contiguous, target, intent(in) :: y(:)
-      !> Of the same shape: scaled residuals of the contact conditions, then of the forces
+      !> Scaled residuals of the contact conditions, then of the forces; same shape
       real(wp), contiguous, target, intent(out) :: out(:)
       real(wp), pointer, contiguous :: dp(:, :, :), res(:, :, :)
       real(wp) :: creep(2)

@@ -1,7 +1,7 @@
 !> The linear system of a Newton step: restarted GMRES with a preconditioner and a border for prescribed forces
 !>
-!> Directions in the range of D are preconditioned by the inverse of the circulant that belongs to B, the others are left
-!> alone; border rows by block elimination, see doc/theory/solvers.md.
+!> Directions in the range of D are preconditioned by the inverse of the circulant of B, the others are unchanged; border rows
+!> by block elimination, see doc/theory/solvers.md.
 module contact_tangential_newton_linear
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -15,38 +15,38 @@ module contact_tangential_newton_linear
 
    public :: precondition_field, solve_linear
 
-   !> Restarts; chosen
+   !> Maximum number of restarts; chosen
    integer, parameter :: max_cycles = 4
-   !> A vector that orthogonalisation shortens to less than this part is orthogonalised again; chosen
+   !> A vector that orthogonalisation reduces to less than this fraction of its length is orthogonalised again; chosen
    real(wp), parameter :: shortened = 0.1_wp
-   !> Length of a piece of a vector in orthogonalisation at least, and of vectors that are worth threads; chosen
+   !> Minimum length of a piece of a vector in the orthogonalisation, and minimum vector length for using threads; chosen
    integer, parameter :: least_piece = 1024, worth_threads = 40000
-   !> Schur complements count as singular below this, absolute for one force, relative for two; round-off
+   !> Limits below which Schur complements are regarded as singular, absolute for one force, relative for two; round-off
    real(wp), parameter :: singular_one = 1.0e-12_wp, singular_two = 1.0e-14_wp
 
 contains
 
    !> Restarted GMRES (Saad and Schultz 1986), preconditioned from the right
    !>
-   !> On exit workspace%step holds the correction of the tractions [N/mm2].
+   !> On exit workspace%step contains the correction of the tractions [N/mm2].
    subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
-      !> The problem that is solved
+      !> Problem to solve
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
-      !> Scales; gets the Schur complement of the creepages
+      !> Scales; receives the Schur complement of the creepages
       type(linear_system), intent(inout) :: system
-      !> Weights, directions and residual field on entry; vectors of the Krylov space are kept here
+      !> On entry weights, directions and residual field; also stores the vectors of the Krylov space
       type(newton_workspace), target, intent(inout) :: workspace
-      !> Errors of the prescribed forces, relative
+      !> Relative errors of the prescribed forces
       real(wp), intent(in) :: unbalance(2)
-      !> Relative to the right-hand side
+      !> Tolerance relative to the right-hand side
       real(wp), intent(in) :: tolerance
       !> Correction of the creepages
       real(wp), intent(out) :: correction(2)
-      !> Applications of the preconditioner, counted on
+      !> Number of applications of the preconditioner; incremented
       integer, intent(inout) :: preconditionings
-      !> Relative residual that was reached; a Newton step is judged by the residual of the tractions it leads to
+      !> Relative residual; the success of a Newton step is measured by the residual of the resulting tractions
       real(wp), intent(out), optional :: reached
       real(wp) :: cs(restart), sn(restart), s(restart + 1), y(restart)
       real(wp) :: start, beta, before, after, t
@@ -115,25 +115,25 @@ contains
       end associate
    end subroutine solve_linear
 
-   !> Take the parts along the first j vectors away from the next one; the length that is left
+   !> Orthogonalise the next vector against the first j vectors; returns its remaining length
    !>
-   !> Piece by piece, so that a piece of that vector stays near the processor while those of the others pass. Pieces and the order
-   !> of their sums do not depend on the number of threads.
+   !> Processed by pieces, so that a piece of that vector stays in the cache while those of the others are read. The pieces and
+   !> the order of their sums do not depend on the number of threads.
    real(wp) function take_away(n, j, v, part, h) result(length)
-      !> Length of the vectors that counts, and their number
+      !> Length of the vectors in use, and their number
       integer, intent(in) :: n, j
-      !> The vectors
+      !> Vectors
       real(wp), contiguous, intent(inout) :: v(:, :)
-      !> Scratch, see newton_workspace
+      !> Workspace, see newton_workspace
       real(wp), contiguous, intent(inout) :: part(:, :)
-      !> Lengths of the parts are added here
+      !> The components are added here
       real(wp), intent(inout) :: h(:)
       real(wp) :: now(restart)
       integer :: k, one, piece, pieces
 
       one = max(least_piece, 4*((n + 4*most_pieces - 1)/(4*most_pieces)))
       pieces = (n + one - 1)/one
-      ! a parallel region asks for memory, even one of a single thread
+      ! a parallel region allocates memory, even with a single thread
       if (n <= worth_threads) then
          do piece = 1, pieces
             call find_parts(n, j, v, one, piece, part(:, piece))
@@ -163,15 +163,15 @@ contains
       length = sqrt(sum(part(restart + 1, :pieces)))
    end function take_away
 
-   !> Inner products of a piece of the next vector with those before it
+   !> Inner products of a piece of the next vector with the preceding vectors
    subroutine find_parts(n, j, v, one, piece, part)
-      !> Length of the vectors that counts, and their number
+      !> Length of the vectors in use, and their number
       integer, intent(in) :: n, j
-      !> The vectors
+      !> Vectors
       real(wp), contiguous, intent(in) :: v(:, :)
-      !> Length of a piece, and its number
+      !> Length of a piece, and its index
       integer, intent(in) :: one, piece
-      !> The products
+      !> Inner products
       real(wp), intent(inout) :: part(:)
       integer :: first, k
 
@@ -181,17 +181,17 @@ contains
       end do
    end subroutine find_parts
 
-   !> Take the others away from a piece of the next vector
+   !> Subtract the components along the preceding vectors from a piece of the next vector
    subroutine remove_parts(n, j, v, one, piece, part, left)
-      !> Length of the vectors that counts, and their number
+      !> Length of the vectors in use, and their number
       integer, intent(in) :: n, j
-      !> The vectors
+      !> Vectors
       real(wp), contiguous, intent(inout) :: v(:, :)
-      !> Length of a piece, and its number
+      !> Length of a piece, and its index
       integer, intent(in) :: one, piece
-      !> How much of each is taken away
+      !> Component along each vector
       real(wp), intent(in) :: part(:)
-      !> The square of what is left
+      !> Square sum of the remainder
       real(wp), intent(out) :: left
       integer :: first, k
 
@@ -233,17 +233,17 @@ contains
 
    !> u := (D C^-1 D / r + 1 - D) v for traction fields
    subroutine precondition_field(problem, operator, system, workspace, v, u)
-      !> Steady rolling or a step in time decides about the operator
+      !> Determines the operator: steady rolling or a time step
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Scale of the slip
       type(linear_system), intent(in) :: system
-      !> Weights and directions, from `linearise`; its scratch is overwritten
+      !> Weights and directions, from `linearise`; its workspace is overwritten
       type(newton_workspace), intent(inout) :: workspace
       !> Shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: v(:, :, :)
-      !> Of the same shape
+      !> Result, same shape
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
 
@@ -264,7 +264,7 @@ contains
       if (allocated(problem%second)) call problem%second%keep_stiff(v, u)
    end subroutine precondition_field
 
-   !> The inverse of the circulant
+   !> Inverse of the circulant
    subroutine invert_operator(problem, operator, field, u)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -317,7 +317,7 @@ contains
       end if
    end subroutine prepare_border
 
-   !> Traction field as the first part of a vector of unknowns
+   !> Copy a traction field to the first part of a vector of unknowns
    pure subroutine flatten(field, vector)
       real(wp), contiguous, intent(in) :: field(:, :, :)
       real(wp), contiguous, intent(inout) :: vector(:)
@@ -332,7 +332,7 @@ contains
       end do
    end subroutine flatten
 
-   !> First part of a vector of unknowns as a traction field
+   !> Copy the first part of a vector of unknowns to a traction field
    pure subroutine unfold(vector, field)
       real(wp), contiguous, intent(in) :: vector(:)
       real(wp), contiguous, intent(inout) :: field(:, :, :)

@@ -1,13 +1,11 @@
-!> Creepages that go with prescribed tangential forces
+!> Creepages for prescribed tangential forces
 !>
-!> Quasi-Newton steps on the relative forces f = sum(p)/sum(g) as functions of the unknown
-!> creepages, around any solver for given creepages: the caller solves, hands over the forces
-!> and gets the next creepages. One force: secants inside a bracket, because f does not
-!> increase with the creepage. Two forces: Broyden (1965) updates of the sensitivities with a
-!> limit on the step and return to the best point after a step that failed; where that is slow,
-!> near full sliding, the sensitivities are renewed by differences. Two forces are compared after
-!> stretching, F = f/sqrt(1 - |f|**2): forces saturate about like c/sqrt(1 + c**2) for creepages
-!> c in units of the linear theory, so that F depends almost linearly on c.
+!> Quasi-Newton steps on the relative forces f = sum(p)/sum(g) as functions of the unknown creepages, around any solver for
+!> given creepages: the caller solves, passes the forces and receives the next creepages. One force: secants within a bracket,
+!> as f does not increase with the creepage. Two forces: Broyden (1965) updates of the sensitivities with a limited step, and
+!> return to the best point after a failed step; if convergence is slow, near full sliding, the sensitivities are recomputed by
+!> differences. Two forces are compared after stretching, F = f/sqrt(1 - |f|**2): forces saturate approximately as c/sqrt(1 +
+!> c**2) for creepages c in units of linear theory, so that F depends almost linearly on c.
 module contact_tangential_prescribed_forces
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending
@@ -22,40 +20,40 @@ module contact_tangential_prescribed_forces
    type :: force_iteration
       !> Number of prescribed forces
       integer :: n = 0
-      !> Prescribed and last relative forces [-]
+      !> Prescribed and most recent relative forces [-]
       real(wp) :: target(2) = 0.0_wp, force(2) = 0.0_wp
-      !> Sensitivities d force(i) / d creep(k), the best known ones
+      !> Best known sensitivities d force(i) / d creep(k)
       real(wp) :: sensitivity(2, 2) = 0.0_wp
-      !> Estimate of the sensitivities by a traction distribution of the shape of the bound
+      !> Sensitivities estimated for tractions proportional to the bound
       real(wp) :: linear(2) = 0.0_wp
-      !> Evaluations so far, and steps that had to be taken back
+      !> Number of evaluations, and number of steps that were reversed
       integer :: evaluations = 0, failures = 0
-      !> Member of ending; not_started while the iteration goes on
+      !> Member of ending; not_started while the iteration continues
       integer :: ended = 0
-      !> All elements slip and the forces stay below the prescribed ones
+      !> Do all elements slip, with forces below the prescribed ones?
       logical :: full_sliding = .false.
-      !> Tolerance, largest number of evaluations
+      !> Tolerance, maximum number of evaluations
       real(wp), private :: eps = 1.0e-6_wp
       integer, private :: limit = 25
-      !> Largest step [creepage]
+      !> Maximum step [creepage]
       real(wp), private :: reach = 0.0_wp
-      !> Creepages beyond which sliding elements are accepted as full sliding
+      !> Creepages beyond which slip of all elements is accepted as full sliding
       real(wp), private :: far = 0.0_wp
-      !> Sensitivities of the stretched forces; do they still have to be converted?
+      !> Sensitivities of the stretched forces; must they still be converted?
       real(wp), private :: slope(2, 2) = 0.0_wp
       logical, private :: inherited = .false.
-      !> Best point and its distance to the target, stretched for two forces
+      !> Best point and its difference from the target, stretched for two forces
       real(wp), private :: best(2) = 0.0_wp, best_miss(2) = 0.0_wp
-      !> Creepage that is being changed for differences, 0 for none, and the change
+      !> Index of the creepage varied for differences, 0: none, and the variation
       integer, private :: probed = 0
       real(wp), private :: change = 0.0_wp
-      !> Sensitivities from differences, while they are gathered
+      !> Sensitivities by differences, while they are being computed
       real(wp), private :: differences(2, 2) = 0.0_wp
-      !> Steps without much progress since the last differences
+      !> Number of steps with little progress since the last differences
       integer, private :: slow = 0
-      !> Are the sensitivities the ones by differences at the best point?
+      !> Are the sensitivities those by differences at the best point?
       logical, private :: fresh = .false.
-      !> Bracket of one creepage and the misses there
+      !> Bracket of one creepage, and the differences from the target at its ends
       logical, private :: has_low = .false., has_high = .false.
       real(wp), private :: low = 0.0_wp, high = 0.0_wp, low_miss = 0.0_wp, high_miss = 0.0_wp
    contains
@@ -65,37 +63,37 @@ module contact_tangential_prescribed_forces
       procedure, private :: advance_two
    end type force_iteration
 
-   !> The same in multiples of the linear creepage and of the given creepages
+   !> The same, as a multiple of the linear creepage and of the given creepages
    real(wp), parameter :: far_out = 100.0_wp
    !> Relative change of the creepages for differences
    real(wp), parameter :: probe = 0.002_wp
    !> Keeps stretched forces finite in full sliding
    real(wp), parameter :: tail = 1.0e-10_wp
 
-   !> Largest first step, in linear creepages: beyond two of them the creep curve is nearly flat
+   !> Maximum first step in linear creepages: beyond two of them the creep curve is nearly flat
    real(wp), parameter :: first_reach = 2.0_wp
-   !> Sensitivities of the previous case are used if they are this part of the linear ones at least, so many times these at most,
-   !> and the determinant of two forces is this part of the product at least: orders of magnitude, chosen
+   !> Range in which sensitivities of the previous case are used, relative to the linear ones, and minimum determinant for two
+   !> forces relative to the product: orders of magnitude, chosen
    real(wp), parameter :: min_usable = 1.0e-3_wp, max_usable = 30.0_wp, min_determinant = 1.0e-3_wp
-   !> Trials stay this part of a bracket away from its ends
+   !> Minimum distance of trials from the ends of a bracket, relative to its width
    real(wp), parameter :: margin = 2.0e-5_wp
-   !> Every so many evaluations the bracket is halved; a secant from one side alone may close in slowly
+   !> Number of evaluations after which the bracket is halved, as secants may converge slowly from one side
    integer, parameter :: halving = 6
-   !> Without a bracket the largest step grows by this factor per evaluation
+   !> Growth factor of the maximum step per evaluation without a bracket
    real(wp), parameter :: growth_of_one = 2.0_wp
-   !> Largest step of two creepages relative to the last one: after a step that more than halved the miss, after another one that
-   !> reduced it, after one that did not. The usual values of trust regions lie around these; chosen
+   !> Maximum step of two creepages relative to the last one: after a step that more than halved the difference, after another
+   !> one that reduced it, after one that did not. Similar to the usual values for trust regions; chosen
    real(wp), parameter :: after_good = 3.0_wp, after_fair = 1.5_wp, after_bad = 0.4_wp
-   !> Part of the miss that a good step leaves at most
+   !> Maximum fraction of the difference that remains after a good step
    real(wp), parameter :: good_progress = 0.5_wp
-   !> Steps that were not good, after which sensitivities are renewed by differences; an update that makes forces rise with
-   !> creepage counts as many
+   !> Number of steps that were not good after which sensitivities are recomputed by differences; an update for which forces
+   !> increase with creepage is equivalent to this number
    integer, parameter :: too_slow = 2
-   !> Least part of the saturation that is left, where stretched sensitivities begin: sqrt of it divides
+   !> Minimum remaining fraction of the saturation when stretched sensitivities are initialised: its square root is a divisor
    real(wp), parameter :: min_rest = 1.0e-3_wp
-   !> Margin of the test for forces that fall in every direction, above rounding
+   !> Margin of the test that forces decrease in every direction, above round-off
    real(wp), parameter :: definite = 1.0e-6_wp
-   !> Misses above this value say that there is no best point: after differences that had no sense
+   !> Larger differences mean that there is no best point: after meaningless differences
    real(wp), parameter :: no_best = 1.0e100_wp
 
 contains
@@ -104,9 +102,9 @@ contains
       class(force_iteration), intent(inout) :: self
       !> Prescribed forces, traction bounds and tolerance
       type(tangential_problem), intent(in) :: problem
-      !> Its stiffness gives the first sensitivities where none are known
+      !> Operator whose stiffness gives the initial sensitivities if none are known
       class(compliance), intent(inout) :: operator
-      !> Sensitivities of the previous case, 0 when unknown
+      !> Sensitivities of the previous case, 0 if unknown
       real(wp), intent(in) :: sensitivity(2, 2)
       real(wp), allocatable :: g(:, :, :), u(:, :, :)
       real(wp) :: sum_g, steps, shares
@@ -132,8 +130,8 @@ contains
       if (sum_g <= 0.0_wp) return
       self%target(:self%n) = problem%target(:self%n)/sum_g
 
-      ! tractions in proportion to the bound displace the contact area by A g; in rolling an
-      ! element collects this on its way, half the length of the contact on average
+      ! tractions proportional to the bound displace the contact area by A g; in rolling an element accumulates this along its
+      ! path, on average half the length of the contact
       n_contact = count(problem%contact)
       steps = 1.0_wp
       if (problem%steady) steps = 0.5_wp*n_contact/count(any(problem%contact, dim=1))
@@ -150,7 +148,7 @@ contains
       self%sensitivity(2, 2) = self%linear(2)
       self%reach = first_reach/minval(abs(self%linear(:self%n)))
       self%far = far_out*max(1.0_wp/minval(abs(self%linear(:self%n))), maxval(abs(problem%shift))/problem%dq)
-      ! what the previous case left is used if it is of the expected sign and order of magnitude
+      ! sensitivities of the previous case are used if their sign and order of magnitude are as expected
       usable = all([(sensitivity(k, k)/self%linear(k) > min_usable &
          & .and. sensitivity(k, k)/self%linear(k) < max_usable, k=1, self%n)])
       if (self%n == 2) usable = usable .and. sensitivity(1, 1)*sensitivity(2, 2) - sensitivity(1, 2)*sensitivity(2, 1) &
@@ -159,14 +157,14 @@ contains
       self%inherited = usable
    end subroutine start
 
-   !> Take the forces at the present creepages; choose the next ones or end
+   !> Process the forces at the current creepages; determine the next ones or end
    subroutine advance(self, force, adhesion, creep)
       class(force_iteration), intent(inout) :: self
       !> Relative forces sum(p)/sum(g)
       real(wp), intent(in) :: force(2)
-      !> Does any element adhere?
+      !> Is there any adhering element?
       logical, intent(in) :: adhesion
-      !> Creepages of these forces on entry, the next ones on exit
+      !> On entry the creepages of these forces, on exit the next ones
       real(wp), intent(inout) :: creep(2)
       real(wp) :: miss(2)
 
@@ -199,7 +197,7 @@ contains
          slope = (self%best_miss(1) - miss)/(creep - self%best(1))
          if (slope < 0.0_wp) self%sensitivity(1, 1) = slope
       end if
-      ! forces that are too large call for more creepage: miss < 0 at the low end
+      ! forces that are too large require more creepage: miss < 0 at the low end
       if (miss < 0.0_wp) then
          if (.not. self%has_low .or. creep > self%low) then
             self%low = creep
@@ -253,7 +251,7 @@ contains
             call report_sensitivity(self)
             creep = self%best + limited_step(self)
          else
-            ! so far out that forces no longer depend on the creepages
+            ! so far out that forces do not depend on the creepages
             creep = 0.5_wp*self%best
             self%best_miss = huge(1.0_wp)
          end if
@@ -278,7 +276,7 @@ contains
             self%reach = after_bad*min(norm2(s), self%reach)
          end if
          self%slow = self%slow + merge(1, 0, progress > good_progress)
-         ! after a failed step, good sensitivities and a shorter step are the better choice
+         ! after a failed step, accurate sensitivities and a shorter step are preferable
          if (dot_product(s, s) > 0.0_wp .and. .not. (self%fresh .and. progress >= 1.0_wp)) then
             j = self%slope + spread(y - matmul(self%slope, s), 2, 2)*spread(s, 1, 2)/dot_product(s, s)
             if (falls(j)) then
@@ -332,7 +330,7 @@ contains
          & *sqrt(max(0.0_wp, 1.0_wp - dot_product(self%force, self%force)))
    end subroutine report_sensitivity
 
-   !> Newton step from the best point, not longer than the reach
+   !> Newton step from the best point, with limited length
    pure function limited_step(self) result(step)
       type(force_iteration), intent(in) :: self
       real(wp) :: step(2), length
@@ -349,7 +347,7 @@ contains
       determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
    end function determinant
 
-   !> Do forces fall in every direction of creepage? (negative definite symmetric part)
+   !> Do forces decrease in every direction of creepage? (negative definite symmetric part)
    pure logical function falls(j)
       real(wp), intent(in) :: j(2, 2)
       falls = j(1, 1) < 0.0_wp .and. j(2, 2) < 0.0_wp &

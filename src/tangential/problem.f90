@@ -1,15 +1,14 @@
-!> A tangential contact problem with given traction bounds, and its true residual
+!> Tangential contact problem with given traction bounds, and its true residual
 !>
-!> The slip per step is  S(p) = W + dq c + B p,  with B the compliance A (shift, transient
-!> rolling) or the difference A - A' between two time steps (steady rolling). Elements that have been in contact for a share of
-!> the step have share dq c, and in steady rolling the displacement at the edge of contact for A'. In every element of
-!> the contact area: |p| <= g, and where S /= 0, p = -g S/|S|. Written as one equation,
+!> The slip per step is S(p) = W + dq c + B p, where B is the compliance A (shift, transient rolling) or the difference A - A'
+!> between two time steps (steady rolling). For elements that have been in contact for a fraction of the step it contains that
+!> fraction of dq c, and in steady rolling the displacement at the edge of contact for A'. In every element of the contact area
+!> |p| <= g, and where S /= 0, p = -g S/|S|. As a single equation,
 !>
 !>     p - P_g(p - r S(p)) = 0
 !>
-!> with P_g the projection onto the disc of radius g and any r > 0. Where the surface yields
-!> (contact_tangential_yield), S stands for slip and plastic shearing together until the solution
-!> is settled, and the return map replaces the projection.
+!> with P_g the projection onto the disc of radius g and any r > 0. If the surface yields (contact_tangential_yield), S is the
+!> sum of slip and plastic shearing until `settle` separates them, and the return map replaces the projection.
 module contact_tangential_problem
    use contact_base_kinds, only : wp
    use contact_base_limits, only : deadline_type
@@ -27,7 +26,7 @@ module contact_tangential_problem
    public :: add_creepages, apply_operator, slip_of, true_residual, contact_residual, divide_elements
    public :: residual_scale, limits_before, settle, at_bound
 
-   !> Tractions above this part of the bound count as on it: round-off of a traction that was scaled to its bound; chosen
+   !> Tractions above this fraction of the bound are regarded as on it: round-off of a traction scaled to its bound; chosen
    real(wp), parameter :: at_bound = 1.0_wp - 1.0e-12_wp
 
    !> Data of a tangential problem on a window; constant during the solution
@@ -37,24 +36,25 @@ module contact_tangential_problem
       real(wp) :: dx = 1.0_wp, dy = 1.0_wp
       !> Elements in contact, shape (mx, my)
       logical, allocatable :: contact(:, :)
-      !> Traction bound g [N/mm2], 0 outside contact, shape (mx, my); yield limits without slope included
+      !> Traction bound g [N/mm2], 0 outside contact, shape (mx, my); includes yield limits without slope
       real(wp), allocatable :: bound(:, :)
       !> Rigid slip and other fixed contributions to the slip per step [mm], without the
       !> unknown creepages, shape (mx, my, 2)
       real(wp), allocatable :: shift(:, :, :)
-      !> Steady rolling (B = A - A') or not (B = A)
+      !> Steady rolling (B = A - A')? Otherwise B = A
       logical :: steady = .false.
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer :: direction = 1
-      !> Rolling towards increasing (+1) or decreasing (-1) y as well, where rolling goes in any direction
+      !> Rolling towards increasing (+1) or decreasing (-1) y as well, for rolling in an arbitrary direction
       integer :: row_direction = 1
-      !> Distance per step [mm]; multiplies unknown creepages
+      !> Distance per step [mm]; factor of the unknown creepages
       real(wp) :: dq = 1.0_wp
-      !> Part of the step that each element has been in contact, which multiplies unknown creepages too, shape (mx, my);
-      !> unallocated: the whole step everywhere
+      !> Fraction of the step for which each element has been in contact, an additional factor of the unknown creepages, shape
+      !> (mx, my); unallocated: the whole step everywhere
       real(wp), allocatable :: share(:, :)
-      !> Steady rolling in long steps: columns from an element to the edge of contact ahead of it, where its particle
-      !> was when the contact began, 0 for a particle that was in contact all the time, shape (mx, my); unallocated: 0 everywhere
+      !> Steady rolling with long steps: number of columns from an element to the edge of contact ahead of it, where its
+      !> particle entered the contact during the step; 0 for a particle in contact throughout the step, shape (mx, my);
+      !> unallocated: 0 everywhere
       integer, allocatable :: edge(:, :)
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy)
       integer :: n_forces = 0
@@ -62,32 +62,32 @@ module contact_tangential_problem
       real(wp) :: target(2) = 0.0_wp
       !> Tolerance, limits and parameters of the solvers
       type(solver_settings) :: settings
-      !> When the time is up
+      !> Deadline of the case
       type(deadline_type) :: deadline
       !> Yield limits; unallocated: the surface does not yield
       type(yield_data), allocatable :: yield
-      !> Terms of the leading edge, and weights and turns of the equations: all slip is weighted and turned until the solution is
-      !> settled; unallocated: the scheme of first order
+      !> Terms of the leading edge, and weights and turns of the equations: all slip is weighted and turned until `settle` is
+      !> called; unallocated: first-order scheme
       type(second_order), allocatable :: second
    contains
       !> Does the traction of a yielding element depend on the plastic displacement?
       procedure :: hardens
    end type tangential_problem
 
-   !> Estimate on entry, solution on exit
+   !> On entry an estimate, on exit the solution
    type :: tangential_solution
       !> Tangential tractions [N/mm2], shape (mx, my, 2)
       real(wp), allocatable :: p(:, :, :)
       !> Slip per step [mm], shape (mx, my, 2)
       real(wp), allocatable :: slip(:, :, :)
-      !> Unknown creepages [-] (shifts [mm] for dq = 1); the first n_forces are in use
+      !> Unknown creepages [-] (shifts [mm] for dq = 1); the first n_forces are used
       real(wp) :: creep(2) = 0.0_wp
       !> Element states, shape (mx, my)
       integer, allocatable :: division(:, :)
-      !> Sensitivities of relative forces sum(p)/sum(g) to the unknown creepages, 0 when unknown
+      !> Sensitivities of relative forces sum(p)/sum(g) to the unknown creepages, 0 if unknown
       real(wp) :: sensitivity(2, 2) = 0.0_wp
-      !> Increase of the plastic displacement [mm], shape (mx, my, 2), and yield limit after the
-      !> step [N/mm2], shape (mx, my); unallocated where the surface does not yield
+      !> Increase of the plastic displacement [mm], shape (mx, my, 2), and yield limit after the step [N/mm2], shape (mx, my);
+      !> unallocated if the surface does not yield
       real(wp), allocatable :: plastic(:, :, :), limit(:, :)
    end type tangential_solution
 
@@ -99,11 +99,11 @@ contains
       if (allocated(self%yield)) hardens = self%yield%slope /= 0.0_wp
    end function hardens
 
-   !> Allocate a solution for a problem, zero; keeps arrays of the right size and their values
+   !> Allocate a solution for a problem, set to zero; arrays of the right size keep their values
    subroutine prepare_solution(problem, solution)
       !> Size of the window
       type(tangential_problem), intent(in) :: problem
-      !> Gets its arrays; what it holds stays when they have the right size
+      !> Receives its arrays; arrays of the right size keep their values
       type(tangential_solution), intent(inout) :: solution
 
       if (allocated(solution%plastic)) deallocate(solution%plastic, solution%limit)
@@ -116,9 +116,9 @@ contains
       allocate(solution%division(problem%mx, problem%my), source=element%exterior)
    end subroutine prepare_solution
 
-   !> B p, on the whole window
+   !> Product B p on the whole window
    subroutine apply_operator(problem, operator, p, u)
-      !> Steady rolling or a step in time decides about the operator
+      !> Determines the operator: steady rolling or a time step
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
@@ -143,7 +143,7 @@ contains
       class(compliance), intent(inout) :: operator
       !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: p(:, :, :)
-      !> Creepages [-], of which the first n_forces count
+      !> Creepages [-]; the first n_forces are used
       real(wp), intent(in) :: creep(2)
       !> Slip per step S [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
@@ -153,13 +153,13 @@ contains
       call add_creepages(problem, creep, slip)
    end subroutine slip_of
 
-   !> Add the slip per step by unknown creepages
+   !> Add the slip per step due to unknown creepages
    pure subroutine add_creepages(problem, creep, slip)
       !> Distance per step, and the number of unknown creepages
       type(tangential_problem), intent(in) :: problem
-      !> Creepages [-], of which the first n_forces count
+      !> Creepages [-]; the first n_forces are used
       real(wp), intent(in) :: creep(2)
-      !> [mm], shape (mx, my, 2)
+      !> Slip per step [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       integer :: k
 
@@ -172,8 +172,8 @@ contains
       end do
    end subroutine add_creepages
 
-   !> Scale r of the slip in the residual [(N/mm2)/mm]: the stiffness of an element, 1/A_xx(0), but
-   !> enough for the return map when the yield limit falls
+   !> Scale r of the slip in the residual [(N/mm2)/mm]: the stiffness of an element, 1/A_xx(0), or larger if the return map
+   !> requires it for a decreasing yield limit
    pure real(wp) function residual_scale(problem, operator) result(r)
       !> Bounds, and slopes of the yield limit
       type(tangential_problem), intent(in) :: problem
@@ -186,8 +186,8 @@ contains
 
    !> Relative residual of the contact conditions and of the prescribed forces
    !>
-   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), g in the first term the lower of the bound of friction
-   !> and the yield limit where that changes
+   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), where g in the first term is the lower of the friction
+   !> bound and the yield limit if the latter varies
    pure real(wp) function true_residual(problem, p, slip, r) result(residual)
       !> Traction bounds, prescribed forces, yield data
       type(tangential_problem), intent(in) :: problem
@@ -207,7 +207,7 @@ contains
       residual = sqrt(residual)
    end function true_residual
 
-   !> The part of true_residual that the contact conditions have
+   !> Contribution of the contact conditions to true_residual
    pure real(wp) function contact_residual(problem, p, slip, r) result(residual)
       !> Traction bounds and yield data
       type(tangential_problem), intent(in) :: problem
@@ -219,7 +219,7 @@ contains
       residual = sqrt(squared_residual(problem, p, slip, r))
    end function contact_residual
 
-   !> Its square
+   !> Square of contact_residual
    pure real(wp) function squared_residual(problem, p, slip, r) result(square)
       !> As in contact_residual
       type(tangential_problem), intent(in) :: problem
@@ -242,17 +242,17 @@ contains
       if (scale > 0.0_wp) square = total/scale
    end function squared_residual
 
-   !> The same where the return map takes the place of the projection, and the sum of squares that it counts beside
+   !> Contribution with the return map instead of the projection, and the sum of squares for its scale
    pure subroutine add_yielding(problem, p, slip, r, total, scale)
       !> As in contact_residual
       type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :), r
-      !> [(N/mm2)2]
+      !> Sums of squares [(N/mm2)2]
       real(wp), intent(out) :: total, scale
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
       integer :: ix, iy
-      !> Limits far below the bound of friction count as this part of it: no more figures are left in p - r S
+      !> Limits far below the friction bound are replaced by this fraction of it: p - r S has no more significant digits
       real(wp), parameter :: min_share = 1.0e-4_wp
       real(wp) :: z(2), length
 
@@ -286,8 +286,8 @@ contains
 
    !> Yield limits before the step [N/mm2], shape (mx, my)
    !>
-   !> In steady rolling these are the limits of the next elements upstream after the step: every
-   !> row is followed from its leading side. Material keeps its limit in gaps between contact areas.
+   !> In steady rolling these are the limits of the next upstream elements after the step: each row is followed from its leading
+   !> side. Material keeps its limit in gaps between contact areas.
    pure function limits_before(problem, p, slip, r) result(before)
       !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
@@ -315,7 +315,7 @@ contains
       end do
    end function limits_before
 
-   !> Element states that belong to tractions and slip: slip where |p - r S| > g
+   !> Element states for given tractions and slip: slip if |p - r S| > g
    subroutine divide_elements(problem, p, slip, r, division)
       !> Traction bounds, and the elements in contact
       type(tangential_problem), intent(in) :: problem
@@ -348,16 +348,17 @@ contains
       end do
    end subroutine divide_elements
 
-   !> Tell plastic shearing and slip apart, in a solution whose slip holds both
+   !> Separate plastic shearing from slip, in a solution whose slip is the sum of both
    !>
-   !> Without slope an element yields when its limit is the bound. With the scheme of second order the slip becomes that in
-   !> the middle of elements. Nothing else happens where the surface does not yield.
+   !> Without slope an element yields if its limit is the bound. With the second-order scheme the slip becomes that at the
+   !> centres of elements. Does nothing else if the surface does not yield.
    subroutine settle(problem, r, solution)
       !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
-      !> Gets plastic displacements, yield limits and element states; its slip loses the plastic part, and weights and turns
+      !> Receives plastic displacements, yield limits and element states; the plastic part, weights and turns are removed from
+      !> its slip
       type(tangential_solution), intent(inout) :: solution
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point

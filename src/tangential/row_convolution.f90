@@ -1,6 +1,7 @@
-!> Displacements of one row by the loads of all rows, by transforms along the rows
+!> Displacements of one row due to the loads of all rows, by transforms along the rows
 !>
-!> The spectra of the loads are kept and renewed when a row was treated, so that a row takes one transform of length 2 mx.
+!> The spectra of the loads are kept and updated when a row has been processed, so that a row requires one transform of length 2
+!> mx.
 module contact_tangential_row_convolution
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : kernel_table
@@ -12,23 +13,23 @@ module contact_tangential_row_convolution
 
    type :: row_convolution
       integer, private :: mx = 0, my = 0
-      !> Rows of which the displacements were asked for so far
+      !> Number of rows of displacements computed so far
       integer :: rows = 0
       type(fft_plan), private :: plan
-      !> Spectra per distance of rows, shape (kx, 0:my - 1); xy: imaginary part
+      !> Spectra by row distance, shape (kx, 0:my - 1); xy: imaginary part
       real(wp), allocatable, private :: axx(:, :), ayy(:, :), axy(:, :)
-      !> Spectra for a shifted table, shape (kx, 1 - my:my - 1); unallocated without
+      !> Spectra of a shifted table, shape (kx, 1 - my:my - 1); unallocated without one
       complex(wp), allocatable, private :: gxx(:, :), gyy(:, :), gxy(:, :)
       !> Spectra of the loads, real and imaginary part, shape (kx, 2, my)
       real(wp), allocatable, private :: load_re(:, :, :), load_im(:, :, :)
       real(wp), allocatable, private :: sum_re(:, :), sum_im(:, :), field(:, :)
       complex(wp), allocatable, private :: spectrum(:, :)
-      !> Where elements were loaded: rows without contact are passed over
+      !> Rows with loads: rows without contact are skipped
       logical, allocatable, private :: loaded(:)
    contains
       procedure :: prepare
       procedure :: release
-      !> Tell the loads of a row
+      !> Set the loads of a row
       procedure :: set_row
       !> Displacements of a row
       procedure :: displace
@@ -45,7 +46,7 @@ contains
       integer, intent(in) :: mx, my
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
-      !> Coefficients that are taken off: of the same particles at the previous time
+      !> Coefficients to subtract, of the same particles at the previous time
       type(kernel_table), intent(in), optional :: shifted
       type(fft_plan) :: whole_period
       integer :: l, px
@@ -81,8 +82,8 @@ contains
 
    contains
 
-      !> Spectrum of the coefficients of one row distance; with mirror: turned around, with this
-      !> sign, for rolling towards decreasing x
+      !> Spectrum of the coefficients for one row distance; with mirror: reversed, with this sign, for rolling towards
+      !> decreasing x
       subroutine row_spectrum(c, mirror)
          real(wp), intent(in) :: c(-mx:mx)
          real(wp), intent(in), optional :: mirror
@@ -106,7 +107,7 @@ contains
 
    subroutine allocate_spectra(self, general)
       class(row_convolution), intent(inout) :: self
-      !> With those for a shifted table?
+      !> Also allocate those for a shifted table?
       logical, intent(in) :: general
       integer :: kx
 
@@ -131,14 +132,14 @@ contains
       call self%plan%release()
    end subroutine release
 
-   !> Tell the loads of a row
+   !> Set the loads of a row
    subroutine set_row(self, iy, load, loaded)
       class(row_convolution), intent(inout) :: self
       !> Row
       integer, intent(in) :: iy
-      !> Tractions or increments [N/mm2], shape (0:mx, 2): column 0 lies behind the window
+      !> Tractions or increments [N/mm2], shape (0:mx, 2): column 0 is behind the window
       real(wp), intent(in) :: load(:, :)
-      !> Are there elements in contact in the row? Otherwise it is passed over
+      !> Are there elements in contact in the row? Otherwise it is skipped
       logical, intent(in) :: loaded
       integer :: k
 
@@ -152,12 +153,12 @@ contains
       end do
    end subroutine set_row
 
-   !> Displacements of a row by the loads of all rows
+   !> Displacements of a row due to the loads of all rows
    subroutine displace(self, iy, u)
       class(row_convolution), intent(inout) :: self
       !> Row
       integer, intent(in) :: iy
-      !> [mm], shape (mx, 2)
+      !> Displacements [mm], shape (mx, 2)
       real(wp), intent(out) :: u(:, :)
       integer :: l, k
       real(wp) :: sign_
@@ -170,7 +171,7 @@ contains
             call add_general(self%gxx(:, iy - l), self%gyy(:, iy - l), self%gxy(:, iy - l), &
                & self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
          else
-            ! the coefficients xy change sign with the distance of the rows
+            ! the coefficients xy change sign with the row distance
             sign_ = sign(1.0_wp, real(iy - l, wp))
             call add_even(self%axx(:, abs(iy - l)), self%ayy(:, abs(iy - l)), self%axy(:, abs(iy - l)), &
                & sign_, self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
@@ -184,7 +185,7 @@ contains
       self%rows = self%rows + 1
    end subroutine displace
 
-   !> Add the displacements by one row to the sums; real spectra xx, yy, imaginary spectrum xy
+   !> Add the displacements due to one row to the sums; real spectra xx, yy, imaginary spectrum xy
    pure subroutine add_even(axx, ayy, axy, sign_, re, im, sum_re, sum_im)
       real(wp), contiguous, intent(in) :: axx(:), ayy(:), axy(:)
       real(wp), intent(in) :: sign_

@@ -1,6 +1,6 @@
-/* Loops of slip_loops.c, for one kind of processor; see lanes.h. Each ends with what is left over, up to three elements */
+/* Loops of slip_loops.c, for one kind of processor; see lanes.h. Each ends with the remaining elements, up to three */
 
-/* Sums over the contact of |p - P(p - r slip)|^2 and of the bound squared; P cuts vectors off at the bound */
+/* Sums over the contact of |p - P(p - r slip)|^2 and of the bound squared; P limits vectors to the bound */
 TARGET static void OF(residual)(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums) {
   four total = {0.0}, scale = {0.0};
   int k = 0;
@@ -49,7 +49,7 @@ TARGET static void OF(step)(int n, const int *contact, const double *bound, doub
   }
 }
 
-/* Derivative of P at p - r slip, as weight and direction, and p - P(p - r slip); all is 0 outside of the contact */
+/* Derivative of P at p - r slip, as weight and direction, and p - P(p - r slip); all are 0 outside the contact */
 TARGET static void OF(linearise)(int n, const int *contact, const double *bound, const double *p, const double *slip, double r,
                                  double *weight, double *direction, double *residual) {
   int k = 0;

@@ -1,6 +1,7 @@
-/* Loops over the elements of a window in Newton's method for friction; slip_loops.f90 tells what, lanes.h why in C.
+/* Loops over the elements of a window for Newton's method for friction, described in slip_loops.f90; lanes.h explains why they are
+ * in C.
  *
- * Fields of two components have the second one n numbers behind the first. */
+ * The second component of a field starts n numbers after the first. */
 #include "../base/lanes.h"
 
 void contact_slip_residual(int n, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums);

@@ -1,4 +1,4 @@
-!> Loops over the elements of a window in Newton's method for friction, where limits of tractions are bounds
+!> Loops over the elements of a window for Newton's method for friction, with tractions limited by bounds
 !>
 !> P is the projection onto the bounds, D its derivative: D v = weight (v - direction direction.v). Fields have n elements and
 !> one or two components. The loops are in slip_loops.c.
@@ -15,7 +15,7 @@ module contact_tangential_slip_loops
          import :: c_double, c_int
          !> Number of elements
          integer(c_int), value :: n
-         !> Elements that count: logical values
+         !> Elements in contact, as logicals
          type(*), intent(in) :: contact(*)
          !> Traction bounds, tractions [N/mm2], slip per step [mm]
          real(c_double), intent(in) :: bound(n), p(n, 2), slip(n, 2)
@@ -25,16 +25,16 @@ module contact_tangential_slip_loops
          real(c_double), intent(inout) :: sums(2)
       end subroutine squares
 
-      !> P(p + alpha d), 0 outside of the contact
+      !> P(p + alpha d), 0 outside the contact
       pure subroutine step_and_project(n, contact, bound, alpha, p, d, out) bind(c, name="contact_slip_step")
          import :: c_double, c_int
          !> Number of elements
          integer(c_int), value :: n
-         !> Elements that count: logical values
+         !> Elements in contact, as logicals
          type(*), intent(in) :: contact(*)
          !> Traction bounds [N/mm2]
          real(c_double), intent(in) :: bound(n)
-         !> Length of the step
+         !> Step length
          real(c_double), value :: alpha
          !> Tractions and their change [N/mm2]
          real(c_double), intent(in) :: p(n, 2), d(n, 2)
@@ -48,13 +48,13 @@ module contact_tangential_slip_loops
          import :: c_double, c_int
          !> Number of elements
          integer(c_int), value :: n
-         !> Elements that count: logical values
+         !> Elements in contact, as logicals
          type(*), intent(in) :: contact(*)
          !> Traction bounds, tractions [N/mm2], slip per step [mm]
          real(c_double), intent(in) :: bound(n), p(n, 2), slip(n, 2)
          !> Scale of the slip [(N/mm2)/mm]
          real(c_double), value :: r
-         !> Weight: 1 in adhesion, 0 outside of the contact; direction: 0 in adhesion; residual [N/mm2]
+         !> Weight: 1 in adhesion, 0 outside the contact; direction: 0 in adhesion; residual [N/mm2]
          real(c_double), intent(inout) :: weight(n), direction(n, 2), residual(n, 2)
       end subroutine linearise_projection
 
@@ -65,7 +65,7 @@ module contact_tangential_slip_loops
          integer(c_int), value :: n
          !> D
          real(c_double), intent(in) :: weight(n), direction(n, 2)
-         !> Any field
+         !> Field to project
          real(c_double), intent(inout) :: v(n, 2)
       end subroutine project_change
 
@@ -74,13 +74,13 @@ module contact_tangential_slip_loops
          import :: c_double, c_int
          !> Number of elements
          integer(c_int), value :: n
-         !> D; changes of tractions [N/mm2], and of the slip by them [mm]
+         !> D; changes of tractions [N/mm2], and corresponding changes of the slip [mm]
          real(c_double), intent(in) :: weight(n), direction(n, 2), dp(n, 2), change(n, 2)
          !> Scale of the slip [(N/mm2)/mm]
          real(c_double), value :: r
-         !> The same change of the slip in all elements [mm]
+         !> Constant change of the slip [mm]
          real(c_double), intent(in) :: creep(2)
-         !> The result [N/mm2]
+         !> Result [N/mm2]
          real(c_double), intent(inout) :: out(n, 2)
       end subroutine jacobian_of_projection
 
@@ -89,11 +89,11 @@ module contact_tangential_slip_loops
          import :: c_double, c_int
          !> Number of elements
          integer(c_int), value :: n
-         !> D; a field, and the part of it that D leaves
+         !> D; a field, and its projection by D
          real(c_double), intent(in) :: weight(n), direction(n, 2), v(n, 2), projected(n, 2)
          !> Scale of the slip [(N/mm2)/mm]
          real(c_double), value :: r
-         !> Any field on entry, the joined one on exit
+         !> On entry a field, on exit the result
          real(c_double), intent(inout) :: u(n, 2)
       end subroutine join_parts
    end interface

@@ -1,10 +1,9 @@
 !> SteadyGS: Gauss-Seidel on the increments of the tractions in steady rolling
 !>
-!> A traction is carried downstream by the adhering elements behind it: with frozen increments,
-!> a change of p(i) changes only the increment of i and, with opposite sign, that of the first
-!> element downstream that does not adhere. Element problems with the compliance
-!> C = c(0) - c(landing - i), rows by ascending y, elements from trailing to leading edge.
-!> The method of CONTACT (Vollebregt) for the discrete problem of Kalker (1990).
+!> Adhering elements carry a traction downstream: for constant increments a change of p(i) changes only the increment of i and,
+!> with opposite sign, that of the first downstream element that does not adhere. Element problems have the compliance C = c(0)
+!> - c(landing - i); rows are processed in increasing y, elements from the trailing to the leading edge. The method of CONTACT
+!> (Vollebregt) for the discrete problem of Kalker (1990).
 module contact_tangential_steady_gs
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -20,17 +19,17 @@ module contact_tangential_steady_gs
 
 contains
 
-   !> Iterate from the tractions in the rows; they stay admissible whatever happens
+   !> Iterate from the tractions in the rows; they remain admissible in all cases
    subroutine steady_gs(problem, rows, eps, report, log)
       !> Rigid slip, bounds, relaxation and number of iterations
       type(tangential_problem), intent(in) :: problem
-      !> Prepared for increments and started
+      !> Prepared for increments, and started
       type(streaming_rows), intent(inout) :: rows
       !> Tolerance of the updates
       real(wp), intent(in) :: eps
-      !> Gets ended, iterations
+      !> Receives ended, iterations
       type(solve_report), intent(inout) :: report
-      !> Takes a line per iteration from flow-trace level 5 on
+      !> Receives a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       real(wp), allocatable :: before(:, :, :)
@@ -56,12 +55,12 @@ contains
       if (watch%updates < report%iterations) rows%p = before
    end subroutine steady_gs
 
-   !> All elements of a row, from trailing to leading edge
+   !> Process all elements of a row, from the trailing to the leading edge
    subroutine sweep_row(rows, iy, omegah, omegas, slip)
       type(streaming_rows), intent(inout) :: rows
       integer, intent(in) :: iy
       real(wp), intent(in) :: omegah, omegas
-      !> Slip of the row [mm]; kept up to date for the elements still to come
+      !> Slip of the row [mm]; updated for the remaining elements
       real(wp), contiguous, intent(inout) :: slip(:, :)
       integer :: i, landing, behind
       real(wp) :: p(2), old(2), s0(2)
@@ -84,7 +83,7 @@ contains
       end do
    end subroutine sweep_row
 
-   !> Bring the tractions behind element i into agreement with its traction
+   !> Make the tractions downstream of element i consistent with its traction
    subroutine carry_downstream(rows, iy, i, last, slip)
       type(streaming_rows), intent(inout) :: rows
       integer, intent(in) :: iy, i, last
@@ -106,12 +105,12 @@ contains
             rows%p(k, :, iy) = p
          end if
       end do
-      ! the traction of an element in slip stays, that of an exterior one is zero
+      ! the traction of a slipping element is unchanged, that of an exterior one is zero
       change = rows%p(k, :, iy) - rows%p(k + 1, :, iy) - rows%dp(k, :, iy)
       call change_increment(rows, iy, k, change, i, last, slip)
    end subroutine carry_downstream
 
-   !> Add to one increment, and to the slip of the elements upstream of i
+   !> Change one increment, and add the effect to the slip of the elements upstream of i
    subroutine change_increment(rows, iy, k, change, i, last, slip)
       type(streaming_rows), intent(inout) :: rows
       integer, intent(in) :: iy, k, i, last

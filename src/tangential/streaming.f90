@@ -1,13 +1,12 @@
-!> The problem as Gauss-Seidel methods see it: rows, ordered from trailing to leading edge
+!> Data structure of Gauss-Seidel methods: rows, ordered from the trailing to the leading edge
 !>
-!> Columns are numbered 1..mx from the trailing to the leading side, whatever the rolling
-!> direction: for rolling towards decreasing x all arrays are mirrored and x-components change
-!> sign, which makes both directions the same computation. Column 0 is an exterior column
-!> behind the window; it carries the increment -p(1) of an element at the trailing edge.
+!> Columns are numbered 1..mx from the trailing to the leading side, for either rolling direction: for rolling towards
+!> decreasing x all arrays are mirrored and x-components change sign, so that both directions use the same computation. Column 0
+!> is an exterior column behind the window; it contains the increment -p(1) of an element at the trailing edge.
 !>
-!> The slip of a row by the loads of all rows is a convolution (`row_convolution`). Changes within the row are added
-!> directly, to the elements that are still to be visited. That gives the iterates of the
-!> classical methods at a cost per sweep of O(mx my (mx + my)) instead of O(mx**2 my**2).
+!> The slip of a row due to the loads of all rows is a convolution (`row_convolution`). Changes within the row are added
+!> directly to the remaining elements. This gives the iterates of the classical methods at a cost per sweep of O(mx my (mx +
+!> my)) instead of O(mx**2 my**2).
 module contact_tangential_streaming
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : kernel_table
@@ -23,12 +22,12 @@ module contact_tangential_streaming
    public :: streaming_rows, loads
 
    type :: load_list
-      !> Displacements by the tractions themselves: A, or A - A' of a shifted table
+      !> Displacements due to the tractions themselves: A, or A - A' of a shifted table
       integer :: tractions = 0
-      !> A - A' of a shift by one element: A on differences with the next element upstream
+      !> A - A' for a shift by one element: A applied to differences with the next upstream element
       integer :: increments = 1
    end type load_list
-   !> What the kernel is applied to
+   !> Quantity to which the kernel is applied
    type(load_list), parameter :: loads = load_list()
 
    !> A tangential problem with all creepages known, in streaming order
@@ -48,44 +47,44 @@ module contact_tangential_streaming
       real(wp), allocatable :: shift(:, :, :)
       !> Tractions [N/mm2], shape (0:mx + 1, 2, my)
       real(wp), allocatable :: p(:, :, :)
-      !> Increments p(i) - p(i + 1) [N/mm2], shape (0:mx, 2, my); in use with loads%increments
+      !> Increments p(i) - p(i + 1) [N/mm2], shape (0:mx, 2, my); used with loads%increments
       real(wp), allocatable :: dp(:, :, :)
       !> Coefficients within a row, offset "receiving minus loaded", -mx:mx [mm/(N/mm2)]
       real(wp), allocatable :: near_xx(:), near_yy(:), near_xy(:)
       !> Rolling direction +1 or -1
       integer :: direction = 1
-      !> Yield limits before the step, with the same columns; unallocated unless they have a slope
+      !> Yield limits before the step, on the same columns; unallocated unless they have a slope
       type(yield_data), allocatable :: yield
-      !> Columns to the edge of contact upstream, where the particle was when its contact began, 0 for particles that were in
-      !> contact all the time, shape (mx, my); unallocated: 0 everywhere
+      !> Number of columns to the upstream edge of contact, where the particle entered the contact during the step; 0 for
+      !> particles in contact throughout, shape (mx, my); unallocated: 0 everywhere
       integer, allocatable :: edge(:, :)
-      !> Coefficients at all distances of rows, shape (-mx:mx, 1 - my:my - 1); for elements with an edge only
+      !> Coefficients for all row distances, shape (-mx:mx, 1 - my:my - 1); only for elements with an edge
       real(wp), allocatable, private :: all_xx(:, :), all_yy(:, :), all_xy(:, :)
-      !> Yield limits [N/mm2] and plastic displacements [mm] at present, shape (mx + 1, my)
+      !> Current yield limits [N/mm2] and plastic displacements [mm], shape (mx + 1, my)
       real(wp), allocatable :: limit(:, :), plastic(:, :)
-      !> Is the limit before the step that of the next element upstream?
+      !> Is the limit before the step that of the next upstream element?
       logical :: steady = .false.
-      !> Displacements of a row by all loads
+      !> Displacements of a row due to all loads
       type(row_convolution), private :: convolution
    contains
-      !> Kernels, geometry, bounds
+      !> Set up kernels, geometry and bounds
       procedure :: prepare
       !> Free the plans
       procedure :: release
-      !> Rigid slip and tractions for given creepages
+      !> Set the rigid slip and the tractions for given creepages
       procedure :: start
-      !> Tell that the loads of a row have changed
+      !> Update the loads of a row after a change
       procedure :: renew_row
-      !> Slip of a row by the loads of all rows [mm]
+      !> Slip of a row due to the loads of all rows [mm]
       procedure :: row_slip
-      !> Compliance of an element when its landing element is some columns downstream
+      !> Compliance of an element whose landing element is some columns downstream
       procedure :: landing_compliance
       !> Compliance of an element on itself
       procedure :: own_compliance
-      !> The same, and the slip, of an element whose particle entered the contact during the step
+      !> Compliance, and slip, of an element whose particle entered the contact during the step
       procedure :: entered_compliance
       procedure :: entered_slip
-      !> Is this such an element?
+      !> Did the particle of an element enter the contact during the step?
       procedure :: entered
       !> New traction and state of an element
       procedure :: solve_one
@@ -95,7 +94,7 @@ module contact_tangential_streaming
       procedure :: get_tractions
       !> Slip of all rows in window order
       procedure :: get_slip
-      !> Full products that all row products so far amount to
+      !> Number of full products equivalent to all row products so far
       procedure :: products
    end type streaming_rows
 
@@ -107,7 +106,7 @@ contains
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window; its table of coefficients is used
       class(compliance), intent(in) :: operator
-      !> Coefficients of the same particles at the previous time step, if that is not one element
+      !> Coefficients of the same particles at the previous time step, if it is not one element
       type(kernel_table), intent(in), optional :: shifted
       integer :: ix, iy, jx, mx, my
 
@@ -171,7 +170,7 @@ contains
       call self%convolution%release()
    end subroutine release
 
-   !> Column of the window that belongs to a column in streaming order
+   !> Column of the window for a column in streaming order
    elemental integer function window_column(self, ix) result(jx)
       type(streaming_rows), intent(in) :: self
       integer, intent(in) :: ix
@@ -194,12 +193,12 @@ contains
       self%dp = 0.0_wp
    end subroutine reshape_rows
 
-   !> Take over rigid slip (with the creepages) and tractions in window order
+   !> Set rigid slip (including creepages) and tractions, given in window order
    subroutine start(self, problem, creep, p)
       class(streaming_rows), intent(inout) :: self
       !> Rigid slip and the effect of creepages
       type(tangential_problem), intent(in) :: problem
-      !> Creepages [-], of which the first n_forces count
+      !> Creepages [-]; the first n_forces are used
       real(wp), intent(in) :: creep(2)
       !> Estimate of the tractions [N/mm2], shape (mx, my, 2), admissible
       real(wp), intent(in) :: p(:, :, :)
@@ -239,7 +238,7 @@ contains
       end do
    end subroutine start
 
-   !> Yield limits from a column downstream, in steady rolling
+   !> Update the yield limits from a column downstream, in steady rolling
    subroutine follow_limits(self, iy, from)
       class(streaming_rows), intent(inout) :: self
       integer, intent(in) :: iy, from
@@ -259,10 +258,10 @@ contains
       end do
    end subroutine follow_limits
 
-   !> Solve an element problem; the state becomes that of the element, the traction is relaxed
+   !> Solve an element problem; sets the state of the element and relaxes the traction
    subroutine solve_one(self, i, iy, c, s0, omegah, omegas, p)
       class(streaming_rows), intent(inout) :: self
-      !> Place in the row, in the order of the march, and number of the row
+      !> Position in the row, in streaming order, and row index
       integer, intent(in) :: i, iy
       !> Coefficients of the element on itself
       type(element_compliance), intent(in) :: c
@@ -275,7 +274,7 @@ contains
       type(yield_point) :: point
       real(wp) :: before, old(2)
 
-      ! a copy: its place in the row is not contiguous, and a temporary of the compiler comes from the heap
+      ! a copy, because its position in the row is not contiguous and a compiler temporary would use the heap
       old = self%p(i, :, iy)
       if (.not. allocated(self%yield)) then
          call solve_element(c, s0, self%bound(i, iy), p, self%state(i, iy))
@@ -298,13 +297,13 @@ contains
 
    pure real(wp) function largest(self, i, iy)
       class(streaming_rows), intent(in) :: self
-      !> Place in the row, in the order of the march, and number of the row
+      !> Position in the row, in streaming order, and row index
       integer, intent(in) :: i, iy
       largest = self%bound(i, iy)
       if (allocated(self%yield)) largest = min(largest, self%limit(i, iy))
    end function largest
 
-   !> Tell that the loads of a row have changed
+   !> Update the loads of a row after a change
    subroutine renew_row(self, iy)
       class(streaming_rows), intent(inout) :: self
       !> Row
@@ -319,7 +318,7 @@ contains
       end if
    end subroutine renew_row
 
-   !> Slip of a row by the loads of all rows
+   !> Slip of a row due to the loads of all rows
    subroutine row_slip(self, iy, slip)
       class(streaming_rows), intent(inout) :: self
       !> Row
@@ -333,7 +332,7 @@ contains
 
    pure function landing_compliance(self, distance) result(c)
       class(streaming_rows), intent(in) :: self
-      !> Columns between the element and the one where its change of traction ends, 1 or more
+      !> Number of columns between the element and the one where its change of traction ends, at least 1
       integer, intent(in) :: distance
       type(element_compliance) :: c
       c%xx = self%near_xx(0) - self%near_xx(distance)
@@ -363,7 +362,7 @@ contains
       if (allocated(self%edge)) entered = self%edge(i, iy) > 0
    end function entered
 
-   !> The edge, where the displacement is counted from, moves with the traction as well
+   !> The edge, to which the displacement refers, moves with the traction too
    pure function entered_compliance(self, i, iy) result(c)
       class(streaming_rows), intent(in) :: self
       !> Column and row
@@ -375,7 +374,7 @@ contains
       c%xy = 0.0_wp
    end function entered_compliance
 
-   !> Slip by all tractions as they are now, summed directly: there are few such elements
+   !> Slip due to all current tractions, summed directly, as there are few such elements
    pure function entered_slip(self, i, iy) result(slip)
       class(streaming_rows), intent(in) :: self
       !> Column and row

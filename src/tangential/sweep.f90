@@ -1,4 +1,4 @@
-!> When Gauss-Seidel sweeps end, and what they tell about it
+!> Stopping criteria of Gauss-Seidel sweeps, and their trace
 module contact_tangential_sweep
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
@@ -11,13 +11,13 @@ module contact_tangential_sweep
 
    public :: update_watch, trace_iteration
 
-   ! As in CONTACT (Vollebregt)
-   !> Tractions count as at least this [N/mm2], or as this part of a largest bound below 1 N/mm2
+   ! as in CONTACT (Vollebregt)
+   !> Minimum size of the tractions for the stopping criterion [N/mm2], or relative to a maximum bound below 1 N/mm2
    real(wp), parameter :: min_size = 1.0e-6_wp
-   !> Average factor of the updates above which the iteration limit means a standstill
+   !> Average ratio of updates above which reaching the iteration limit is regarded as stagnation
    real(wp), parameter :: stagnating_rate = 0.997_wp
 
-   !> Follows the size of the updates of an iteration
+   !> Monitors the size of the updates of an iteration
    type :: update_watch
       !> Tolerance relative to the tractions
       real(wp) :: eps = 1.0e-6_wp
@@ -26,14 +26,14 @@ module contact_tangential_sweep
       real(wp) :: largest_bound = 0.0_wp
       !> First and last size of an update, size of the tractions [N/mm2], root mean squares
       real(wp) :: first = 0.0_wp, dif = 0.0_wp, size = 0.0_wp
-      !> When the time is up
+      !> Deadline of the case
       type(deadline_type) :: deadline
       !> Number of updates so far
       integer :: updates = 0
    contains
-      !> Take note of an update; is the iteration over, and how?
+      !> Process an update, and decide whether and how the iteration ends
       procedure :: judge
-      !> Average rate of convergence
+      !> Average ratio of successive updates
       procedure :: rate
       !> Root mean square over the contact area
       procedure :: mean
@@ -41,12 +41,12 @@ module contact_tangential_sweep
 
 contains
 
-   !> ending%not_started while the iteration goes on
+   !> Process an update; gives ending%not_started while the iteration continues
    subroutine judge(self, square_dif, square_size, limit, ended)
       class(update_watch), intent(inout) :: self
       !> Sums of squares of the update and of the tractions
       real(wp), intent(in) :: square_dif, square_size
-      !> Largest number of updates
+      !> Maximum number of updates
       integer, intent(in) :: limit
       !> Member of ending
       integer, intent(out) :: ended
@@ -78,20 +78,20 @@ contains
       mean = sqrt(squares/(2*max(1, self%n_contact)))
    end function mean
 
-   !> Average factor from one update to the next [-]
+   !> Average ratio of successive updates [-]
    pure real(wp) function rate(self)
       class(update_watch), intent(in) :: self
       rate = 0.0_wp
       if (self%updates > 1 .and. self%first > 0.0_wp) rate = (self%dif/self%first)**(1.0_wp/(self%updates - 1))
    end function rate
 
-   !> One line per iteration at flow-trace level 5
+   !> Write a line per iteration at flow-trace level 5
    subroutine trace_iteration(log, watch, method, state)
-      !> Takes the line
+      !> Receives the line
       type(log_type), intent(inout) :: log
       !> Number of the iteration, size of the update
       type(update_watch), intent(in) :: watch
-      !> Name of the method, at the head of the line
+      !> Name of the method, at the start of the line
       character(len=*), intent(in) :: method
       !> Element states
       integer, intent(in) :: state(:, :)

@@ -1,12 +1,11 @@
-!> TangCG: conjugate gradients for shifts and transient rolling, slip directions as unknowns
+!> TangCG: conjugate gradients for shifts and transient rolling, with slip directions as unknowns
 !>
-!> Adhering elements have two unknown components, slipping ones the direction of a traction on
-!> the circle |p| = g. The energy on this product of planes and circles is minimised by
-!> preconditioned conjugate gradients, interrupted every few iterations to move elements
-!> between adhesion and slip; Zhao, Vollebregt and Oosterlee (2014). On the circle the second
-!> derivative along the tangent t is t.A t + sigma, sigma = -S.n/g, which enters product and
-!> preconditioner. Differs in the preconditioner: an approximate inverse of the 2 by 2 block of
-!> kernels, not of its diagonal blocks, and its output is not divided once more in adhesion.
+!> Adhering elements have two unknown components, slipping ones the direction of a traction on the circle |p| = g. The energy on
+!> this product of planes and circles is minimised by preconditioned conjugate gradients, interrupted after a few iterations to
+!> change the state of elements; Zhao, Vollebregt and Oosterlee (2014). On the circle the second derivative along the tangent t
+!> is t.A t + sigma, sigma = -S.n/g, which is included in the product and in the preconditioner. Differs in the preconditioner:
+!> an approximate inverse of the 2 by 2 block of kernels rather than of its diagonal blocks, and its output is not divided once
+!> more in adhesion.
 module contact_tangential_tang_cg
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -20,26 +19,26 @@ module contact_tangential_tang_cg
 
    public :: tang_cg
 
-   ! Tuning numbers as in CONTACT (Zhao, Vollebregt and Oosterlee 2014), but where another origin is told
-   !> Most iterations between two checks of the element states
+   ! tuning parameters as in CONTACT (Zhao, Vollebregt and Oosterlee 2014), unless another origin is given
+   !> Maximum number of iterations between two checks of the element states
    integer, parameter :: inner_limit = 4
-   !> Changes of the tractions that call for a check, relative
+   !> Relative change of the tractions that triggers a check
    real(wp), parameter :: inner_change = 0.01_wp
-   !> Slip elements for each adhering one above which the preconditioner is left out; it saves transforms, see
+   !> Number of slip elements per adhering one above which the preconditioner is omitted, which saves transforms, see
    !> doc/theory/classical_solvers.md
    integer, parameter :: slip_dominates = 3
-   !> Products v.Av and v.Az below this part of the numerators they divide count as zero
+   !> Products v.Av and v.Az below this fraction of their numerators are treated as zero
    real(wp), parameter :: no_curvature = 1.0e-6_wp
-   !> Numerators below this value mean that nothing is left to do; far above underflow, chosen
+   !> Smaller numerators mean convergence; far above underflow, chosen
    real(wp), parameter :: nothing = 1.0e-200_wp
 
    !> State of the iteration
    type :: conjugate_gradients
-      !> Slip, residual of the unknowns, preconditioned residual, direction, its product; shape (mx, my, 2)
+      !> Slip, residual of the unknowns, preconditioned residual, direction and its product; shape (mx, my, 2)
       real(wp), allocatable, dimension(:, :, :) :: slip, r, z, v, q
-      !> Second derivative on the circles by their curvature, shape (mx, my)
+      !> Second derivative on the circles due to their curvature, shape (mx, my)
       real(wp), allocatable :: sigma(:, :)
-      !> Is the preconditioner in use? Does a new sequence of directions begin?
+      !> Is the preconditioner used? Does a new sequence of directions start?
       logical :: precondition = .true., restart = .true.
    contains
       procedure :: start
@@ -55,7 +54,7 @@ module contact_tangential_tang_cg
 
 contains
 
-   !> Iterate from given tractions; they stay admissible whatever happens
+   !> Iterate from given tractions; they remain admissible in all cases
    subroutine tang_cg(problem, operator, eps, creep, p, state, report, log)
       !> Rigid slip, bounds, number of iterations
       type(tangential_problem), intent(in) :: problem
@@ -65,13 +64,13 @@ contains
       real(wp), intent(in) :: eps
       !> Creepages [-], or shifts [mm]
       real(wp), intent(in) :: creep(2)
-      !> Tractions [N/mm2], shape (mx, my, 2); admissible estimate on entry
+      !> Tractions [N/mm2], shape (mx, my, 2); on entry an admissible estimate
       real(wp), contiguous, intent(inout) :: p(:, :, :)
-      !> Element states, shape (mx, my); from the tractions on entry
+      !> Element states, shape (mx, my); on entry those of the tractions
       integer, contiguous, intent(inout) :: state(:, :)
-      !> Gets ended, iterations
+      !> Receives ended, iterations
       type(solve_report), intent(inout) :: report
-      !> Takes a line per iteration from flow-trace level 5 on
+      !> Receives a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       type(conjugate_gradients) :: self
@@ -144,13 +143,13 @@ contains
       end associate
    end subroutine start
 
-   !> Leave the preconditioner out where slip dominates, and in the second half of all iterations
+   !> Omit the preconditioner if slip dominates, and in the second half of all iterations
    subroutine choose_preconditioner(self, problem, state, n_contact, iterations)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
       !> Element states
       integer, contiguous, intent(in) :: state(:, :)
-      !> Elements in contact, and iterations so far
+      !> Number of elements in contact, and of iterations so far
       integer, intent(in) :: n_contact, iterations
       integer :: n_slip
 
@@ -163,7 +162,7 @@ contains
       end if
    end subroutine choose_preconditioner
 
-   !> Residual of the unknowns that are left, and sigma
+   !> Residual of the remaining unknowns, and sigma
    subroutine set_residual(self, problem, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -195,7 +194,7 @@ contains
       end associate
    end subroutine set_residual
 
-   !> The next direction; q still belongs to the one before
+   !> Compute the next direction; q is still the product of the previous one
    subroutine set_direction(self, problem, operator, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -216,7 +215,7 @@ contains
       self%restart = .false.
    end subroutine set_direction
 
-   !> Length of the step along the direction
+   !> Step length along the direction
    pure real(wp) function step_length(self) result(alpha)
       class(conjugate_gradients), intent(in) :: self
       real(wp) :: rv, vq
@@ -231,7 +230,7 @@ contains
       end if
    end function step_length
 
-   !> z from r: approximate inverse of the compliance, reduced where the circles are curved
+   !> Compute z from r: approximate inverse of the compliance, reduced where the circles are curved
    subroutine apply_preconditioner(self, problem, operator, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -260,7 +259,7 @@ contains
       call keep_tangent_part(problem, p, state, self%z)
    end subroutine apply_preconditioner
 
-   !> q from A v to the product with the second derivative
+   !> Convert q from A v to the product with the second derivative
    subroutine curve_product(self, problem, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -275,7 +274,7 @@ contains
       end do
    end subroutine curve_product
 
-   !> Keep of a field what the unknowns can use: in slip the component along the tangent
+   !> Project a field to the unknowns: in slip the component along the tangent
    pure subroutine keep_tangent_part(problem, p, state, field)
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and element states
@@ -298,12 +297,12 @@ contains
       end do
    end subroutine keep_tangent_part
 
-   !> Tractions after a step; those of slip elements return to their circles
+   !> Tractions after a step; those of slip elements are returned to their circles
    pure subroutine take_step(problem, state, alpha, v, p)
       type(tangential_problem), intent(in) :: problem
       !> Element states
       integer, contiguous, intent(in) :: state(:, :)
-      !> Length and direction [N/mm2] of the step
+      !> Step length and direction [N/mm2]
       real(wp), intent(in) :: alpha
       real(wp), contiguous, intent(in) :: v(:, :, :)
       !> Tractions [N/mm2]
@@ -318,9 +317,9 @@ contains
       end do
    end subroutine take_step
 
-   !> Bring a traction to its bound
+   !> Scale a traction to its bound
    pure subroutine rescale(bound, p)
-      !> [N/mm2]
+      !> Traction bound [N/mm2]
       real(wp), intent(in) :: bound
       real(wp), intent(inout) :: p(:)
       real(wp) :: length
@@ -329,7 +328,8 @@ contains
       if (length > 0.0_wp) p = p*(bound/length)
    end subroutine rescale
 
-   !> Adhesion to slip beyond the bound, slip to adhesion where slip and traction agree; renews the slip
+   !> Change adhesion to slip beyond the bound, slip to adhesion where slip and traction have the same direction; updates the
+   !> slip
    subroutine move_elements(self, problem, operator, creep, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
@@ -356,7 +356,7 @@ contains
       call self%release(problem, p, state)
    end subroutine move_elements
 
-   !> Slip to adhesion where the slip does not oppose the traction; another division asks for a restart
+   !> Change slip to adhesion where the slip does not oppose the traction; a changed division triggers a restart
    subroutine release(self, problem, p, state)
       class(conjugate_gradients), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem

@@ -1,17 +1,15 @@
 !> Plastic shearing near the surface: a yield limit with linear hardening or softening
 !>
-!> Let D be the slip per step that an element would have without yielding. Plastic shearing du
-!> and slip S share it, D = S - du, both along the traction: du = l n, S = -s n, n = p/|p|,
-!> l, s >= 0. The traction stays below the friction bound g and the yield limit t = t' + k l,
-!> slip takes |p| = g, yielding takes |p| = t. Hence |p| depends on m = |D| = l + s alone:
+!> Let D be the slip per step of an element without yielding. It is divided into plastic shearing du and slip S, D = S - du,
+!> both along the traction: du = l n, S = -s n, n = p/|p|, l, s >= 0. The traction does not exceed the friction bound g and the
+!> yield limit t = t' + k l; slip requires |p| = g, yielding |p| = t. Hence |p| depends only on m = |D| = l + s:
 !>
 !>     t' >= g:   |p| = g                                        (the element slips, it does not yield)
 !>     t' <  g:   |p| = t' + k m, not above g (slip takes over), not below the lowest limit
 !>
-!> and with any r > max(0, -k) all conditions are one equation, p = P(p - r D), where P shortens
-!> z = p - r D: the return map of plasticity (Simo and Hughes 1998). Without hardening, k = 0, it
-!> is the projection onto the disc of radius min(g, t'); such problems need nothing but this
-!> bound, and their elements are told apart afterwards.
+!> and with any r > max(0, -k) all conditions are one equation, p = P(p - r D), where P shortens z = p - r D: the return map of
+!> plasticity (Simo and Hughes 1998). Without hardening, k = 0, it is the projection onto the disc of radius min(g, t'); such
+!> problems need only this bound, and the states of their elements are determined afterwards.
 module contact_tangential_yield
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -22,8 +20,8 @@ module contact_tangential_yield
 
    !> Yield limits of the material in the elements
    type :: yield_data
-      !> Limit before the step [N/mm2], shape (mx, my). In steady rolling only the values on the
-      !> leading side count, those of the material that rolls in.
+      !> Limit before the step [N/mm2], shape (mx, my). In steady rolling only the values on the leading side are used, those of
+      !> the incoming material.
       real(wp), allocatable :: limit(:, :)
       !> Slope k: increase of the limit with the plastic displacement [N/mm3]; 0: none
       real(wp) :: slope = 0.0_wp
@@ -31,7 +29,7 @@ module contact_tangential_yield
       real(wp) :: lowest = 0.0_wp
    end type yield_data
 
-   !> Where the return map sends a vector, and the derivatives there
+   !> Result of the return map for a vector, and its derivatives
    type :: yield_point
       !> Member of element: adhesion, slip or plastic
       integer :: state = element%adhesion
@@ -41,9 +39,9 @@ module contact_tangential_yield
       real(wp) :: plastic = 0.0_wp
       !> Yield limit after the step [N/mm2]
       real(wp) :: limit = 0.0_wp
-      !> Derivatives of the radius by the length |z| and by the limit before
+      !> Derivatives of the radius with respect to the length |z| and to the limit before the step
       real(wp) :: radius_by_length = 1.0_wp, radius_by_limit = 0.0_wp
-      !> The same of the limit after the step
+      !> The same derivatives of the limit after the step
       real(wp) :: limit_by_length = 0.0_wp, limit_by_limit = 1.0_wp
    end type yield_point
 
@@ -53,7 +51,7 @@ contains
    elemental function return_map(length, bound, before, slope, lowest, r) result(point)
       !> |z|, friction bound, yield limit before the step [N/mm2]
       real(wp), intent(in) :: length, bound, before
-      !> As in yield_data
+      !> Slope and lower limit as in yield_data
       real(wp), intent(in) :: slope, lowest
       !> Scale of the slip [(N/mm2)/mm], above max(0, -slope)
       real(wp), intent(in) :: r
@@ -73,7 +71,7 @@ contains
       share = slope/(slope + r)
       point%radius = before + share*(length - before)
       if (point%radius >= bound) then
-         ! hardened up to the friction bound, the rest is slip
+         ! hardened up to the friction bound; the remainder is slip
          point%radius = bound
          point%plastic = (bound - before)/slope
          point%limit = bound
