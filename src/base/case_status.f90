@@ -53,16 +53,16 @@ module contact_base_case_status
       !> Name of the iteration that did not converge, padded with blanks
       procedure :: iteration_word
       !> Record the outcome of an iteration
-      procedure :: judge
+      procedure :: record_iteration
       !> Record a prescribed force that is not met
-      procedure :: miss_force
+      procedure :: record_missed_force
       !> Mark the case as refused: it is not computed
       procedure :: refuse
       !> Mark the case as stopped by the time limit
       procedure :: run_out_of_time
       !> Merge the status of a part of the case
       procedure :: include => include_part
-      procedure, private :: miss
+      procedure, private :: record_failure
    end type case_status
 
 contains
@@ -100,7 +100,7 @@ contains
    end function iteration_word
 
    !> Record the outcome of an iteration; one that converged or was not started changes nothing
-   subroutine judge(self, iteration, name, report)
+   subroutine record_iteration(self, iteration, name, report)
       class(case_status), intent(inout) :: self
       !> Member of missed_iteration
       integer, intent(in) :: iteration
@@ -110,11 +110,11 @@ contains
       type(solve_report), intent(in) :: report
 
       if (report%succeeded()) return
-      call self%miss(iteration, trim(failure_text(name, report)))
-   end subroutine judge
+      call self%record_failure(iteration, trim(failure_text(name, report)))
+   end subroutine record_iteration
 
    !> Record a prescribed force that is not met
-   subroutine miss_force(self, name, requested, found, why)
+   subroutine record_missed_force(self, name, requested, found, why)
       class(case_status), intent(inout) :: self
       !> Name of the force, such as "FX"
       character(len=*), intent(in) :: name
@@ -127,12 +127,12 @@ contains
       write(numbers(:2), "(G0.6)") requested, found
       numbers(:2) = adjustl(numbers(:2))
       numbers(3) = size_text(found - requested, 2)
-      call self%miss(missed_iteration%force, "force, requested " // name // " " // trim(numbers(1)) // " N, found " // &
+      call self%record_failure(missed_iteration%force, "force, requested " // name // " " // trim(numbers(1)) // " N, found " // &
          & trim(numbers(2)) // " N, off by " // trim(numbers(3)) // " N: " // why)
-   end subroutine miss_force
+   end subroutine record_missed_force
 
    !> Record a quantity above its tolerance; the first cause is kept
-   subroutine miss(self, iteration, reason)
+   subroutine record_failure(self, iteration, reason)
       class(case_status), intent(inout) :: self
       !> Member of missed_iteration
       integer, intent(in) :: iteration
@@ -149,7 +149,7 @@ contains
       self%state = case_state%not_converged
       self%iteration = iteration
       self%reason = reason
-   end subroutine miss
+   end subroutine record_failure
 
    subroutine refuse(self, reason)
       class(case_status), intent(inout) :: self
@@ -183,7 +183,7 @@ contains
       if (part%state == case_state%refused) then
          call self%refuse(where // part%reason)
       else
-         call self%miss(part%iteration, where // part%reason)
+         call self%record_failure(part%iteration, where // part%reason)
       end if
    end subroutine include_part
 end module contact_base_case_status

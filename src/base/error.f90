@@ -72,17 +72,17 @@ contains
    end subroutine fatal_error
 
    !> Append a context to an error; does nothing on success
-   subroutine add_context(error, station)
+   subroutine add_context(error, context)
       !> Unallocated on success
       type(error_type), allocatable, intent(inout) :: error
       !> Context, such as "case 3"; appended to earlier ones
-      character(len=*), intent(in) :: station
+      character(len=*), intent(in) :: context
 
       if (.not. allocated(error)) return
       if (allocated(error%trail)) then
-         error%trail = error%trail // ", " // station
+         error%trail = error%trail // ", " // context
       else
-         error%trail = station
+         error%trail = context
       end if
    end subroutine add_context
 

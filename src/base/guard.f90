@@ -4,7 +4,7 @@ module contact_base_guard
    implicit none (type, external)
    private
 
-   public :: do_guarded, end_text, expect_refusals, free_left_blocks, guard_end, guarded_work, new_owner, set_owner
+   public :: cause_text, do_guarded, expect_refusals, free_left_blocks, guard_end, guarded_work, new_owner, set_owner
 
    type :: guard_end_list
       !> The work was done
@@ -76,14 +76,14 @@ contains
    end subroutine do_guarded
 
    !> Why guarded work was abandoned, padded with blanks
-   pure function end_text(cause) result(text)
+   pure function cause_text(cause) result(text)
       !> Member of guard_end
       integer, intent(in) :: cause
       character(len=64) :: text
 
       text = "there is not enough memory"
-      if (cause == guard_end%gave_up) text = "a run-time library gave up, most likely for want of memory"
-   end function end_text
+      if (cause == guard_end%gave_up) text = "a run-time library failed, most likely for lack of memory"
+   end function cause_text
 
    !> A new identifier for an owner of memory blocks
    integer function new_owner()

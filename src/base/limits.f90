@@ -29,7 +29,7 @@ module contact_base_limits
       !> Has the deadline passed?
       procedure :: has_passed
       !> Give an error if the deadline has passed
-      procedure :: watch
+      procedure :: check => check_deadline
    end type deadline_type
 
    !> Limits of a case
@@ -95,7 +95,7 @@ contains
       if (self%at < huge(1.0_wp)) passed = wall_clock() > self%at
    end function has_passed
 
-   subroutine watch(self, where, error)
+   subroutine check_deadline(self, where, error)
       class(deadline_type), intent(in) :: self
       !> Stage of the computation, such as "in the normal problem"
       character(len=*), intent(in) :: where
@@ -106,7 +106,7 @@ contains
       if (.not. self%has_passed()) return
       write(text, "(G0.4)") self%seconds
       call fatal_error(error, "the time limit of " // trim(text) // " s was reached " // where, error_kind%time)
-   end subroutine watch
+   end subroutine check_deadline
 
    subroutine check(self, number, bytes_each, what, error)
       class(case_limits), intent(in) :: self

@@ -21,13 +21,13 @@ module contact_base_log
    end interface
 
    !> Maximum number of distinct warnings per case, and number of characters that are compared
-   integer, parameter :: max_told = 16, told_length = 160
+   integer, parameter :: max_distinct = 16, compared_length = 160
 
    !> A warning of the current case and its number of occurrences
-   type :: told_warning
-      character(len=told_length) :: text = ""
+   type :: counted_warning
+      character(len=compared_length) :: text = ""
       integer :: times = 0
-   end type told_warning
+   end type counted_warning
 
    !> Sinks and settings of messages
    type :: log_type
@@ -42,16 +42,16 @@ module contact_base_log
       !> Number of warnings since the log was created; repeated warnings of a case count once
       integer :: warnings = 0
       !> The same with repeated warnings
-      integer :: heard = 0
-      !> Distinct warnings of the current case, each of which is written once; entries 1...told are in use
-      integer, private :: told = 0
-      type(told_warning), private :: said(max_told)
+      integer :: occurrences = 0
+      !> Distinct warnings of the current case, each of which is written once; entries 1...distinct are in use
+      integer, private :: distinct = 0
+      type(counted_warning), private :: seen(max_distinct)
       !> Are warnings held until `write_held`? Held warnings, one per line; unallocated: none
       logical, private :: holds = .false.
       character(len=:), allocatable, private :: held
       !> Are warnings deferred until `write_deferred`, because the solution may be repeated? Deferred warnings, as above
-      logical, private :: notes = .false.
-      character(len=:), allocatable, private :: noted
+      logical, private :: defers = .false.
+      character(len=:), allocatable, private :: deferred
    contains
       !> Write a line to both sinks
       procedure :: line => log_line
@@ -62,7 +62,7 @@ module contact_base_log
       !> Write a warning to both sinks and count it; a warning repeated in the same case is only counted
       procedure :: warning => log_warning
       !> Convert the choices named by an error to the terms of the log; does nothing on success
-      procedure :: tell_choices
+      procedure :: translate_choices
       !> Start a case: reset the list of warnings
       procedure :: begin_case
       !> End a case: write the number of occurrences of repeated warnings
@@ -70,11 +70,11 @@ module contact_base_log
       !> Hold warnings from now on, and discard those held so far, which belong to a rejected trial
       procedure :: hold => log_hold
       !> Write the held warnings, and all later ones immediately
-      procedure :: speak => log_speak
+      procedure :: write_held => log_write_held
       !> Defer warnings from now on, and discard those deferred so far; trials in between may hold and write warnings
-      procedure :: note => log_note
+      procedure :: defer => log_defer
       !> Write the deferred warnings, each once, and all later ones immediately
-      procedure :: publish => log_publish
+      procedure :: write_deferred => log_write_deferred
       !> Is anything written at this flow-trace level?
       procedure :: shows => log_shows
    end type log_type
@@ -109,15 +109,15 @@ contains
       class(log_type), intent(inout) :: self
       !> The sentence, without the word "Warning"
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: told
+      character(len=:), allocatable :: translated
 
       if (self%holds) then
          call append(self%held, text)
-      else if (self%notes) then
-         call append(self%noted, text)
+      else if (self%defers) then
+         call append(self%deferred, text)
       else if (associated(self%terms)) then
-         call self%terms(text, told)
-         call write_warning(self, told)
+         call self%terms(text, translated)
+         call write_warning(self, translated)
       else
          call write_warning(self, text)
       end if
@@ -139,22 +139,22 @@ contains
       character(len=*), intent(in) :: text
       integer :: k
 
-      self%heard = self%heard + 1
-      do k = 1, self%told
-         if (.not. says_the_same(self%said(k)%text, text)) cycle
-         self%said(k)%times = self%said(k)%times + 1
+      self%occurrences = self%occurrences + 1
+      do k = 1, self%distinct
+         if (.not. is_same_warning(self%seen(k)%text, text)) cycle
+         self%seen(k)%times = self%seen(k)%times + 1
          return
       end do
-      if (self%told < max_told) then
-         self%told = self%told + 1
-         self%said(self%told)%text = text
-         self%said(self%told)%times = 1
+      if (self%distinct < max_distinct) then
+         self%distinct = self%distinct + 1
+         self%seen(self%distinct)%text = text
+         self%seen(self%distinct)%times = 1
       end if
       self%warnings = self%warnings + 1
       call self%line(" Warning: " // text)
    end subroutine write_warning
 
-   subroutine tell_choices(self, error)
+   subroutine translate_choices(self, error)
       class(log_type), intent(in) :: self
       !> Its message is converted; unallocated: nothing is done
       type(error_type), allocatable, intent(inout) :: error
@@ -163,11 +163,11 @@ contains
       if (.not. (allocated(error) .and. associated(self%terms))) return
       call self%terms(error%message, text)
       call move_alloc(text, error%message)
-   end subroutine tell_choices
+   end subroutine translate_choices
 
    subroutine begin_case(self)
       class(log_type), intent(inout) :: self
-      self%told = 0
+      self%distinct = 0
    end subroutine begin_case
 
    subroutine end_case(self)
@@ -175,22 +175,22 @@ contains
       character(len=48) :: count
       integer :: k
 
-      do k = 1, self%told
-         if (self%said(k)%times < 2) cycle
-         write(count, '(" Warning: (", I0, " times in this case) ")') self%said(k)%times
-         call self%line(trim(count) // " " // trim(self%said(k)%text))
+      do k = 1, self%distinct
+         if (self%seen(k)%times < 2) cycle
+         write(count, '(" Warning: (", I0, " times in this case) ")') self%seen(k)%times
+         call self%line(trim(count) // " " // trim(self%seen(k)%text))
       end do
-      self%told = 0
+      self%distinct = 0
    end subroutine end_case
 
    !> Are two warnings identical except for numbers with a decimal point?
-   pure logical function says_the_same(one, other) result(same)
-      !> A warning cut to told_length, and a complete one
+   pure logical function is_same_warning(one, other) result(same)
+      !> A warning cut to compared_length, and a complete one
       character(len=*), intent(in) :: one, other
       integer :: a, b, next_a, next_b, length
 
       same = .false.
-      length = min(len_trim(other), told_length)
+      length = min(len_trim(other), compared_length)
       a = 1
       b = 1
       do
@@ -204,7 +204,7 @@ contains
          if (a > len_trim(one) .or. b > length) exit
       end do
       same = a > len_trim(one) .and. b > length
-   end function says_the_same
+   end function is_same_warning
 
    !> Is a word a number with a decimal point?
    pure logical function is_real(word)
@@ -218,36 +218,36 @@ contains
       if (allocated(self%held)) deallocate(self%held)
    end subroutine log_hold
 
-   subroutine log_speak(self)
+   subroutine log_write_held(self)
       class(log_type), intent(inout) :: self
       character(len=:), allocatable :: held
 
       self%holds = .false.
       if (.not. allocated(self%held)) return
       call move_alloc(self%held, held)
-      call warn_of_lines(self, held)
-   end subroutine log_speak
+      call write_warnings(self, held)
+   end subroutine log_write_held
 
-   subroutine log_note(self)
+   subroutine log_defer(self)
       class(log_type), intent(inout) :: self
-      self%notes = .true.
-      if (allocated(self%noted)) deallocate(self%noted)
-   end subroutine log_note
+      self%defers = .true.
+      if (allocated(self%deferred)) deallocate(self%deferred)
+   end subroutine log_defer
 
-   subroutine log_publish(self)
+   subroutine log_write_deferred(self)
       class(log_type), intent(inout) :: self
-      character(len=:), allocatable :: noted
+      character(len=:), allocatable :: deferred
 
-      self%notes = .false.
-      if (.not. allocated(self%noted)) return
-      call move_alloc(self%noted, noted)
+      self%defers = .false.
+      if (.not. allocated(self%deferred)) return
+      call move_alloc(self%deferred, deferred)
       call self%begin_case()
-      call warn_of_lines(self, noted)
+      call write_warnings(self, deferred)
       call self%end_case()
-   end subroutine log_publish
+   end subroutine log_write_deferred
 
    !> Issue a warning for each line
-   subroutine warn_of_lines(self, text)
+   subroutine write_warnings(self, text)
       class(log_type), intent(inout) :: self
       !> Each line ends with a new_line
       character(len=*), intent(in) :: text
@@ -259,7 +259,7 @@ contains
          call self%warning(text(first:first + length - 1))
          first = first + length + 1
       end do
-   end subroutine warn_of_lines
+   end subroutine write_warnings
 
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self

@@ -42,7 +42,7 @@ contains
          return
       end if
       write(text, "(I0, 3A, I0, A)") number, " ", what, " need about ", number*bytes_each/1000000_long, &
-         & " MB of memory, which is not there"
+         & " MB of memory, which is not available"
       call fatal_error(error, trim(text), kind=error_kind%memory)
    end subroutine require_memory
 end module contact_base_memory

@@ -52,11 +52,11 @@ module contact_base_output_file
       !> Flush the buffer to the system
       procedure :: flush_now
       !> Was some of the output not written?
-      procedure :: has_lost
+      procedure :: has_failed
       !> Current position [bytes]
       procedure :: place
       !> Set the position; existing content is overwritten
-      procedure :: go_to
+      procedure :: seek
       !> Close the file, and report whether all of it was written
       procedure :: close_file
    end type output_file
@@ -196,7 +196,7 @@ contains
       self%stream = fdopen(descriptor, mode)
       if (self%is_open()) return
       call close_descriptor(descriptor)
-      reason = "there is no memory for it"
+      reason = "there is not enough memory for it"
    end subroutine open_stream
 
    subroutine open_again(self, name, place, reason, confined)
@@ -211,7 +211,7 @@ contains
       logical, intent(in), optional :: confined
 
       call open_stream(self, name, "r+" // c_null_char, reason, confined, place)
-      if (self%is_open()) call self%go_to(place)
+      if (self%is_open()) call self%seek(place)
    end subroutine open_again
 
    subroutine open_standard_output(self)
@@ -278,14 +278,14 @@ contains
       if (self%is_open()) ignored = fflush(self%stream)
    end subroutine flush_now
 
-   logical function has_lost(self)
+   logical function has_failed(self)
       class(output_file), intent(in) :: self
 
-      has_lost = .false.
+      has_failed = .false.
       if (.not. self%is_open()) return
-      if (fflush(self%stream) /= 0) has_lost = .true.
-      if (ferror(self%stream) /= 0) has_lost = .true.
-   end function has_lost
+      if (fflush(self%stream) /= 0) has_failed = .true.
+      if (ferror(self%stream) /= 0) has_failed = .true.
+   end function has_failed
 
    integer(c_long) function place(self)
       class(output_file), intent(in) :: self
@@ -294,7 +294,7 @@ contains
       if (self%is_open()) place = ftell(self%stream)
    end function place
 
-   subroutine go_to(self, place)
+   subroutine seek(self, place)
       class(output_file), intent(in) :: self
       !> Position from the function `place` [bytes]
       integer(c_long), intent(in) :: place
@@ -302,7 +302,7 @@ contains
       integer(c_int) :: ignored
 
       if (self%is_open()) ignored = fseek(self%stream, place, from_the_start)
-   end subroutine go_to
+   end subroutine seek
 
    subroutine close_file(self, complete)
       class(output_file), intent(inout) :: self

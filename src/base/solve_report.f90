@@ -75,19 +75,19 @@ contains
       character(len=*), intent(in) :: name
       !> Outcome of the iteration, with residual and tolerance
       type(solve_report), intent(in) :: report
-      character(len=len(name) + name_length + 80) :: text
+      character(len=len(name) + name_length + 88) :: text
       character(len=11) :: numbers(2)
-      character(len=22) :: how
+      character(len=27) :: how
 
       select case (report%ended)
       case (ending%iteration_limit)
-         how = "used up its iterations"
+         how = "reached the iteration limit"
       case (ending%stagnated)
          how = "stagnated"
       case (ending%beyond_friction)
-         how = "of a force too large"
+         how = "cannot reach the force"
       case (ending%out_of_time)
-         how = "ran out of time"
+         how = "reached the time limit"
       case default
          how = "diverged"
       end select

@@ -14,10 +14,10 @@ module contact_base_system
    type :: file_stamp
       integer(c_long_long), private :: numbers(5) = 0
       !> Is the file old enough that a later change would have another time? Clocks of file systems are coarse
-      logical, private :: settled = .false.
+      logical, private :: is_conclusive = .false.
    contains
       !> Is the file unchanged since an earlier stamp? False if that stamp was taken too soon after a change
-      procedure :: is_still
+      procedure :: is_unchanged_since
    end type file_stamp
 
    !> Outcome of taking a lock
@@ -157,7 +157,7 @@ contains
          reason = "there is a symbolic link in its name; this system cannot tell where links lead (openat2 is missing), so that " &
             & // "a confined run follows none"
       else
-         call explain(file, cause, reason)
+         call describe_failure(file, cause, reason)
       end if
    end subroutine open_input
 
@@ -171,31 +171,31 @@ contains
       integer(c_long_long) :: age
 
       if (contact_stamp(name // c_null_char, stamp%numbers, age) /= 0) return
-      stamp%settled = age > merge(coarse_tick, tick, modulo(stamp%numbers(5), second) == 0)
+      stamp%is_conclusive = age > merge(coarse_tick, tick, modulo(stamp%numbers(5), second) == 0)
    end function stamp_of
 
-   pure logical function is_still(self, earlier)
+   pure logical function is_unchanged_since(self, earlier)
       class(file_stamp), intent(in) :: self
       !> Stamp taken before the file was read
       type(file_stamp), intent(in) :: earlier
 
-      is_still = earlier%settled .and. all(self%numbers == earlier%numbers)
-   end function is_still
+      is_unchanged_since = earlier%is_conclusive .and. all(self%numbers == earlier%numbers)
+   end function is_unchanged_since
 
    !> Why a file was not opened
-   subroutine explain(file, cause, reason)
+   subroutine describe_failure(file, cause, reason)
       !> Failure in place of a descriptor, and errno
       integer(c_int), intent(in) :: file, cause
       character(len=:), allocatable, intent(out) :: reason
       character(len=longest_sentence) :: sentence
 
       if (file == of_another_kind) then
-         reason = "it is no ordinary file but a folder, link, FIFO, socket or device"
+         reason = "it is not a regular file but a folder, link, FIFO, socket or device"
       else
          call contact_explain(cause, sentence, int(len(sentence), c_int))
          reason = trim(sentence)
       end if
-   end subroutine explain
+   end subroutine describe_failure
 
    !> Read an open file from its current position
    subroutine read_input(file, text, done, reason)
@@ -210,7 +210,7 @@ contains
       integer(c_int) :: cause
 
       done = int(contact_read(file, c_loc(text), len(text, c_long_long), cause), long)
-      if (done < 0) call explain(-1_c_int, cause, reason)
+      if (done < 0) call describe_failure(-1_c_int, cause, reason)
    end subroutine read_input
 
    !> Open a file for writing; its content is lost, or the part beyond `keep`
@@ -231,7 +231,7 @@ contains
       kept = -1_c_long
       if (present(keep)) kept = keep
       file = contact_open_output(name // c_null_char, merge(1_c_int, 0_c_int, confined), kept, cause)
-      if (file < 0) call explain(file, cause, reason)
+      if (file < 0) call describe_failure(file, cause, reason)
    end subroutine open_output
 
    !> Take the lock of an experiment, which the system releases when this process ends for whatever reason
@@ -256,7 +256,7 @@ contains
          if (len(what) == 0) what = "a process that did not give its name"
       else
          state = lock_state%impossible
-         call explain(file, cause, what)
+         call describe_failure(file, cause, what)
       end if
    end subroutine lock_experiment
 

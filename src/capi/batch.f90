@@ -3,7 +3,7 @@ module contact_capi_batch
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
+   use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_batch, only : batch_field, batch_room, case_batch, close_batch, find_field, open_batch, &
@@ -148,7 +148,7 @@ contains
       if (cause /= guard_end%done) then
          request%open%is_lost = .true.
          status = first_failure + int(error_kind%memory, c_int)
-         call give_message(trim(end_text(cause)) // " for the batch", message, length)
+         call give_message(trim(cause_text(cause)) // " for the batch", message, length)
       else if (allocated(request%error)) then
          status = first_failure + int(request%error%kind, c_int)
          call give_message(request%error%message, message, length)

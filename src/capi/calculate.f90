@@ -103,7 +103,7 @@ contains
          end if
       end if
       if (allocated(error)) then
-         call log%tell_choices(error)
+         call log%translate_choices(error)
          call status%refuse(full_text(error))
          call complain(this, full_text(error), code)
       else if (problem%module_number == 1) then

@@ -3,7 +3,7 @@ module contact_capi_failure
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_null_ptr, c_ptr
    use omp_lib, only : omp_unset_lock
    use contact_base_case_status, only : case_status
-   use contact_base_guard, only : end_text
+   use contact_base_guard, only : cause_text
    use contact_capi_arguments, only : give, integer_of
    use contact_capi_host, only : call_stage, find_call, give_floats_back, note_call
    use contact_capi_library, only : entry_type
@@ -41,7 +41,7 @@ contains
          if (name(i) == c_null_char) exit
          this%name(i:i) = name(i)
       end do
-      reason = trim(end_text(cause))
+      reason = trim(cause_text(cause))
       call find_call(address, stage)
       call note_call(c_null_ptr, call_stage%outside)
       nullify(problem)

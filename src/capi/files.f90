@@ -92,12 +92,12 @@ contains
    !> Is there a file in which cases are written as input, and has it taken all of them so far? When it has not, this is told
    logical function dumps_input()
       character(len=:), allocatable :: path
-      logical :: ignored, has_lost
+      logical :: ignored, has_failed
 
       !$omp critical (contact_registry)
-      has_lost = library%input_dump%has_lost()
-      dumps_input = library%input_dump%is_open() .and. .not. has_lost
-      if (has_lost) then
+      has_failed = library%input_dump%has_failed()
+      dumps_input = library%input_dump%is_open() .and. .not. has_failed
+      if (has_failed) then
          call library%input_dump%close_file(ignored)
          call place_result(library%name // ".inp", path)
          call set_last_error(library_code%other, "the file " // path // " is not complete; is the disk full?")

@@ -398,7 +398,7 @@ contains
          end do
          call write_timers()
          ! a file from which something is missing gets no end
-         if (.not. library%input_dump%has_lost()) call library%input_dump%line(" 0  MODULE")
+         if (.not. library%input_dump%has_failed()) call library%input_dump%line(" 0  MODULE")
          call library%input_dump%close_file(dumped)
          call library%log%out%close_file(complete)
          if (.not. dumped) call set_last_error(library_code%other, &

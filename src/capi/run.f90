@@ -3,7 +3,7 @@ module contact_capi_run
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
-   use contact_base_guard, only : do_guarded, end_text, guard_end
+   use contact_base_guard, only : cause_text, do_guarded, guard_end
    use contact_base_kinds, only : long
    use contact_base_limits, only : case_limits, fill_limits
    use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
@@ -142,9 +142,9 @@ contains
 
       call c_f_pointer(data, request)
       if (request%task == to_run) then
-         call give_message(trim(end_text(guard_end%no_memory)) // " for the run", request%text, request%length)
+         call give_message(trim(cause_text(guard_end%no_memory)) // " for the run", request%text, request%length)
       else
-         call give_message(trim(end_text(guard_end%no_memory)), request%text, request%length)
+         call give_message(trim(cause_text(guard_end%no_memory)), request%text, request%length)
       end if
    end subroutine tell_want_of_memory
 

@@ -3,9 +3,9 @@ module contact_capi_table
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_error, only : error_type
-   use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
+   use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_capi_arguments, only : give_message, take_text
-   use contact_tables_creep_table, only : answer, creep_table, find_creep_force, most_spin
+   use contact_tables_creep_table, only : creep_table, find_creep_force, lookup_status, max_spin
    use contact_tables_table_file, only : read_table
    implicit none (type, external)
    private
@@ -52,7 +52,7 @@ contains
       call do_guarded(read_inside, c_loc(request), owner, cause)
       if (cause /= guard_end%done) then
          call free_left_blocks(owner)
-         call give_message(trim(end_text(cause)) // " for the table", message, length)
+         call give_message(trim(cause_text(cause)) // " for the table", message, length)
       else if (allocated(request%error)) then
          call give_message(request%error%message, message, length)
       else
@@ -104,7 +104,7 @@ contains
       facts%poisson = table%nu
       facts%ratio = exp([table%shape%low, table%shape%high])
       facts%offset = table%offset%high
-      facts%spin = most_spin(table)
+      facts%spin = max_spin(table)
       if (facts%spin >= huge(facts%spin)) facts%spin = ieee_value(facts%spin, ieee_positive_inf)
       facts%asked = table%asked
       facts%error = [table%error_force, table%error_moment]
@@ -130,7 +130,7 @@ contains
       integer :: found
 
       force = 0.0_c_double
-      status = int(answer%wrong, c_int)
+      status = int(lookup_status%invalid, c_int)
       if (.not. c_associated(handle)) return
       call c_f_pointer(handle, table)
       call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found)
@@ -158,7 +158,7 @@ contains
 
       force = 0.0_c_double
       derivatives = 0.0_c_double
-      status = int(answer%wrong, c_int)
+      status = int(lookup_status%invalid, c_int)
       if (.not. c_associated(handle)) return
       call c_f_pointer(handle, table)
       call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found, &
@@ -190,7 +190,7 @@ contains
       integer(c_int) :: ended
       integer :: k
 
-      worst = int(answer%inside, c_int)
+      worst = int(lookup_status%inside, c_int)
       if (c_associated(derivatives)) call c_f_pointer(derivatives, slopes, [3, 3, int(count)])
       if (c_associated(answers)) call c_f_pointer(answers, endings, [int(count)])
       do k = 1, count

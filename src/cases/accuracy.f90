@@ -57,7 +57,7 @@ contains
       end if
       call refuse_contact(session, spec, error)
       if (allocated(error)) return
-      call log%note()
+      call log%defer()
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
       if (chosen%found) then
          call session%series%clear()
@@ -69,7 +69,7 @@ contains
          call subsurface_stresses(solved, result, error)
          if (.not. allocated(error)) call warn_of_steps(result, log)
       end if
-      call log%publish()
+      call log%write_deferred()
       session%curvatures = 0.0_wp
       if (allocated(session%problem%hertz)) session%curvatures = [session%problem%hertz%a1, session%problem%hertz%b1]
       ! the next case lays out its own grid

@@ -121,7 +121,7 @@ contains
       if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
       call set_elements(level%grid, grid%counts, grid%lengths)
       if (grid%lengths(1) > 0.0_wp .and. spec%motion == motion%steady_rolling) level%rolling%dq = grid%lengths(1)/grid%counts(1)
-      call log%note()
+      call log%defer()
       call solve_case(session, level, log, result, error, folder)
       if (.not. allocated(error)) is_solved = is_solved .and. result%status%is_solved()
    end subroutine solve_step

@@ -67,7 +67,7 @@ contains
       else
          call solve_in_folder(session, spec, "", log, result, error)
       end if
-      call log%tell_choices(error)
+      call log%translate_choices(error)
       call log%end_case()
    end subroutine solve_case
 

@@ -56,7 +56,7 @@ contains
       end if
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
-         call spec%limits%deadline%watch("before the stresses below the surface", error)
+         call spec%limits%deadline%check("before the stresses below the surface", error)
          if (.not. allocated(error)) then
             if (k == 1) then
                call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error, shelf)

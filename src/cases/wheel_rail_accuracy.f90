@@ -56,7 +56,7 @@ contains
       end if
       call refuse_case(spec, error)
       if (allocated(error)) return
-      call log%note()
+      call log%defer()
       call refine(session, spec, folder, log, result, solved, error)
       ! the next case is compared with what was asked for
       session%problem%spec%search%dx = spec%wheel_rail%search%dx
@@ -68,7 +68,7 @@ contains
             call warn_of_steps(result%patches(k)%contact, log)
          end do
       end if
-      call log%publish()
+      call log%write_deferred()
       ! solutions on these elements are no estimates for the elements of the next case
       if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
    end subroutine solve_wheel_on_rail
@@ -108,7 +108,7 @@ contains
          level%wheel_rail%search%dx = sides(1)
          level%wheel_rail%search%ds = sides(2)
          if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
-         call log%note()
+         call log%defer()
          call solve_wheel_rail_case(session, level, folder, log, result, error)
          if (allocated(error)) then
             if (.not. (error%kind == error_kind%time .and. allocated(best))) return

@@ -66,7 +66,7 @@ contains
       log%level = spec%flow_level
       call log%begin_case()
       call solve_and_describe(session, spec, folder, log, result, error)
-      call log%tell_choices(error)
+      call log%translate_choices(error)
       call log%end_case()
    end subroutine solve_wheel_rail_case
 

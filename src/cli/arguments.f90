@@ -5,9 +5,9 @@ module contact_cli_arguments
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, fill_limits
-   use contact_cli_command_line, only : take_word
+   use contact_cli_command_line, only : get_word
    use contact_cli_commands, only : is_command, run_command
-   use contact_cli_process, only : exit_status_of_signal, forget_signals, stop_by_signal, watch_signals
+   use contact_cli_process, only : catch_signals, exit_status_of_signal, restore_signals, stop_by_signal
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
    use contact_cli_accuracy_words, only : read_accuracy, read_permission
@@ -86,7 +86,7 @@ contains
 
    !> Execute the command line; returns the exit status
    integer function run_command_line() result(status)
-      type(command) :: asked
+      type(command) :: requested
       type(error_type), allocatable :: error
 
       status = success
@@ -98,26 +98,26 @@ contains
          status = run_command()
          return
       end if
-      call read_arguments(asked, error)
+      call read_arguments(requested, error)
       if (.not. allocated(error)) then
-         if (asked%help) then
+         if (requested%help) then
             call write_help()
             return
-         else if (asked%version) then
+         else if (requested%version) then
             call write_versions(output_unit)
             return
          end if
-         if (asked%mode == 0) call ask_mode(asked, error)
+         if (requested%mode == 0) call prompt_mode(requested, error)
       end if
       if (.not. allocated(error)) then
-         if (asked%mode == mode%licence) then
+         if (requested%mode == mode%licence) then
             write(output_unit, "(A)") "CONTACT is open source: no licence is needed, and mode 1 has nothing to do."
             return
          end if
-         if (asked%resume .and. asked%mode == mode%check) then
+         if (requested%resume .and. requested%mode == mode%check) then
             call fatal_error(error, "--resume goes on with a computation, mode 2; a check, mode 3, has nothing to go on with")
-         else if (.not. allocated(asked%experiment)) then
-            call ask_experiment(asked, error)
+         else if (.not. allocated(requested%experiment)) then
+            call prompt_experiment(requested, error)
          end if
       end if
       if (allocated(error)) then
@@ -126,48 +126,48 @@ contains
          status = failure
          return
       end if
-      call run(asked, status)
+      call run(requested, status)
    end function run_command_line
 
    !> Run the experiment; errors have been written on return
-   subroutine run(asked, status)
-      type(command), intent(inout) :: asked
+   subroutine run(requested, status)
+      type(command), intent(inout) :: requested
       !> Exit status
       integer, intent(out) :: status
       type(run_settings) :: settings
       type(error_type), allocatable :: error
       logical :: interrupted
 
-      settings%experiment = asked%experiment
-      if (allocated(asked%output_folder)) settings%output_folder = asked%output_folder
+      settings%experiment = requested%experiment
+      if (allocated(requested%output_folder)) settings%output_folder = requested%output_folder
       settings%version = contact_version
-      settings%check_only = asked%mode == mode%check
-      settings%threads = asked%threads
-      settings%strict = asked%strict
-      settings%resume = asked%resume
-      settings%limits = asked%limits
-      if (asked%limits%confined) call fill_limits(settings%limits, asked%run_seconds, asked%output_bytes)
-      settings%run_deadline%seconds = asked%run_seconds
-      settings%output_bytes = asked%output_bytes
-      settings%stop_asked => stop_by_signal
-      settings%exports%hdf5 = asked%hdf5
-      settings%exports%vtk = asked%vtk
-      settings%heat_source = asked%heat_source
-      settings%order = asked%order
-      settings%accuracy = asked%accuracy
-      settings%allows_approximate = asked%allows_approximate
-      settings%angle_below_axle = asked%angle_below_axle
-      settings%classical = asked%classical
-      settings%errors = asked%errors
-      if (allocated(asked%json)) settings%exports%json = asked%json
-      if (.not. asked%quiet) then
+      settings%check_only = requested%mode == mode%check
+      settings%threads = requested%threads
+      settings%strict = requested%strict
+      settings%resume = requested%resume
+      settings%limits = requested%limits
+      if (requested%limits%confined) call fill_limits(settings%limits, requested%run_seconds, requested%output_bytes)
+      settings%run_deadline%seconds = requested%run_seconds
+      settings%output_bytes = requested%output_bytes
+      settings%stop_requested => stop_by_signal
+      settings%exports%hdf5 = requested%hdf5
+      settings%exports%vtk = requested%vtk
+      settings%heat_source = requested%heat_source
+      settings%order = requested%order
+      settings%accuracy = requested%accuracy
+      settings%allows_approximate = requested%allows_approximate
+      settings%angle_below_axle = requested%angle_below_axle
+      settings%classical = requested%classical
+      settings%errors = requested%errors
+      if (allocated(requested%json)) settings%exports%json = requested%json
+      if (.not. requested%quiet) then
          settings%screen = output_unit
          settings%progress = is_terminal()
       end if
       settings%complaints = error_unit
-      call watch_signals()
+      call catch_signals()
       call run_experiment(settings, error, interrupted)
-      call forget_signals()
+      call restore_signals()
       status = success
       if (.not. allocated(error)) return
       status = merge(unconverged, failure, error%kind == error_kind%not_converged)
@@ -175,8 +175,8 @@ contains
    end subroutine run
 
    !> Separate the words of the command line into options and positional arguments
-   subroutine read_arguments(asked, error)
-      type(command), intent(out) :: asked
+   subroutine read_arguments(requested, error)
+      type(command), intent(out) :: requested
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: word
       integer :: k, position
@@ -187,17 +187,17 @@ contains
       k = 0
       do while (k < command_argument_count())
          k = k + 1
-         call take_word(k, word)
+         call get_word(k, word)
          if (options .and. word == "--") then
             options = .false.
          else if (options .and. index(word, "-") == 1) then
-            call take_option(asked, word, k, error)
+            call read_option(requested, word, k, error)
          else
             position = position + 1
             if (position == 1) then
-               call take_mode(asked, word, error)
+               call read_mode(requested, word, error)
             else if (position == 2 .and. len_trim(word) > 0) then
-               asked%experiment = word
+               requested%experiment = word
             end if
          end if
          if (allocated(error)) return
@@ -207,8 +207,8 @@ contains
    !> Parse an option, and its value if it has one
    !>
    !> Long because each option is a case of a single select statement.
-   subroutine take_option(asked, word, k, error)
-      type(command), intent(inout) :: asked
+   subroutine read_option(requested, word, k, error)
+      type(command), intent(inout) :: requested
       !> Option; a value may follow after an equals sign
       character(len=*), intent(in) :: word
       !> Index of the word; on return that of the last one used
@@ -222,83 +222,83 @@ contains
       if (equals > 0) name = word(:equals - 1)
       select case (name)
       case ("--help", "-h")
-         asked%help = .true.
+         requested%help = .true.
       case ("--version")
-         asked%version = .true.
+         requested%version = .true.
       case ("--quiet")
-         asked%quiet = .true.
+         requested%quiet = .true.
       case ("--output-dir")
-         call take_value("the name of a folder")
-         if (.not. allocated(error)) asked%output_folder = value
+         call read_value("the name of a folder")
+         if (.not. allocated(error)) requested%output_folder = value
          return
       case ("--threads")
-         call take_value("a number of threads")
+         call read_value("a number of threads")
          if (allocated(error)) return
-         asked%threads = to_number(value)
-         if (asked%threads < 1 .or. asked%threads > max_threads) call fatal_error(error, &
+         requested%threads = to_number(value)
+         if (requested%threads < 1 .or. requested%threads > max_threads) call fatal_error(error, &
             & "the number of threads, '" // value // "', is not an integer from 1 to 4096")
          return
       case ("--heat")
-         call take_value("the name of a way to compute temperatures: established or moving-source")
+         call read_value("the name of a way to compute temperatures: established or moving-source")
          if (allocated(error)) return
          select case (value)
          case ("established")
-            asked%heat_source = heat_source%established
+            requested%heat_source = heat_source%established
          case ("moving-source")
-            asked%heat_source = heat_source%moving
+            requested%heat_source = heat_source%moving
          case default
             call fatal_error(error, "the way to compute temperatures, '" // value // &
                & "', is not known; established and moving-source are")
          end select
          return
       case ("--order")
-         call take_value("the order of the discretisation of rolling: 1 or 2")
+         call read_value("the order of the discretisation of rolling: 1 or 2")
          if (allocated(error)) return
-         asked%order = to_number(value)
-         if (all(asked%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
+         requested%order = to_number(value)
+         if (all(requested%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
             & "', is not known; 1 and 2 are")
          return
       case ("--accuracy")
-         call take_value("the largest relative error of the forces, 1e-6 to 0.1")
+         call read_value("the largest relative error of the forces, 1e-6 to 0.1")
          if (allocated(error)) return
-         call read_accuracy(value, asked%accuracy, error)
+         call read_accuracy(value, requested%accuracy, error)
          return
       case ("--allow")
-         call take_value("what may take the place of the full theory: approximate")
+         call read_value("what may take the place of the full theory: approximate")
          if (allocated(error)) return
-         call read_permission(value, asked%allows_approximate, error)
+         call read_permission(value, requested%allows_approximate, error)
          return
       case ("--contact-angle")
-         call take_value("where contact angles are taken: established or contact")
+         call read_value("where contact angles are taken: established or contact")
          if (allocated(error)) return
-         asked%angle_below_axle = value == "established"
+         requested%angle_below_axle = value == "established"
          if (value /= "contact" .and. value /= "established") call fatal_error(error, "the contact angle, '" // value // &
             & "', is not known; established and contact are")
          return
       case ("--classical")
-         asked%classical = .true.
+         requested%classical = .true.
       case ("--confine")
-         asked%limits%confined = .true.
+         requested%limits%confined = .true.
       case ("--limit-time", "--limit-memory", "--limit-elements", "--limit-run-time", "--limit-output")
-         call take_limit()
+         call read_limit()
          return
       case ("--errors")
-         asked%errors = .true.
+         requested%errors = .true.
       case ("--strict")
-         asked%strict = .true.
+         requested%strict = .true.
       case ("--resume")
-         asked%resume = .true.
+         requested%resume = .true.
       case ("--hdf5")
-         asked%hdf5 = .true.
+         requested%hdf5 = .true.
       case ("--vtk")
-         asked%vtk = .true.
+         requested%vtk = .true.
       case ("--json")
-         asked%json = ""
+         requested%json = ""
          if (equals == 0) return
-         asked%json = word(equals + 1:)
-         if (asked%json /= "-") call fatal_error(error, "the option --json writes EXPNAM.jsonl, or with --json=- to the " &
+         requested%json = word(equals + 1:)
+         if (requested%json /= "-") call fatal_error(error, "the option --json writes EXPNAM.jsonl, or with --json=- to the " &
             & // "standard output; it takes no other value")
-         asked%quiet = .true.
+         requested%quiet = .true.
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
@@ -312,10 +312,10 @@ contains
    contains
 
       !> Parse the value of a limit, a positive number
-      subroutine take_limit()
+      subroutine read_limit()
          real(wp) :: number
 
-         call take_value("a positive number")
+         call read_value("a positive number")
          if (allocated(error)) return
          number = to_real(value)
          if (.not. (number > 0.0_wp .and. number < 1.0e12_wp)) then
@@ -324,20 +324,20 @@ contains
          end if
          select case (name)
          case ("--limit-time")
-            asked%limits%deadline%seconds = number
+            requested%limits%deadline%seconds = number
          case ("--limit-memory")
-            asked%limits%bytes = int(1.0e6_wp*number, long)
+            requested%limits%bytes = int(1.0e6_wp*number, long)
          case ("--limit-run-time")
-            asked%run_seconds = number
+            requested%run_seconds = number
          case ("--limit-output")
-            asked%output_bytes = int(1.0e6_wp*number, long)
+            requested%output_bytes = int(1.0e6_wp*number, long)
          case default
-            asked%limits%elements = int(number, long)
+            requested%limits%elements = int(number, long)
          end select
-      end subroutine take_limit
+      end subroutine read_limit
 
       !> Get the value of the option: after the equals sign, or the next word
-      subroutine take_value(what)
+      subroutine read_value(what)
          character(len=*), intent(in) :: what
 
          value = ""
@@ -345,23 +345,23 @@ contains
             value = word(equals + 1:)
          else if (k < command_argument_count()) then
             k = k + 1
-            call take_word(k, value)
+            call get_word(k, value)
          end if
          if (len_trim(value) == 0) call fatal_error(error, "the option " // name // " needs " // what)
-      end subroutine take_value
-   end subroutine take_option
+      end subroutine read_value
+   end subroutine read_option
 
    !> Parse the mode from the first positional argument
-   subroutine take_mode(asked, word, error)
-      type(command), intent(inout) :: asked
+   subroutine read_mode(requested, word, error)
+      type(command), intent(inout) :: requested
       character(len=*), intent(in) :: word
       type(error_type), allocatable, intent(out) :: error
 
-      asked%mode = to_number(word)
-      if (is_mode(asked%mode)) return
+      requested%mode = to_number(word)
+      if (is_mode(requested%mode)) return
       call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3, and there are " // &
          & "the commands convert, explain, report, study and table")
-   end subroutine take_mode
+   end subroutine read_mode
 
    !> Does this mode exist?
    pure logical function is_mode(number)
@@ -370,8 +370,8 @@ contains
    end function is_mode
 
    !> List the modes and prompt until one is chosen
-   subroutine ask_mode(asked, error)
-      type(command), intent(inout) :: asked
+   subroutine prompt_mode(requested, error)
+      type(command), intent(inout) :: requested
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: answer
 
@@ -380,25 +380,25 @@ contains
          & "  2  read EXPNAM.inp, compute, write the results", &
          & "  3  read and check EXPNAM.inp"
       do
-         call ask("Mode (1, 2 or 3): ", answer, error)
+         call prompt("Mode (1, 2 or 3): ", answer, error)
          if (allocated(error)) return
-         asked%mode = to_number(answer)
-         if (is_mode(asked%mode)) return
+         requested%mode = to_number(answer)
+         if (is_mode(requested%mode)) return
       end do
-   end subroutine ask_mode
+   end subroutine prompt_mode
 
    !> Prompt for the name of the experiment
-   subroutine ask_experiment(asked, error)
-      type(command), intent(inout) :: asked
+   subroutine prompt_experiment(requested, error)
+      type(command), intent(inout) :: requested
       type(error_type), allocatable, intent(out) :: error
 
-      call ask("Name of the experiment (empty for '" // default_experiment // "'): ", asked%experiment, error)
+      call prompt("Name of the experiment (empty for '" // default_experiment // "'): ", requested%experiment, error)
       if (allocated(error)) return
-      if (len_trim(asked%experiment) == 0) asked%experiment = default_experiment
-   end subroutine ask_experiment
+      if (len_trim(requested%experiment) == 0) requested%experiment = default_experiment
+   end subroutine prompt_experiment
 
    !> Prompt for an answer; the end of the input is an error
-   subroutine ask(question, answer, error)
+   subroutine prompt(question, answer, error)
       character(len=*), intent(in) :: question
       character(len=:), allocatable, intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
@@ -416,7 +416,7 @@ contains
          write(output_unit, "(A)") ""
          call fatal_error(error, "the input ended where an answer was expected")
       end if
-   end subroutine ask
+   end subroutine prompt
 
    !> An unsigned integer, -1 if the word is not one
    pure integer function to_number(word) result(number)

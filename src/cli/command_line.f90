@@ -3,11 +3,11 @@ module contact_cli_command_line
    implicit none (type, external)
    private
 
-   public :: take_word
+   public :: get_word
 
 contains
 
-   subroutine take_word(k, word)
+   subroutine get_word(k, word)
       !> Index, 1...command_argument_count()
       integer, intent(in) :: k
       !> Word in full length
@@ -17,5 +17,5 @@ contains
       call get_command_argument(k, length=length)
       allocate(character(len=length) :: word)
       if (length > 0) call get_command_argument(k, word)
-   end subroutine take_word
+   end subroutine get_word
 end module contact_cli_command_line

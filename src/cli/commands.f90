@@ -4,7 +4,7 @@ module contact_cli_commands
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_cli_accuracy_words, only : read_accuracy, read_permission
-   use contact_cli_command_line, only : take_word
+   use contact_cli_command_line, only : get_word
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
    use contact_text_buffer, only : text_buffer
@@ -30,13 +30,13 @@ contains
    !> Execute the command line; returns the exit status
    integer function run_command() result(status)
       type(error_type), allocatable :: error
-      type(text_buffer) :: told
+      type(text_buffer) :: messages
       character(len=:), allocatable :: word, command, experiment, folder, output, value
       integer :: k
       real(wp) :: accuracy
       logical :: force, quiet, allows_approximate
 
-      call take_word(1, command)
+      call get_word(1, command)
       accuracy = 0.0_wp
       allows_approximate = .false.
       force = .false.
@@ -45,19 +45,19 @@ contains
       k = 1
       do while (k < command_argument_count() .and. .not. allocated(error))
          k = k + 1
-         call take_word(k, word)
+         call get_word(k, word)
          if (word == "--force" .and. command == "convert") then
             force = .true.
          else if (word == "--quiet" .and. command == "convert") then
             quiet = .true.
          else if (word == "--output-dir" .and. command == "convert" .and. k < command_argument_count()) then
             k = k + 1
-            call take_word(k, folder)
+            call get_word(k, folder)
          else if (command == "explain" .and. is_option(word, "--accuracy", k)) then
-            call take_option_value(word, k, value)
+            call read_option_value(word, k, value)
             call read_accuracy(value, accuracy, error)
          else if (command == "explain" .and. is_option(word, "--allow", k)) then
-            call take_option_value(word, k, value)
+            call read_option_value(word, k, value)
             call read_permission(value, allows_approximate, error)
          else if (index(word, "-") == 1 .and. word /= "--") then
             call fatal_error(error, "contact " // command // " has no option '" // word // "', or it lacks its value")
@@ -75,11 +75,11 @@ contains
          return
       end if
       if (command == "explain") then
-         call explain_experiment(experiment, told, error, accuracy, allows_approximate)
-         call tell_lines(output_unit, told)
+         call explain_experiment(experiment, messages, error, accuracy, allows_approximate)
+         call write_lines(output_unit, messages)
       else
-         call convert_experiment(experiment, folder, force, told, output, error)
-         call tell_lines(error_unit, told)
+         call convert_experiment(experiment, folder, force, messages, output, error)
+         call write_lines(error_unit, messages)
          if (.not. allocated(error) .and. .not. quiet) write(output_unit, "(A)") " " // output // " is written"
       end if
       if (allocated(error)) then
@@ -100,7 +100,7 @@ contains
    end function is_option
 
    !> Get the value of an option
-   subroutine take_option_value(word, k, value)
+   subroutine read_option_value(word, k, value)
       character(len=*), intent(in) :: word
       !> Index of the word; on return that of its value
       integer, intent(inout) :: k
@@ -111,16 +111,16 @@ contains
       value = word(equals + 1:)
       if (equals > 0) return
       k = k + 1
-      call take_word(k, value)
-   end subroutine take_option_value
+      call get_word(k, value)
+   end subroutine read_option_value
 
    !> Write the lines of a text
-   subroutine tell_lines(unit, told)
+   subroutine write_lines(unit, messages)
       integer, intent(in) :: unit
-      type(text_buffer), intent(in) :: told
+      type(text_buffer), intent(in) :: messages
       character(len=:), allocatable :: text
 
-      call told%get(text)
+      call messages%get(text)
       if (len(text) > 0) write(unit, "(A)") text(:len(text) - 1)
-   end subroutine tell_lines
+   end subroutine write_lines
 end module contact_cli_commands

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 void contact_fill_streams(void);
-void contact_watch_signals(void);
-void contact_forget_signals(void);
+void contact_catch_signals(void);
+void contact_restore_signals(void);
 int contact_caught_signal(void);
 
 /* Signal that ends the run after the current case, 0: none */
@@ -39,7 +39,7 @@ static void handle(int number, void (*handler)(int)) {
   if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
 }
 
-void contact_watch_signals(void) {
+void contact_catch_signals(void) {
   handle(SIGTERM, end_soon);
   handle(SIGINT, end_soon);
   handle(SIGHUP, end_soon);
@@ -50,7 +50,7 @@ void contact_watch_signals(void) {
 }
 
 /* Restore the default action of signals after the run */
-void contact_forget_signals(void) {
+void contact_restore_signals(void) {
   static const int all[] = {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ};
   for (unsigned k = 0; k < sizeof all / sizeof *all; k++) {
     struct sigaction now;

@@ -4,7 +4,8 @@ module contact_cli_process
    implicit none (type, external)
    private
 
-   public :: become, exit_status_of_signal, fill_streams, forget_signals, set_variable, stop_by_signal, watch_signals, word_type
+   public :: catch_signals, exit_status_of_signal, fill_streams, replace_process, restore_signals, set_variable, stop_by_signal
+   public :: word_type
 
    !> A word of a command line
    type :: word_type
@@ -17,12 +18,12 @@ module contact_cli_process
       end subroutine fill_streams
 
       !> End the run after the current case when a signal arrives
-      subroutine watch_signals() bind(c, name="contact_watch_signals")
-      end subroutine watch_signals
+      subroutine catch_signals() bind(c, name="contact_catch_signals")
+      end subroutine catch_signals
 
       !> Restore the default action of signals
-      subroutine forget_signals() bind(c, name="contact_forget_signals")
-      end subroutine forget_signals
+      subroutine restore_signals() bind(c, name="contact_restore_signals")
+      end subroutine restore_signals
 
       function caught_signal() result(number) bind(c, name="contact_caught_signal")
          import :: c_int
@@ -84,7 +85,7 @@ contains
    end subroutine set_variable
 
    !> Replace this program by another one in the same process; returns only if it is not found
-   subroutine become(words)
+   subroutine replace_process(words)
       !> Name of the program, to be found on the search path, and its arguments
       type(word_type), intent(in) :: words(:)
       type(word_type), target :: ended(size(words))
@@ -98,5 +99,5 @@ contains
       end do
       pointers(size(pointers)) = c_null_ptr
       ignored = execvp(ended(1)%text, pointers)
-   end subroutine become
+   end subroutine replace_process
 end module contact_cli_process

@@ -2,8 +2,8 @@
 module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
-   use contact_cli_command_line, only : take_word
-   use contact_cli_process, only : become, set_variable, word_type
+   use contact_cli_command_line, only : get_word
+   use contact_cli_process, only : replace_process, set_variable, word_type
    implicit none (type, external)
    private
 
@@ -70,12 +70,12 @@ contains
       words(1)%text = "python3"
       words(2)%text = "-c"
       words(3)%text = start
-      call take_word(1, words(4)%text)
+      call get_word(1, words(4)%text)
       words(5)%text = place
       do k = 2, command_argument_count()
-         call take_word(k, words(k + 4)%text)
+         call get_word(k, words(k + 4)%text)
       end do
-      call become(words)
+      call replace_process(words)
       if (words(4)%text == "report") then
          write(error_unit, "(A)") "contact report: Python 3 is not found; install it together with NumPy and h5py " &
             & // "(apt-get install python3-h5py)"

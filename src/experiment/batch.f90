@@ -9,7 +9,7 @@ module contact_experiment_batch
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : release_slot
    use contact_cases_spec, only : case_spec
-   use contact_experiment_state, only : complete_spec, experiment_state, find_slot, run_settings, solve_one
+   use contact_experiment_state, only : apply_settings, experiment_state, find_slot, run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : severity
    use contact_patch_quantities, only : element_field, total_list
@@ -21,7 +21,7 @@ module contact_experiment_batch
    public :: batch_column, batch_field, batch_room, case_batch, close_batch, find_field, open_batch, solve_cases, solve_variations
 
    !> Maximum number of columns, and initial number of slots
-   integer, parameter, public :: most_columns = 128
+   integer, parameter, public :: max_columns = 128
    integer, parameter :: first_slots = 4
    !> Name of the text in messages
    character(len=*), parameter :: text_name = "study.toml"
@@ -43,7 +43,7 @@ module contact_experiment_batch
       type(experiment_state) :: state
       type(run_settings) :: settings
       !> Columns 1...count are in use
-      type(batch_column) :: columns(most_columns)
+      type(batch_column) :: columns(max_columns)
       integer :: count = 0
       type(total_list), private :: totals
       !> Slot of the last case solved, 0: none; is it a wheel-rail case, on the left side?
@@ -191,23 +191,23 @@ contains
       else if (this%spec%solve) then
          this%spec%flow_level = 0
          this%spec%output_level = 0
-         call complete_spec(batch%state, batch%settings, this)
+         call apply_settings(batch%state, batch%settings, this)
          call find_slot(batch%state, this%reid, this%cpid, k)
          if (present(is_alone) .and. associated(batch%state%slots(k)%problem_slot%session)) &
             & batch%state%slots(k)%problem_slot%session%problem%has_geometry = .false.
          call solve_one(batch%state, batch%state%slots(k), this, batch%state%log, status, solved, refusal)
          if (status%has_result()) then
             batch%last = k
-            call note_results(batch, this, room, error)
+            call store_results(batch, this, room, error)
          end if
       end if
       room%states(:, room%cases) = [status%state, status%iteration]
       if (status%state /= case_state%solved .and. allocated(status%reason)) &
-         & call put_reason(status%reason, room%reasons(:, room%cases))
+         & call copy_reason(status%reason, room%reasons(:, room%cases))
    end subroutine solve_next
 
    !> Copy a text, truncated and null-terminated
-   pure subroutine put_reason(reason, letters)
+   pure subroutine copy_reason(reason, letters)
       character(len=*), intent(in) :: reason
       !> Receives the text
       character(kind=c_char), intent(inout) :: letters(:)
@@ -218,10 +218,10 @@ contains
          letters(i) = reason(i:i)
       end do
       if (n >= 0) letters(n + 1) = c_null_char
-   end subroutine put_reason
+   end subroutine copy_reason
 
    !> Store the totals of the current case
-   subroutine note_results(batch, this, room, error)
+   subroutine store_results(batch, this, room, error)
       !> State kept from call to call
       type(case_batch), intent(inout) :: batch
       type(input_case), intent(in) :: this
@@ -246,7 +246,7 @@ contains
             call add_row(batch, room, 1, error)
          end if
       end associate
-   end subroutine note_results
+   end subroutine store_results
 
    !> Store the current totals as a row
    subroutine add_row(batch, room, patch, error)
@@ -271,7 +271,7 @@ contains
          associate (row => batch%totals%rows(k))
             if (.not. row%in_files) cycle
             call find_column(batch, row%name, patch == 0, column)
-            if (column > min(size(room%values, 1), most_columns)) then
+            if (column > min(size(room%values, 1), max_columns)) then
                call fatal_error(error, "there are more totals than columns")
                return
             end if

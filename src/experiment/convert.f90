@@ -27,7 +27,7 @@ contains
    !> Write an experiment in the other format: .toml for .inp, .inp for .toml
    !>
    !> The new file is written completely and can be read without errors, or it is not created.
-   subroutine convert_experiment(experiment, output_folder, overwrite, told, output, error)
+   subroutine convert_experiment(experiment, output_folder, overwrite, messages, output, error)
       !> Name of the experiment, with or without suffix
       character(len=*), intent(in) :: experiment
       !> Folder of the new file, "" for that of the input
@@ -35,7 +35,7 @@ contains
       !> May an existing file be replaced?
       logical, intent(in) :: overwrite
       !> Messages about problems of the input, and about settings that the new file cannot express
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: messages
       !> Name of the new file
       character(len=:), allocatable, intent(out) :: output
       type(error_type), allocatable, intent(out) :: error
@@ -65,9 +65,9 @@ contains
       call open_result(file, temporary, output, error)
       if (allocated(error)) return
       if (to_readable) then
-         call write_readable(place%input, file, told, cases, names_files, error)
+         call write_readable(place%input, file, messages, cases, names_files, error)
       else
-         call write_established(place%input, file, told, cases, names_files, error)
+         call write_established(place%input, file, messages, cases, names_files, error)
       end if
       call file%close_file(is_whole)
       if (.not. (is_whole .or. allocated(error))) call fatal_error(error, "the file is not complete; is the disk full?", &
@@ -83,7 +83,7 @@ contains
             & output)
       end if
       if (allocated(error)) call remove_file(temporary)
-      if (.not. allocated(error) .and. output_folder /= "" .and. names_files) call told%add_line(" Files that " // output // &
+      if (.not. allocated(error) .and. output_folder /= "" .and. names_files) call messages%add_line(" Files that " // output // &
          & " names are relative to its own folder: copy them there, profiles and tables of coefficients")
    end subroutine convert_experiment
 
@@ -108,30 +108,30 @@ contains
    end function is_relative
 
    !> Read the next case. Its problems are reported; errors end the conversion
-   subroutine next_good_case(reader, this, told, error)
+   subroutine next_good_case(reader, this, messages, error)
       type(experiment_reader), intent(inout) :: reader
       type(input_case), intent(out) :: this
       !> As for convert_experiment
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: messages
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
       call reader%next_case(this, error)
       if (allocated(error)) return
       do k = 1, this%problems%count
-         call told%add_line(problem_text(this%problems%items(k)))
+         call messages%add_line(problem_text(this%problems%items(k)))
       end do
       if (this%problems%number_of(severity%error) > 0) call fatal_error(error, "case " // integer_text(this%number) // &
          & ", which starts at this line, has errors; nothing was written", error_kind%input, reader%lexer%file, this%first_line)
    end subroutine next_good_case
 
    !> Convert all cases to the readable format
-   subroutine write_readable(input, file, told, cases, names_files, error)
+   subroutine write_readable(input, file, messages, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
       type(output_file), intent(inout), target :: file
       !> As for convert_experiment
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: messages
       !> Number of cases
       integer, intent(out) :: cases
       !> Does a case refer to a file relative to its folder?
@@ -149,7 +149,7 @@ contains
       call reader%open_file(input, error)
       do while (.not. allocated(error))
          last = reader%lexer%line
-         call next_good_case(reader, this, told, error)
+         call next_good_case(reader, this, messages, error)
          if (allocated(error)) return
          if (this%module_number == 0) exit
          names_files = names_files .or. has_relative_file(this%spec)
@@ -177,12 +177,12 @@ contains
    end subroutine write_readable
 
    !> Convert all cases to the established format
-   subroutine write_established(input, file, told, cases, names_files, error)
+   subroutine write_established(input, file, messages, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
       type(output_file), intent(inout), target :: file
       !> As for convert_experiment
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: messages
       !> Number of cases
       integer, intent(out) :: cases
       !> Does a case refer to a file relative to its folder?
@@ -204,7 +204,7 @@ contains
       allows = .false.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
-         call next_good_case(reader, this, told, error)
+         call next_good_case(reader, this, messages, error)
          if (allocated(error)) return
          if (this%module_number == 0) exit
          names_files = names_files .or. has_relative_file(this%spec)
@@ -223,13 +223,14 @@ contains
       end do
       if (allocated(error)) return
       call file%line(" 0   % MODULE: end")
-      if (is_moving) call told%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
+      if (is_moving) call messages%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
          & "--heat moving-source to have them")
-      if (is_second) call told%add_line(" Rolling of " // input // " is of order 2; the new file needs --order 2 for that")
-      if (has_errors) call told%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
-      if (has_wear) call told%add_line(" Wear and fatigue of " // input // " are told; the new file has no place to ask for them")
-      if (asks_accuracy) call told%add_line(" Accuracies of " // input // " are asked for; the new file needs --accuracy for that")
-      if (allows) call told%add_line(" Simplified methods are allowed in " // input // "; the new file needs --allow for that")
+      if (is_second) call messages%add_line(" Rolling of " // input // " is of order 2; the new file needs --order 2 for that")
+      if (has_errors) call messages%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
+      if (has_wear) call messages%add_line(" Wear and fatigue of " // input // " are computed; the new file cannot request them")
+      if (asks_accuracy) call messages%add_line(" Accuracies are requested in " // input // "; the new file needs --accuracy &
+         &for that")
+      if (allows) call messages%add_line(" Simplified methods are allowed in " // input // "; the new file needs --allow for that")
    end subroutine write_established
 
    !> Write the line MODULE {REID {CPID}}

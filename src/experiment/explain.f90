@@ -16,11 +16,11 @@ module contact_experiment_explain
 contains
 
    !> Describe every case: what is simulated and what is not, the solvers, and the expected cost
-   subroutine explain_experiment(experiment, told, error, accuracy, allows_approximate)
+   subroutine explain_experiment(experiment, messages, error, accuracy, allows_approximate)
       !> Name of the experiment, with or without suffix
       character(len=*), intent(in) :: experiment
       !> Description, line by line
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: messages
       !> Allocated if the input is invalid, or a case cannot be computed
       type(error_type), allocatable, intent(out) :: error
       !> Accuracy that a run will request: bound of the relative error of the forces [-]; 0 or absent: as in the input
@@ -38,12 +38,12 @@ contains
       call reader%open_file(place%input, error)
       if (allocated(error)) return
       cases = 0
-      call told%add_line(place%input)
+      call messages%add_line(place%input)
       do
          call reader%next_case(this, error)
          if (allocated(error) .or. this%module_number == 0) exit
          cases = cases + 1
-         call told%add_line("")
+         call messages%add_line("")
          if (present(accuracy)) then
             if (accuracy > 0.0_wp) this%spec%iteration%accuracy = accuracy
          end if
@@ -51,13 +51,13 @@ contains
             if (allows_approximate) this%spec%iteration%allows_approximate = .true.
          end if
          if (this%problems%number_of(severity%error) == 0) then
-            call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), told)
+            call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), messages)
          else
-            call told%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
+            call messages%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
                & ": its errors must be corrected first")
          end if
          do k = 1, this%problems%count
-            call told%add_line("  " // problem_text(this%problems%items(k)))
+            call messages%add_line("  " // problem_text(this%problems%items(k)))
          end do
          call this%problems%first_failure(error)
          if (allocated(error)) exit

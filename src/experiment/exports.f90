@@ -33,7 +33,7 @@ module contact_experiment_exports
       logical :: vtk = .false.
    contains
       !> Is any file requested?
-      procedure :: any => any_asked
+      procedure :: any => is_any_requested
    end type export_request
 
    !> Open files; unallocated components were not requested
@@ -44,9 +44,9 @@ module contact_experiment_exports
    contains
       procedure :: open_files
       procedure :: close_file
-      procedure :: take_ends
+      procedure :: record_ends
       !> Is any file open?
-      procedure :: wanted
+      procedure :: has_any
       procedure :: write_failure
       procedure :: write_contact
       procedure :: write_wheel_rail
@@ -54,15 +54,15 @@ module contact_experiment_exports
 
 contains
 
-   pure logical function any_asked(self)
+   pure logical function is_any_requested(self)
       class(export_request), intent(in) :: self
-      any_asked = allocated(self%json) .or. self%hdf5 .or. self%vtk
-   end function any_asked
+      is_any_requested = allocated(self%json) .or. self%hdf5 .or. self%vtk
+   end function is_any_requested
 
-   pure logical function wanted(self)
+   pure logical function has_any(self)
       class(export_files), intent(in) :: self
-      wanted = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
-   end function wanted
+      has_any = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
+   end function has_any
 
    !> Open the requested files
    subroutine open_files(self, request, place, version, run, limits, error, from)
@@ -82,7 +82,7 @@ contains
       type(checkpoint), intent(in), optional :: from
 
       if (present(from)) then
-         call go_on(self, request, place, run, from, limits, error)
+         call continue_files(self, request, place, run, from, limits, error)
          return
       end if
       if (allocated(request%json)) then
@@ -106,7 +106,7 @@ contains
    end subroutine open_files
 
    !> Continue existing files; the HDF5 file is open already
-   subroutine go_on(self, request, place, run, from, limits, error)
+   subroutine continue_files(self, request, place, run, from, limits, error)
       type(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
       !> Location of input and results
@@ -129,10 +129,10 @@ contains
          allocate(self%vtk)
          call self%vtk%open_collection(place%results, run, limits, error, from%vtk)
       end if
-   end subroutine go_on
+   end subroutine continue_files
 
    !> Record the current ends of the files
-   subroutine take_ends(self, here)
+   subroutine record_ends(self, here)
       class(export_files), intent(in) :: self
       !> Receives the size of each file in bytes
       type(checkpoint), intent(inout) :: here
@@ -140,7 +140,7 @@ contains
       if (allocated(self%json)) here%json = self%json%place()
       if (allocated(self%hdf5)) here%rows = [self%hdf5%rows(patch=.false.), self%hdf5%rows(patch=.true.)]
       if (allocated(self%vtk)) here%vtk = self%vtk%place()
-   end subroutine take_ends
+   end subroutine record_ends
 
    !> Record the progress of the run in a file, and close it
    subroutine close_file(self, which, run, error)

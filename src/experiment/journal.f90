@@ -76,8 +76,8 @@ module contact_experiment_journal
       character(len=:), allocatable, private :: letters
    contains
       procedure :: start
-      procedure :: go_on
-      procedure :: note
+      procedure :: resume
+      procedure :: record
       procedure :: save_line
       procedure :: finish
    end type journal_file
@@ -119,7 +119,7 @@ contains
    end subroutine start
 
    !> Continue the journal after a line that was read
-   subroutine go_on(self, results, place, from, confined)
+   subroutine resume(self, results, place, from, confined)
       class(journal_file), intent(inout) :: self
       !> Folder and base name of the results
       character(len=*), intent(in) :: results
@@ -135,16 +135,16 @@ contains
       self%letters = ""
       self%now = from
       call self%file%open_again(self%name, place, ignored, confined)
-   end subroutine go_on
+   end subroutine resume
 
    !> Record a finished case; `now` describes the state after it
-   subroutine note(self, letter)
+   subroutine record(self, letter)
       class(journal_file), intent(inout) :: self
       !> Final status of the case, as a letter
       character(len=1), intent(in) :: letter
 
       self%letters = self%letters // letter
-   end subroutine note
+   end subroutine record
 
    !> Write a line for the cases recorded since the last one; to be called when all files have been flushed
    subroutine save_line(self)

@@ -16,7 +16,7 @@ module contact_experiment_resume
    use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_settings, letter_of, &
       & read_journal
-   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, numbered_slot, &
+   use contact_experiment_state, only : apply_settings, as_input_says, counted, experiment_state, find_slot, numbered_slot, &
       & run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_text_lexer, only : empty_hash
@@ -24,7 +24,7 @@ module contact_experiment_resume
    implicit none (type, external)
    private
 
-   public :: catch_up, find_point, note_case, resume_point, settings_of
+   public :: find_resume_point, record_case, restore_state, resume_point, settings_of
 
    !> State from which a run is resumed
    type :: resume_point
@@ -40,33 +40,33 @@ module contact_experiment_resume
 contains
 
    !> Settings of a run that affect its results
-   function settings_of(asked) result(settings)
-      type(run_settings), intent(in) :: asked
+   function settings_of(requested) result(settings)
+      type(run_settings), intent(in) :: requested
       type(journal_settings) :: settings
 
       settings%version = "-"
-      if (allocated(asked%version)) settings%version = asked%version
-      settings%json = allocated(asked%exports%json)
-      if (settings%json) settings%json = asked%exports%json /= "-"
-      settings%hdf5 = asked%exports%hdf5
-      settings%vtk = asked%exports%vtk
-      settings%heat_source = asked%heat_source
-      settings%angle_below_axle = asked%angle_below_axle
-      settings%classical = asked%classical
-      settings%errors = asked%errors
-      settings%order = asked%order
-      settings%accuracy = asked%accuracy
-      settings%allows_approximate = asked%allows_approximate
-      if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
-      if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
-      if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
+      if (allocated(requested%version)) settings%version = requested%version
+      settings%json = allocated(requested%exports%json)
+      if (settings%json) settings%json = requested%exports%json /= "-"
+      settings%hdf5 = requested%exports%hdf5
+      settings%vtk = requested%exports%vtk
+      settings%heat_source = requested%heat_source
+      settings%angle_below_axle = requested%angle_below_axle
+      settings%classical = requested%classical
+      settings%errors = requested%errors
+      settings%order = requested%order
+      settings%accuracy = requested%accuracy
+      settings%allows_approximate = requested%allows_approximate
+      if (requested%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = requested%limits%deadline%seconds
+      if (requested%limits%bytes < huge(1_long)) settings%bytes = requested%limits%bytes
+      if (requested%limits%elements < huge(1_long)) settings%elements = requested%limits%elements
    end function settings_of
 
    !> Determine where to resume a run, and its settings
-   subroutine find_point(state, asked, point, is_done, error)
+   subroutine find_resume_point(state, requested, point, is_done, error)
       type(experiment_state), intent(inout) :: state
       !> On return the settings of the earlier run
-      type(run_settings), intent(inout) :: asked
+      type(run_settings), intent(inout) :: requested
       !> Start of the run if there is nothing to resume
       type(resume_point), intent(out) :: point
       !> Are all cases finished?
@@ -83,7 +83,7 @@ contains
          ends = [length_of(results // ".out"), length_of(results // ".jsonl"), length_of(results // ".pvd")]
          call read_journal(results, ends, [huge(1), huge(1)], before, found, point%at, point%place, point%letters)
          if (.not. found) then
-            is_done = says_complete(results // ".out")
+            is_done = ends_complete(results // ".out")
             if (is_done) then
                call state%log%line(" " // results // ".out is complete: there is nothing to resume")
             else
@@ -91,7 +91,7 @@ contains
             end if
             return
          end if
-         call adopt(before, asked, error)
+         call adopt_settings(before, requested, error)
          if (allocated(error)) return
          if (before%hdf5 .and. point%at%cases > 0) then
             allocate(state%exports%hdf5)
@@ -112,21 +112,21 @@ contains
             end if
          end if
       end associate
-   end subroutine find_point
+   end subroutine find_resume_point
 
    !> Adopt the settings of the earlier run; refuse those that contradict it
-   subroutine adopt(before, asked, error)
+   subroutine adopt_settings(before, requested, error)
       type(journal_settings), intent(in) :: before
-      type(run_settings), intent(inout) :: asked
+      type(run_settings), intent(inout) :: requested
       type(error_type), allocatable, intent(out) :: error
       type(journal_settings) :: now
       character(len=:), allocatable :: what
 
-      now = settings_of(asked)
+      now = settings_of(requested)
       what = ""
       if (now%version /= before%version) what = "by version " // trim(before%version) // ", this is " // trim(now%version)
-      if (allocated(asked%exports%json)) then
-         if (asked%exports%json == "-") what = "into files; --json=- does not go with --resume"
+      if (allocated(requested%exports%json)) then
+         if (requested%exports%json == "-") what = "into files; --json=- does not go with --resume"
          if (now%json .and. .not. before%json) what = "without --json"
       end if
       if (now%hdf5 .and. .not. before%hdf5) what = "without --hdf5"
@@ -143,29 +143,29 @@ contains
          call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
          return
       end if
-      if (before%json) asked%exports%json = ""
-      asked%exports%hdf5 = before%hdf5
-      asked%exports%vtk = before%vtk
-      asked%heat_source = before%heat_source
-      asked%angle_below_axle = before%angle_below_axle
-      asked%classical = before%classical
-      asked%errors = before%errors
-      asked%order = before%order
-      asked%accuracy = before%accuracy
-      asked%allows_approximate = before%allows_approximate
-      if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
-      if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
-      if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements
-   end subroutine adopt
+      if (before%json) requested%exports%json = ""
+      requested%exports%hdf5 = before%hdf5
+      requested%exports%vtk = before%vtk
+      requested%heat_source = before%heat_source
+      requested%angle_below_axle = before%angle_below_axle
+      requested%classical = before%classical
+      requested%errors = before%errors
+      requested%order = before%order
+      requested%accuracy = before%accuracy
+      requested%allows_approximate = before%allows_approximate
+      if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) requested%limits%deadline%seconds = before%seconds
+      if (before%bytes > 0 .and. now%bytes == 0) requested%limits%bytes = before%bytes
+      if (before%elements > 0 .and. now%elements == 0) requested%limits%elements = before%elements
+   end subroutine adopt_settings
 
    !> Restore the memory of all contact problems, without writing
    !>
    !> A case that starts anew (P = 2, I = 0) is independent of earlier ones. Of each contact problem the last such case is
    !> solved again, and all later cases. Of earlier cases only the files are read, so that messages are not repeated.
-   subroutine catch_up(state, asked, point, error)
+   subroutine restore_state(state, requested, point, error)
       type(experiment_state), intent(inout) :: state
-      type(run_settings), intent(in) :: asked
-      !> State found by find_point
+      type(run_settings), intent(in) :: requested
+      !> State found by find_resume_point
       type(resume_point), intent(in) :: point
       type(error_type), allocatable, intent(out) :: error
       type(input_case) :: this
@@ -180,11 +180,11 @@ contains
       quiet%terms => state%log%terms
       call first_to_solve(state, point, first, error)
       if (allocated(error)) return
-      state%silent = .not. asked%exports%any()
+      state%silent = .not. requested%exports%any()
       do j = 1, point%at%cases
          call state%reader%next_case(this, error)
          if (allocated(error)) return
-         call complete_spec(state, asked, this)
+         call apply_settings(state, requested, this)
          letter = point%letters(j:j)
          call is_advised(letter, was_advised)
          call find_slot(state, this%reid, this%cpid, k)
@@ -202,7 +202,7 @@ contains
          end if
          ! failures repeat, and were reported before
          if (allocated(error)) deallocate(error)
-         call remember_files(state, state%slots(k), this%module_number)
+         call record_files(state, state%slots(k), this%module_number)
       end do
       if (state%journal%now%files /= point%at%files) then
          call fatal_error(error, "a profile or another file that the finished cases have read is not what it was: they cannot &
@@ -217,7 +217,7 @@ contains
       state%log%warnings = point%at%warnings
       if (state%errors > 0) call fatal_error(state%first_error, "there were errors before the run was resumed, see " // &
          & state%place%results // ".out")
-   end subroutine catch_up
+   end subroutine restore_state
 
    !> First case of each contact problem that must be solved again, indexed by place_of; huge: none
    subroutine first_to_solve(state, point, first, error)
@@ -270,7 +270,7 @@ contains
    end function place_of
 
    !> Record the files read by a case
-   subroutine remember_files(state, slot, module_number)
+   subroutine record_files(state, slot, module_number)
       type(experiment_state), intent(inout) :: state
       type(numbered_slot), intent(in) :: slot
       integer, intent(in) :: module_number
@@ -292,10 +292,10 @@ contains
             hash = modulo(31_long*hash + modulo(fingerprint, 2147483647_long), 2147483647_long)
          end associate
       end subroutine add
-   end subroutine remember_files
+   end subroutine record_files
 
    !> Record a finished case: its final status, and the current ends of all files
-   subroutine note_case(state, this, status, slot)
+   subroutine record_case(state, this, status, slot)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
       type(case_status), intent(in) :: status
@@ -308,19 +308,19 @@ contains
       if (this%module_number /= 1) then
          if (is_same(slot%session%advised, slot%session%problem%grid)) letter = advised(letter)
       end if
-      call remember_files(state, slot, this%module_number)
+      call record_files(state, slot, this%module_number)
       associate (now => state%journal%now, lexer => state%reader%lexer)
          call lexer%hash_lines(state%hashed + 1, lexer%line, now%input)
          state%hashed = lexer%line
          now%cases = state%run%finished
          now%out = state%log%out%place()
-         call state%exports%take_ends(now)
+         call state%exports%record_ends(now)
          now%errors = state%errors
          now%warnings = state%log%warnings
          now%ended = state%run%ended
       end associate
-      call state%journal%note(letter)
-   end subroutine note_case
+      call state%journal%record(letter)
+   end subroutine record_case
 
    !> Length of a file [bytes], 0 if it does not exist
    integer(long) function length_of(file) result(length)
@@ -331,7 +331,7 @@ contains
    end function length_of
 
    !> Does a report end like that of a complete run?
-   logical function says_complete(file) result(complete)
+   logical function ends_complete(file) result(complete)
       character(len=*), intent(in) :: file
       integer(long), parameter :: enough = 300
       character(len=:), allocatable :: tail
@@ -347,5 +347,5 @@ contains
       read(unit, pos=length - len(tail) + 1, iostat=status) tail
       close(unit)
       complete = status == 0 .and. index(tail, " CONTACT ended ") > 0 .and. index(tail, " Not complete: ") == 0
-   end function says_complete
+   end function ends_complete
 end module contact_experiment_resume

@@ -12,7 +12,7 @@ module contact_experiment_run
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : heat_source, kernel_model
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
-   use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
+   use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : wall_clock
    use contact_base_output_file, only : remove_file
@@ -25,8 +25,8 @@ module contact_experiment_run
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
    use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
-   use contact_experiment_resume, only : catch_up, find_point, note_case, resume_point, settings_of
-   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, &
+   use contact_experiment_resume, only : find_resume_point, record_case, restore_state, resume_point, settings_of
+   use contact_experiment_state, only : apply_settings, as_input_says, counted, experiment_state, find_slot, no_unit, &
       & numbered_slot, run_settings, solve_one, stop_question
    use contact_input_experiment_file, only : experiment_reader, input_case, is_readable_format
    use contact_input_problems, only : problem_text, severity
@@ -47,7 +47,7 @@ module contact_experiment_run
 
    !> Thresholds of time [s] and memory [bytes] above which the estimated cost of a case is reported: in a check, and before it
    !> is computed
-   real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
+   real(wp), parameter :: reported_seconds = 1.0_wp, reported_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
 
    !> Data of guarded work
    type :: guarded_run
@@ -64,7 +64,7 @@ contains
       !> Files, limits and choices requested by the caller
       type(run_settings), target, intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
-      !> Was the run ended by settings%stop_asked?
+      !> Was the run ended by settings%stop_requested?
       logical, intent(out), optional :: interrupted
       type(experiment_state), pointer :: state
       type(guarded_run), target :: run
@@ -97,11 +97,11 @@ contains
          run%state => state
          run%settings => settings
          owner = new_owner()
-         call do_guarded(work_on_cases, c_loc(run), owner, run%cause)
+         call do_guarded(run_cases, c_loc(run), owner, run%cause)
       end if
       if (run%cause /= guard_end%done) then
          call do_guarded(end_early, c_loc(run), owner, cause)
-         if (.not. allocated(state%first_error)) call fatal_error(state%first_error, trim(end_text(run%cause)), &
+         if (.not. allocated(state%first_error)) call fatal_error(state%first_error, trim(cause_text(run%cause)), &
             & error_kind%memory)
       end if
       call state%lock%release()
@@ -122,7 +122,7 @@ contains
    end subroutine run_experiment
 
    !> Check or compute the cases, as guarded work
-   subroutine work_on_cases(data) bind(c)
+   subroutine run_cases(data) bind(c)
       !> A guarded_run
       type(c_ptr), value :: data
       type(guarded_run), pointer :: run
@@ -139,7 +139,7 @@ contains
       else
          call compute_all_cases(run%state, run%settings)
       end if
-   end subroutine work_on_cases
+   end subroutine run_cases
 
    !> Report that there is not enough memory for the current case, and close the files
    !>
@@ -153,7 +153,7 @@ contains
 
       call c_f_pointer(data, run)
       associate (state => run%state)
-         reason = trim(end_text(run%cause))
+         reason = trim(cause_text(run%cause))
          if (state%in_case) then
             reason = reason // " for case " // integer_text(state%head%number)
             if (state%head%result_element > 0) reason = reason // ", result element " // integer_text(state%head%result_element)
@@ -167,7 +167,7 @@ contains
             call state%head%status%refuse(reason)
             state%head%finished = state%run%finished
             call count_case(state, state%head%status)
-            if (state%exports%wanted()) call state%exports%write_failure(state%head)
+            if (state%exports%has_any()) call state%exports%write_failure(state%head)
          end if
          call close_all_files(state)
       end associate
@@ -202,14 +202,14 @@ contains
    end subroutine open_input
 
    !> Give an error if the run is to end before its next case
-   subroutine look_for_end(state, settings, error)
+   subroutine check_for_end(state, settings, error)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: reason
 
-      if (associated(settings%stop_asked)) then
-         call settings%stop_asked(reason)
+      if (associated(settings%stop_requested)) then
+         call settings%stop_requested(reason)
          if (allocated(reason)) then
             state%interrupted = .true.
             call fatal_error(error, "the run was ended by " // reason // " before case " // integer_text(state%cases), &
@@ -217,11 +217,11 @@ contains
             return
          end if
       end if
-      call state%deadline%watch("by the run as a whole", error)
-   end subroutine look_for_end
+      call state%deadline%check("by the run as a whole", error)
+   end subroutine check_for_end
 
    !> Give an error if the size of the output files has reached its limit; the report may exceed it
-   subroutine look_for_excess(state, error)
+   subroutine check_output_limit(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable, intent(out) :: error
 
@@ -231,7 +231,7 @@ contains
       call fatal_error(error, "the results would take more than the limit of " // &
          & integer_text(int(min(state%limits%output%allowed/1000000_long, int(huge(1), long)))) // " MB (--limit-output)", &
          & error_kind%limit)
-   end subroutine look_for_excess
+   end subroutine check_output_limit
 
    !> Check that the name is not empty after removing folder and suffix
    subroutine check_place(state, error)
@@ -304,7 +304,7 @@ contains
             & .or. given%kernel == kernel_model%tabulated)) return
          call open_wheel_rail(slot)
          call check_files(slot%wheel_rail, given, state%place%folder, state%log, error)
-         call state%log%tell_choices(error)
+         call state%log%translate_choices(error)
       else
          call open_contact(slot)
          call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)
@@ -326,7 +326,7 @@ contains
       end if
       total%bytes = max(total%bytes, cost%bytes)
       total%seconds = total%seconds + cost%seconds
-      if (cost%seconds > told_seconds .or. cost%bytes > told_bytes) call state%log%line(" Estimate of case " // &
+      if (cost%seconds > reported_seconds .or. cost%bytes > reported_bytes) call state%log%line(" Estimate of case " // &
          & integer_text(this%number) // " on one thread: " // trim(cost_text(cost)))
    end subroutine add_cost
 
@@ -334,7 +334,7 @@ contains
    subroutine compute_all_cases(state, settings)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: settings
-      type(run_settings) :: asked
+      type(run_settings) :: requested
       type(resume_point) :: point
       type(error_type), allocatable :: error
       type(input_case) :: this
@@ -343,25 +343,25 @@ contains
 
       call state%total%start()
       allocate(state%slots(4))
-      asked = settings
+      requested = settings
       is_done = .false.
-      if (asked%resume) then
-         call find_point(state, asked, point, is_done, error)
+      if (requested%resume) then
+         call find_resume_point(state, requested, point, is_done, error)
          ! limits of the earlier run are used unless others are given
-         state%limits%deadline = asked%limits%deadline
-         state%limits%bytes = asked%limits%bytes
-         state%limits%elements = asked%limits%elements
+         state%limits%deadline = requested%limits%deadline
+         state%limits%bytes = requested%limits%bytes
+         state%limits%elements = requested%limits%elements
       end if
-      if (asked%heat_source == as_input_says .and. .not. is_readable_format(state%place%input)) &
-         & asked%heat_source = heat_source%established
-      if (.not. allocated(error) .and. point%active) call catch_up(state, asked, point, error)
+      if (requested%heat_source == as_input_says .and. .not. is_readable_format(state%place%input)) &
+         & requested%heat_source = heat_source%established
+      if (.not. allocated(error) .and. point%active) call restore_state(state, requested, point, error)
       if (allocated(error)) then
          if (allocated(state%exports%hdf5)) call state%exports%hdf5%abandon()
          call report_error(state, error)
       end if
-      if (.not. (allocated(error) .or. is_done)) call open_all_files(state, asked, point, go_on)
+      if (.not. (allocated(error) .or. is_done)) call open_all_files(state, requested, point, go_on)
       if (allocated(error) .or. is_done) go_on = .false.
-      if (go_on .and. asked%progress) call state%progress%begin(state%run%planned)
+      if (go_on .and. requested%progress) call state%progress%begin(state%run%planned)
       do while (go_on)
          call state%reading%start()
          call state%reader%next_case(this, error)
@@ -369,7 +369,7 @@ contains
          if (allocated(error)) then
             ! a wrong digit may be the cause why the following text cannot be read
             if (allocated(this%problems%items)) call report_problems(state, this)
-            call give_up(state, error)
+            call report_final_error(state, error)
             exit
          end if
          if (this%module_number == 0) then
@@ -377,22 +377,22 @@ contains
             exit
          end if
          state%cases = state%cases + 1
-         call look_for_end(state, settings, error)
+         call check_for_end(state, settings, error)
          if (allocated(error)) then
             state%cases = state%cases - 1
-            call give_up(state, error)
+            call report_final_error(state, error)
             exit
          end if
-         call complete_spec(state, asked, this)
+         call apply_settings(state, requested, this)
          state%head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
          state%in_case = .true.
          call compute_case(state, this, go_on)
          state%in_case = .false.
          if (.not. go_on) exit
          call keep_files_current(state)
-         call look_for_excess(state, error)
+         call check_output_limit(state, error)
          if (allocated(error)) then
-            call give_up(state, error)
+            call report_final_error(state, error)
             exit
          end if
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
@@ -404,16 +404,16 @@ contains
    end subroutine compute_all_cases
 
    !> Open the files of a run, or continue existing ones
-   subroutine open_all_files(state, asked, point, done)
+   subroutine open_all_files(state, requested, point, done)
       type(experiment_state), intent(inout) :: state
-      type(run_settings), intent(in) :: asked
+      type(run_settings), intent(in) :: requested
       type(resume_point), intent(in) :: point
       logical, intent(out) :: done
       type(error_type), allocatable :: error
       character(len=:), allocatable :: version
 
       version = ""
-      if (allocated(asked%version)) version = asked%version
+      if (allocated(requested%version)) version = requested%version
       if (point%active) then
          call open_result_again(state%log%out, state%place%results // ".out", point%at%out, error, state%limits)
       else
@@ -424,26 +424,26 @@ contains
       if (.not. allocated(error)) then
          ! counting the cases requires reading the complete input; for few and quick results it is postponed until the number is
          ! needed
-         if (asked%progress .or. asked%exports%any()) call count_planned(state)
+         if (requested%progress .or. requested%exports%any()) call count_planned(state)
          if (point%active) then
-            call state%exports%open_files(asked%exports, state%place, version, state%run, state%limits, error, point%at)
+            call state%exports%open_files(requested%exports, state%place, version, state%run, state%limits, error, point%at)
          else
-            call state%exports%open_files(asked%exports, state%place, version, state%run, state%limits, error)
+            call state%exports%open_files(requested%exports, state%place, version, state%run, state%limits, error)
          end if
       end if
       done = .not. allocated(error)
       if (allocated(error)) then
-         call give_up(state, error)
+         call report_final_error(state, error)
          return
       end if
       if (point%active) then
-         call state%journal%go_on(state%place%results, point%place, point%at, state%limits%confined)
+         call state%journal%resume(state%place%results, point%place, point%at, state%limits%confined)
          return
       end if
-      state%silent = .not. state%exports%wanted()
-      call write_banner(state%log, asked%version)
+      state%silent = .not. state%exports%has_any()
+      call write_banner(state%log, requested%version)
       if (allocated(state%lock%doubt)) call state%log%warning(state%lock%doubt)
-      call state%journal%start(state%place%results, settings_of(asked), state%limits%confined)
+      call state%journal%start(state%place%results, settings_of(requested), state%limits%confined)
    end subroutine open_all_files
 
    !> Record the progress of the run in all files, and close them
@@ -453,7 +453,7 @@ contains
       integer :: errors, k
 
       call state%progress%hide()
-      call learn_planned(state)
+      call require_planned(state)
       errors = state%errors
       do k = 1, number_of_exports
          call state%exports%close_file(k, state%run, error)
@@ -506,12 +506,12 @@ contains
       if (.not. go_on) then
          call state%log%line(" The run ends at case " // integer_text(this%number) // ", line " // &
             & integer_text(this%first_line) // ": its input cannot be used.")
-         call refusal_of(this, reason)
+         call find_refusal(this, reason)
          call head%status%refuse(reason)
          head%finished = state%run%finished
          state%run%reason = reason
          call count_case(state, head%status)
-         if (state%exports%wanted()) call state%exports%write_failure(head)
+         if (state%exports%has_any()) call state%exports%write_failure(head)
          return
       end if
 
@@ -530,7 +530,7 @@ contains
          head%seconds = state%solving%wall - solving_before
          if (allocated(error) .or. this%spec%solve) call count_case(state, head%status)
          if (allocated(error)) then
-            if (state%exports%wanted()) call state%exports%write_failure(head)
+            if (state%exports%has_any()) call state%exports%write_failure(head)
             call place_error(state, this, error)
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
@@ -540,7 +540,7 @@ contains
          else if (this%spec%solve) then
             call write_results(state, this, this%spec, slot, head)
          end if
-         call note_case(state, this, head%status, slot)
+         call record_case(state, this, head%status, slot)
       end associate
    end subroutine compute_case
 
@@ -553,7 +553,7 @@ contains
    end subroutine count_case
 
    !> Why the input of a case is invalid: its first error
-   subroutine refusal_of(this, reason)
+   subroutine find_refusal(this, reason)
       type(input_case), intent(in) :: this
       character(len=:), allocatable, intent(out) :: reason
       integer :: k
@@ -566,7 +566,7 @@ contains
          end associate
          return
       end do
-   end subroutine refusal_of
+   end subroutine find_refusal
 
    !> Write all results of a solved case of either module
    subroutine write_results(state, this, solved, slot, head)
@@ -588,7 +588,7 @@ contains
       else
          call write_contact_files(state, this, solved, slot%result)
       end if
-      if (state%exports%wanted()) then
+      if (state%exports%has_any()) then
          if (this%module_number == 1) then
             call state%exports%write_wheel_rail(head, solved, slot%wheel_rail, slot%wheel_rail_result, error)
          else
@@ -644,22 +644,22 @@ contains
    end subroutine count_planned
 
    !> Number of planned cases, if not yet counted
-   subroutine learn_planned(state)
+   subroutine require_planned(state)
       type(experiment_state), intent(inout) :: state
 
       if (state%run%planned > 0) return
       state%run%planned = state%run%finished
       if (allocated(state%run%reason)) call count_planned(state)
-   end subroutine learn_planned
+   end subroutine require_planned
 
    !> Report the error that ends the run before all cases are finished
-   subroutine give_up(state, error)
+   subroutine report_final_error(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), intent(in) :: error
 
       call report_error(state, error)
       state%run%reason = full_text(error)
-   end subroutine give_up
+   end subroutine report_final_error
 
    !> Assign an error without position to the start of its case in the input
    subroutine place_error(state, this, error)

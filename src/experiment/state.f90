@@ -22,8 +22,8 @@ module contact_experiment_state
    implicit none (type, external)
    private
 
-   public :: as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, solve_one, &
-      & stop_question
+   public :: apply_settings, as_input_says, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, &
+      & solve_one, stop_question
 
    !> Temperatures as selected in the input; the established format has no selection and implies the established method
    integer, parameter :: as_input_says = -1
@@ -63,7 +63,7 @@ module contact_experiment_state
       type(deadline_type) :: run_deadline
       integer(long) :: output_bytes = huge(1_long)
       !> Called between cases to check whether the run is to end; null: never
-      procedure(stop_question), pointer, nopass :: stop_asked => null()
+      procedure(stop_question), pointer, nopass :: stop_requested => null()
       !> Is a case that does not converge a failure of the run?
       logical :: strict = .false.
       !> Optional files for other programs
@@ -186,23 +186,23 @@ contains
    end subroutine solve_one
 
    !> Apply the settings of the run to a case
-   subroutine complete_spec(state, asked, this)
+   subroutine apply_settings(state, requested, this)
       type(experiment_state), intent(inout) :: state
-      type(run_settings), intent(in) :: asked
+      type(run_settings), intent(in) :: requested
       type(input_case), intent(inout) :: this
 
-      if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
-      if (asked%order /= as_input_says) this%spec%iteration%order = asked%order
-      if (asked%accuracy > 0.0_wp) this%spec%iteration%accuracy = asked%accuracy
-      if (asked%allows_approximate) this%spec%iteration%allows_approximate = .true.
-      if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
-      this%spec%classical = asked%classical
-      if (asked%errors) this%spec%estimates_errors = .true.
+      if (requested%heat_source /= as_input_says) this%spec%heat%source = requested%heat_source
+      if (requested%order /= as_input_says) this%spec%iteration%order = requested%order
+      if (requested%accuracy > 0.0_wp) this%spec%iteration%accuracy = requested%accuracy
+      if (requested%allows_approximate) this%spec%iteration%allows_approximate = .true.
+      if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = requested%angle_below_axle
+      this%spec%classical = requested%classical
+      if (requested%errors) this%spec%estimates_errors = .true.
       if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%has_stress) state%silent = .false.
       this%spec%limits = state%limits
       this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())
       call this%spec%limits%deadline%start()
-   end subroutine complete_spec
+   end subroutine apply_settings
 
    !> Number with noun: "1 case", "2 cases"
    pure function counted(n, what) result(text)

@@ -4,7 +4,7 @@
 !>
 !>     call search%start(first, tolerance)
 !>     do while (.not. search%finished)
-!>        call search%answer(f(search%x))
+!>        call search%update(f(search%x))
 !>     end do
 !>
 !> Starting from 0 the search finds three points of which the middle one has the lowest value, by steps that grow or shrink by a
@@ -38,7 +38,7 @@ module contact_numeric_minimum_search
       real(wp), private :: step = 0.0_wp, last_step = 0.0_wp
    contains
       procedure :: start
-      procedure :: answer
+      procedure :: update
    end type minimum_search
 
    type :: stage_list
@@ -75,7 +75,7 @@ contains
    end subroutine start
 
    !> Process the value of the function at x, and choose the next abscissa
-   pure subroutine answer(self, f)
+   pure subroutine update(self, f)
       class(minimum_search), intent(inout) :: self
       !> Value of the function at `x`
       real(wp), intent(in) :: f
@@ -106,7 +106,7 @@ contains
       case default
          call narrow(self, f)
       end select
-   end subroutine answer
+   end subroutine update
 
    !> Reduce the step until the value is below that at 0
    pure subroutine shrink(self)
@@ -116,7 +116,7 @@ contains
          self%c = self%best
          self%x = self%best/growth
       else
-         call go_inside(self)
+         call start_inside(self)
       end if
    end subroutine shrink
 
@@ -132,12 +132,12 @@ contains
          self%fx = f
          self%x = growth*self%x
       else
-         call go_inside(self)
+         call start_inside(self)
       end if
    end subroutine grow
 
    !> Three bracketing points are known
-   pure subroutine go_inside(self)
+   pure subroutine start_inside(self)
       class(minimum_search), intent(inout) :: self
 
       self%stage = stage%inside
@@ -146,7 +146,7 @@ contains
       self%fw = self%fx
       self%fv = self%fx
       call propose(self)
-   end subroutine go_inside
+   end subroutine start_inside
 
    !> The next point between a and c: the minimum of the parabola through the three lowest points if it is usable, otherwise a
    !> golden section of the longer part

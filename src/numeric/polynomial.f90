@@ -57,7 +57,7 @@ contains
       logical :: newton
       integer :: k
       !> Bisection alone halves the bracket 60 times; Newton's method needs about five steps
-      integer, parameter :: most = 60
+      integer, parameter :: max_steps = 60
 
       a = low
       b = high
@@ -74,7 +74,7 @@ contains
       x = low + (high - low)*from_low/(from_low - from_high)
       precision = 4.0_wp*epsilon(1.0_wp)*max(abs(low), abs(high))
       bend = abs(c(2)) + 3.0_wp*abs(c(3))*max(abs(low), abs(high))
-      do k = 1, most
+      do k = 1, max_steps
          residual = direction*(cubic(c, x) - value)
          if (residual == 0.0_wp) return
          if (residual > 0.0_wp) then
@@ -91,7 +91,7 @@ contains
          end if
          x = x + step
          if (abs(step) <= precision) return
-         ! the remaining error after a Newton step is at most bend/slope times its square; doubled for the change of the slope
+         ! the remaining error after a Newton step is at max_steps bend/slope times its square; doubled for the change of the slope
          ! itself
          if (newton .and. 2.0_wp*bend*step**2 <= precision*slope) return
       end do

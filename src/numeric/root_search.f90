@@ -4,7 +4,7 @@
 !>
 !>     call search%start(x, step, tolerance)
 !>     do while (.not. search%finished)
-!>        call search%answer(f(search%x), saturated)
+!>        call search%update(f(search%x), saturated)
 !>     end do
 !>
 !> From the start the search moves downhill in growing steps until the sign changes. It then keeps the root bracketed (regula
@@ -38,7 +38,7 @@ module contact_numeric_root_search
       integer, private :: steps = 0
    contains
       procedure :: start
-      procedure :: answer
+      procedure :: update
    end type root_search
 
    !> Growth factor of the steps before a bracket is found
@@ -70,7 +70,7 @@ contains
    end subroutine start
 
    !> Process the value of the function at x, and choose the next abscissa
-   pure subroutine answer(self, f, saturated)
+   pure subroutine update(self, f, saturated)
       class(root_search), intent(inout) :: self
       !> Value of the function at `x` of the search
       real(wp), intent(in) :: f
@@ -88,12 +88,12 @@ contains
       if (self%bracketed) then
          call narrow(self, f)
       else
-         call walk(self, f, saturated)
+         call extend(self, f, saturated)
       end if
-   end subroutine answer
+   end subroutine update
 
    !> Search for a change of sign
-   pure subroutine walk(self, f, saturated)
+   pure subroutine extend(self, f, saturated)
       class(root_search), intent(inout) :: self
       real(wp), intent(in) :: f
       logical, intent(in) :: saturated
@@ -120,7 +120,7 @@ contains
       self%a = self%x
       self%fa = f
       self%x = self%a + sign(self%step, f)
-   end subroutine walk
+   end subroutine extend
 
    !> Reduce the bracket a, b
    pure subroutine narrow(self, f)

@@ -101,7 +101,7 @@ contains
       character(len=:), allocatable :: remark
 
       if (.not. self%file%is_open()) return
-      call self%file%go_to(self%last)
+      call self%file%seek(self%last)
       remark = trim(merge("complete,    ", "not complete,", run%is_complete() .and. self%lost == 0)) // " " // &
          & trim(planned_text(run))
       if (self%lost > 0) remark = remark // ", files missing in " // integer_text(self%lost)
@@ -135,7 +135,7 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: case_number, part
 
-      call self%file%go_to(self%last)
+      call self%file%seek(self%last)
       call self%file%line('    <DataSet timestep="' // integer_text(case_number) // '" part="' // integer_text(part) // '" file="' &
          & // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
       self%last = self%file%place()
@@ -148,7 +148,7 @@ contains
       integer, intent(in) :: case_number
 
       self%lost = self%lost + 1
-      call self%file%go_to(self%last)
+      call self%file%seek(self%last)
       call self%file%line(loss // integer_text(case_number) // " -->")
       self%last = self%file%place()
       call tell_unfinished(self)

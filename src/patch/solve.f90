@@ -96,7 +96,7 @@ contains
          if (outer == problem%settings%maxout) turns%ended = ending%iteration_limit
       end do
       if (any([result%normal%ended, result%tangential%ended, turns%ended] == ending%out_of_time)) then
-         call problem%deadline%watch("in the solution of a contact patch", error)
+         call problem%deadline%check("in the solution of a contact patch", error)
          return
       end if
       call derive(problem, state, workspace, result)

@@ -23,12 +23,12 @@ contains
       type(patch_result), intent(inout) :: result
 
       result%status = case_status()
-      call result%status%judge(missed_iteration%normal, "normal problem", result%normal)
+      call result%status%record_iteration(missed_iteration%normal, "normal problem", result%normal)
       call judge_forces(problem, result)
       if (.not. result%tangential%succeeded() .and. result%status%iteration /= missed_iteration%force) &
-         & call result%status%judge(missed_iteration%tangential, "tangential problem", result%tangential)
-      if (allocated(result%friction)) call result%status%judge(missed_iteration%outer, "friction law", result%friction)
-      call result%status%judge(missed_iteration%outer, "pressures and tractions", outer)
+         & call result%status%record_iteration(missed_iteration%tangential, "tangential problem", result%tangential)
+      if (allocated(result%friction)) call result%status%record_iteration(missed_iteration%outer, "friction law", result%friction)
+      call result%status%record_iteration(missed_iteration%outer, "pressures and tractions", outer)
    end subroutine derive_status
 
    !> Are the prescribed tangential forces there?
@@ -53,12 +53,12 @@ contains
          if (abs(found(k) - requested(k)) <= allowed*problem%settings%eps*bound) cycle
          if (norm2(requested(:n)) >= bound) then
             write(largest, "(G0.6)") bound
-            call result%status%miss_force(name(k), requested(k), found(k), "friction gives no more than " // &
+            call result%status%record_missed_force(name(k), requested(k), found(k), "friction gives no more than " // &
                & trim(largest) // " N")
          else if (result%nadh + result%nplast == 0) then
-            call result%status%miss_force(name(k), requested(k), found(k), "all elements slide")
+            call result%status%record_missed_force(name(k), requested(k), found(k), "all elements slide")
          else
-            call result%status%miss_force(name(k), requested(k), found(k), "the search for the creepage ended before")
+            call result%status%record_missed_force(name(k), requested(k), found(k), "the search for the creepage ended before")
          end if
       end do
    end subroutine judge_forces

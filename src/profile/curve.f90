@@ -112,7 +112,7 @@ contains
       n = size(turns) - 1
       if (allocated(curve%parts)) deallocate(curve%parts)
       if (n == 1) then
-         call see_all(curve)
+         call mark_all_visible(curve)
          return
       end if
       allocate(low(n), high(n))
@@ -161,7 +161,7 @@ contains
    end subroutine find_visible
 
    !> Mark a curve on which y is monotonic as visible throughout
-   subroutine see_all(curve)
+   subroutine mark_all_visible(curve)
       type(profile_curve), intent(inout) :: curve
       type(stretch) :: along
       real(wp) :: y(2)
@@ -172,7 +172,7 @@ contains
       end associate
       allocate(curve%parts(merge(1, 0, abs(y(2) - y(1)) > vertical)))
       curve%parts = visible_part(minval(y), maxval(y), along)
-   end subroutine see_all
+   end subroutine mark_all_visible
 
    !> Close a gap in y before the last part if it is not wider than a vertical stretch
    pure subroutine close_gap(parts)

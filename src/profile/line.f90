@@ -28,7 +28,7 @@ module contact_profile_line
       integer, allocatable :: line(:)
    contains
       procedure :: add => add_point
-      procedure :: take => take_points
+      procedure :: get => get_points
    end type point_list
 
 contains
@@ -188,7 +188,7 @@ contains
    end subroutine add_point
 
    !> Get the collected points
-   pure subroutine take_points(self, y, z, line)
+   pure subroutine get_points(self, y, z, line)
       class(point_list), intent(in) :: self
       !> Coordinates as in the file, shape (number of points)
       real(wp), allocatable, intent(out) :: y(:), z(:)
@@ -202,5 +202,5 @@ contains
       y = self%y(:self%n)
       z = self%z(:self%n)
       line = self%line(:self%n)
-   end subroutine take_points
+   end subroutine get_points
 end module contact_profile_line

@@ -61,11 +61,11 @@ contains
          assigned = assigned .and. .not. (points%n > 0 .and. n >= 2)
          if (assigned) then
             if (points%n > 0) then
-               call fatal_error(error, '"' // printable(key) // '" stands behind the first point; expected rows of numbers', &
+               call fatal_error(error, '"' // printable(key) // '" follows the first point; expected rows of numbers', &
                   & file=text%file, line=place%line, column=verify(line, " "))
             else
                header_seen = .true.
-               call take_key()
+               call read_key()
             end if
          else if (points%n == 0 .and. (n == 0 .or. text_follows .and. n < 2)) then
             if (numberlike == 0 .and. scan(adjustl(line), "+-.0123456789") == 1) numberlike = place%line
@@ -73,7 +73,7 @@ contains
          else
             if (points%n == 0 .and. header_seen .and. .not. blank_seen) call log%warning(text%file // ", line " // &
                & integer_text(place%line) // ": points begin without a blank line before.")
-            call take_point()
+            call read_point()
          end if
          if (allocated(error)) return
       end do
@@ -84,7 +84,7 @@ contains
             &with decimal points, separated by blanks, tabs or a comma", file=text%file, line=numberlike)
          return
       end if
-      call points%take(profile%y, profile%z, profile%line)
+      call points%get(profile%y, profile%z, profile%line)
 
    contains
 
@@ -113,20 +113,20 @@ contains
          if (rows == 0) then
             header_end = 0
          else if (numbers > 0) then
-            call log%warning(text%file // ", line " // integer_text(place%line) // ": text without = begins a header; it ends &
-               &at the blank line " // integer_text(header_end) // ", and " // integer_text(numbers) // " rows of numbers in it &
-               &are no points.")
+            call log%warning(text%file // ", line " // integer_text(place%line) // ": text without = starts a header, which &
+               &ends at the blank line " // integer_text(header_end) // "; " // integer_text(numbers) // " rows of numbers in it &
+               &are not points.")
          end if
       end subroutine find_header_end
 
-      subroutine take_key()
+      subroutine read_key()
          select case (key)
          case ("ColumnDef")
-            call take_columns()
+            call read_columns()
          case ("XOffset", "Xoffset")
-            call take_offset(profile%shift_y)
+            call read_offset(profile%shift_y)
          case ("YOffset", "Yoffset")
-            call take_offset(profile%shift_z)
+            call read_offset(profile%shift_z)
          case ("Units")
             if (.not. any(value == [character(len=11) :: "", "mm", "MM", "Mm", "millimetre", "millimeter", "millimetres", &
                & "millimeters"])) then
@@ -136,21 +136,21 @@ contains
          case ("Tilt")
             call read_row(value, place, "one number for Tilt", row, n, error, enough=0)
             if (.not. allocated(error) .and. abs(row(1)) > 0.0_wp) call log%warning(text%file // ", line " // &
-               & integer_text(place%line) // ": Tilt = " // printable(value) // " is not applied; the points are taken as they are &
-               &(turn a rail by CANT or ROLL).")
+               & integer_text(place%line) // ": Tilt = " // printable(value) // " is not applied; points are used as given &
+               &(rotate a rail by CANT or ROLL).")
          end select
-      end subroutine take_key
+      end subroutine read_key
 
-      subroutine take_offset(offset)
+      subroutine read_offset(offset)
          real(wp), intent(inout) :: offset
 
          if (len(value) == 0) return
          call read_row(repeat(" ", index(line, "=")) // line(index(line, "=") + 1:), place, "one number for " // key, row, n, &
             & error)
          if (.not. allocated(error)) offset = row(1)
-      end subroutine take_offset
+      end subroutine read_offset
 
-      subroutine take_columns()
+      subroutine read_columns()
          integer :: i
 
          columns = ""
@@ -164,13 +164,13 @@ contains
             call fatal_error(error, "ColumnDef=" // printable(value) // " cannot be used; expected letters of " // &
                & column_letters // " with X and Y among them, separated by commas", file=text%file, line=place%line)
          end if
-      end subroutine take_columns
+      end subroutine read_columns
 
-      subroutine take_point()
+      subroutine read_point()
          call read_row(line, place, "a point, numbers y z", row, n, error, enough=2)
          if (allocated(error)) return
          if (text_follows .and. .not. text_seen) call log%warning(text%file // ", line " // integer_text(place%line) // &
-            & ": text behind the numbers is ignored, here and in later rows.")
+            & ": text after the numbers is ignored, here and in later rows.")
          text_seen = text_seen .or. text_follows
          if (len(columns) > 0) then
             if (n == len(columns)) then
@@ -179,18 +179,18 @@ contains
             end if
             skipped = skipped + 1
             if (skipped <= max_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
-               & ": a row of " // integer_text(n) // " numbers is skipped; ColumnDef promises " // &
+               & ": a row of " // integer_text(n) // " numbers is skipped; ColumnDef defines " // &
                & integer_text(len(columns)) // ".")
          else if (n == 1) then
-            call fatal_error(error, 'one number alone, "' // printable(line) // '"; expected a point, numbers y z', &
+            call fatal_error(error, 'a single number, "' // printable(line) // '"; expected a point, numbers y z', &
                & file=text%file, line=place%line, column=verify(line, " "))
          else
             if (n > 2 .and. .not. extra_seen) call log%warning(text%file // ", line " // integer_text(place%line) // &
-               & ": of " // integer_text(n) // " columns the first two are used (numbers need points, not commas, before &
-               &their decimals).")
+               & ": of " // integer_text(n) // " columns the first two are used (decimals need a point, not a &
+               &comma).")
             extra_seen = extra_seen .or. n > 2
             call points%add(row(1), row(2), place%line)
          end if
-      end subroutine take_point
+      end subroutine read_point
    end subroutine read_miniprof
 end module contact_profile_miniprof

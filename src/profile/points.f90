@@ -10,7 +10,7 @@ module contact_profile_points
    private
 
    public :: drop_close_points, remove_zig_zags, keep_points, needs_mirror_z, needs_reversal, runs_backwards
-   public :: chord_lengths, find_loop, find_kinks, find_spike, find_outlier, find_hole, turning_angles
+   public :: chord_lengths, find_loop, find_kinks, find_spike, find_outlier, find_gap, turning_angles
 
    !> Tables with fewer points are drawn by hand and may have any shape
    integer, parameter :: few_points = 6
@@ -126,7 +126,7 @@ contains
    end function find_outlier
 
    !> The first point followed by a gap that is very large compared with the usual distance; 0 if there is none
-   pure integer function find_hole(y, z, least, ratio) result(first)
+   pure integer function find_gap(y, z, least, ratio) result(first)
       !> Coordinates [mm]
       real(wp), intent(in) :: y(:), z(:)
       !> Minimum gap [mm], and relative to the mean distance without the largest one
@@ -140,7 +140,7 @@ contains
       step = hypot(y(2:) - y(:n), z(2:) - z(:n))
       usual = (sum(step) - maxval(step))/(n - 1)
       first = findloc(step > max(least, ratio*usual), .true., 1)
-   end function find_hole
+   end function find_gap
 
    !> Replace the two ends of a segment that runs backwards by their midpoint
    !>

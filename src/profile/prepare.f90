@@ -8,7 +8,7 @@ module contact_profile_prepare
    use contact_numeric_spline, only : cubic_spline, natural_splines, smoothing_splines
    use contact_profile_curve, only : new_curve, profile_curve
    use contact_profile_miniprof, only : read_miniprof
-   use contact_profile_points, only : chord_lengths, drop_close_points, find_hole, find_kinks, find_loop, find_outlier, &
+   use contact_profile_points, only : chord_lengths, drop_close_points, find_gap, find_kinks, find_loop, find_outlier, &
       & find_spike, keep_points, needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
    use contact_profile_request, only : doubt, profile_file, profile_request, profile_side, smoothing_method
    use contact_profile_simpack, only : read_simpack
@@ -39,30 +39,30 @@ contains
       type(log_type), intent(inout) :: log
       !> Gives file, line and what is wrong
       type(error_type), allocatable, intent(out) :: error
-      type(log_type) :: unheard
+      type(log_type) :: discarded
       character(len=:), allocatable :: name
       integer :: before
 
       if (request%doubt < doubt%warn) then
-         call clean_profile(request, curve, unheard, error)
+         call clean_profile(request, curve, discarded, error)
          return
       end if
-      before = log%heard
+      before = log%occurrences
       call clean_profile(request, curve, log, error)
-      if (request%doubt == doubt%refuse .and. log%heard > before .and. .not. allocated(error)) then
-         call take_name(request, name)
+      if (request%doubt == doubt%refuse .and. log%occurrences > before .and. .not. allocated(error)) then
+         call find_name(request, name)
          call fatal_error(error, "ERRHND = 1 refuses a profile with warnings", file=name)
       end if
    end subroutine read_profile
 
    !> Name of the profile in messages
-   pure subroutine take_name(request, name)
+   pure subroutine find_name(request, name)
       type(profile_request), intent(in) :: request
       character(len=:), allocatable, intent(out) :: name
 
       name = "profile"
       if (allocated(request%file)) name = request%file
-   end subroutine take_name
+   end subroutine find_name
 
    !> Read, clean and smooth a profile from a file, or from given points
    subroutine clean_profile(request, curve, log, error)
@@ -142,7 +142,7 @@ contains
       if (allocated(error)) return
       call drop_close_points(y, z, file%nearest)
       call remove_zig_zags(y, z, request%zig_zag, zig_zags)
-      call doubt_points(file, request, y, z, log, error)
+      call check_points(file, request, y, z, log, error)
       if (allocated(error)) return
       if (zig_zags > 0) then
          call log%warning(request%file // ": " // integer_text(zig_zags) // " zig-zag(s) removed.")
@@ -180,15 +180,15 @@ contains
          z = z(size(z):1:-1)
       end if
       if (runs_in_reverse(request%side, y, z) .and. .not. runs_in_reverse(request%side, y(size(y):1:-1), z(size(z):1:-1))) then
-         call take_name(request, expected)
+         call find_name(request, expected)
          call log%warning(expected // ": the points run from y = " // real_text(y(1)) // " to " // real_text(y(size(y))) // &
-            & " mm with the inversion that the file asks for; they are taken in the other order, as the shape tells.")
+            & " mm with the inversion requested by the file; their order is reversed, as the shape requires.")
          y = y(size(y):1:-1)
          z = z(size(z):1:-1)
       end if
       if (runs_in_reverse(request%side, y, z)) then
-         expected = "that of a wheel must fall with the flange down"
-         if (request%side == profile_side%rail) expected = "that of a rail must rise with the surface on top"
+         expected = "that of a wheel must decrease, with the flange down"
+         if (request%side == profile_side%rail) expected = "that of a rail must increase, with the running surface on top"
          call fatal_error(error, "the lateral coordinate runs from " // real_text(y(1)) // " to " // real_text(y(size(y))) // &
             & " mm; " // expected // " (mirror y or z, or change the inversion in the file)", file=request%file)
          return
@@ -197,7 +197,7 @@ contains
       if (first > 0) then
          call fatal_error(error, "the profile crosses itself: segment " // integer_text(first) // " at y = " // &
             & real_text(y(first)) // " mm and segment " // integer_text(second) // " at y = " // real_text(y(second)) // &
-            & " mm; a curve without loops is needed", file=request%file)
+            & " mm; a curve without loops is required", file=request%file)
       end if
    end subroutine normalise
 
@@ -234,7 +234,7 @@ contains
    end subroutine refuse_units
 
    !> Check for implausible points: refuse a spike, warn about outliers and about a large gap
-   subroutine doubt_points(file, request, y, z, log, error)
+   subroutine check_points(file, request, y, z, log, error)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
       !> Points without zig-zags, in the unit of the file
@@ -242,7 +242,7 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       !> Height of a spike [mm]; length of a gap [mm], and relative to the usual distance between points
-      real(wp), parameter :: spike = 1.0_wp, hole = 10.0_wp, hole_ratio = 20.0_wp
+      real(wp), parameter :: spike = 1.0_wp, gap = 10.0_wp, gap_ratio = 20.0_wp
       real(wp) :: factor
       integer :: i
 
@@ -256,13 +256,13 @@ contains
       end if
       i = find_outlier(factor*file%y, factor*file%z, spike)
       if (i > 0) then
-         call warn(i, " stands out of the line of its neighbours by more than " // real_text(spike) // " mm; the curve goes &
-            &through it all the same.")
+         call warn(i, " deviates from the line of its neighbours by more than " // real_text(spike) // " mm; the curve &
+            &passes through it nevertheless.")
          return
       end if
-      i = find_hole(factor*file%y, factor*file%z, hole, hole_ratio)
+      i = find_gap(factor*file%y, factor*file%z, gap, gap_ratio)
       if (i > 0) call warn(i, " is " // real_text(factor*hypot(file%y(i + 1) - file%y(i), file%z(i + 1) - file%z(i))) // " mm away &
-         &from the next one, much farther than others; the curve between them is a guess.")
+         &from the next one, much more than usual; the curve between them is interpolated over this gap.")
 
    contains
 
@@ -285,12 +285,12 @@ contains
          character(len=*), intent(in) :: what
          character(len=:), allocatable :: name
 
-         call take_name(request, name)
+         call find_name(request, name)
          if (allocated(file%line)) name = name // ", line " // integer_text(file%line(i))
          call log%warning(name // ": point " // integer_text(i) // " at y = " // real_text(file%y(i)) // ", z = " // &
             & real_text(file%z(i)) // what)
       end subroutine warn
-   end subroutine doubt_points
+   end subroutine check_points
 
    !> Mirroring requested by both the user and the file cancels; "no" of the user overrides the file
    pure logical function mirrors_y(file, request) result(mirror)
@@ -326,7 +326,7 @@ contains
       logical :: solved
       character(len=:), allocatable :: file
 
-      call take_name(request, file)
+      call find_name(request, file)
       s = chord_lengths(y, z)
       s = s - length_origin(s, y, z)
       is_kink = find_kinks(y, z, request%kink_high, request%kink_low, request%kink_width)
@@ -343,8 +343,8 @@ contains
       end if
       curve = new_curve(request%side, splines(1), splines(2))
       if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%max_hidden, all_hidden)) then
-         call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile are hidden behind the rest; &
-            &accepted are at most " // real_text(100.0_wp*request%max_hidden) // " % (is it upside down?)", file=file)
+         call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile is hidden behind the rest; &
+            &at most " // real_text(100.0_wp*request%max_hidden) // " % is accepted (is it upside down?)", file=file)
       end if
    end subroutine prepare_points
 

@@ -64,9 +64,9 @@ contains
          if (len_trim(line) == 0) cycle
          call split_assignment(line, key, value, assigned)
          if (assigned) then
-            call take_assignment(key, value)
+            call read_assignment(key, value)
          else if (now == section%point .and. index(line, ".begin") == 0 .and. index(line, ".end") == 0) then
-            call take_point()
+            call read_point()
          else
             call change_section(trim(adjustl(line)))
          end if
@@ -84,11 +84,11 @@ contains
       end if
       profile%units_per_mm = length_unit/1000.0_wp
       if (skipped > max_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
-      call points%take(profile%y, profile%z, profile%line)
+      call points%get(profile%y, profile%z, profile%line)
 
    contains
 
-      subroutine take_point()
+      subroutine read_point()
          call read_row(line, place, "a point, two or three numbers y z [weight]", row, n, error)
          if (allocated(error)) return
          if (n == 2 .or. n == 3) then
@@ -98,7 +98,7 @@ contains
          skipped = skipped + 1
          if (skipped <= max_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
             & ": a row of " // integer_text(n) // " numbers is skipped; points have two or three, y z [weight].")
-      end subroutine take_point
+      end subroutine read_point
 
       subroutine change_section(word)
          character(len=*), intent(in) :: word
@@ -132,10 +132,10 @@ contains
          end select
          if (now /= expected_now) then
             if (now == section%none) then
-               call fatal_error(error, word // " stands outside of its block; expected header.begin or spline.begin", &
+               call fatal_error(error, word // " is outside its block; expected header.begin or spline.begin", &
                   & file=text%file, line=place%line, column=verify(line, " "))
             else
-               call fatal_error(error, word // " stands inside the block " // trim(section_names(now)) // "; expected " // &
+               call fatal_error(error, word // " is inside the block " // trim(section_names(now)) // "; expected " // &
                   & trim(section_names(now)) // ".end first", file=text%file, line=place%line, column=verify(line, " "))
             end if
             finished = .false.
@@ -144,7 +144,7 @@ contains
          now = next
       end subroutine change_section
 
-      subroutine take_assignment(key, value)
+      subroutine read_assignment(key, value)
          character(len=*), intent(in) :: key, value
          real(wp) :: number
 
@@ -153,10 +153,10 @@ contains
             call one_number(key, value, number)
             if (allocated(error) .or. key /= "type") return
             if (side == profile_side%rail .and. number /= 0.0_wp) then
-               call fatal_error(error, "type = " // real_text(number) // ", but a rail is wanted; expected 0", &
+               call fatal_error(error, "type = " // real_text(number) // ", but a rail is required; expected 0", &
                   & file=text%file, line=place%line)
             else if (side == profile_side%wheel .and. number /= 1.0_wp) then
-               call fatal_error(error, "type = " // real_text(number) // ", but a wheel is wanted; expected 1", &
+               call fatal_error(error, "type = " // real_text(number) // ", but a wheel is required; expected 1", &
                   & file=text%file, line=place%line)
             end if
          case (section%spline, section%point)
@@ -169,13 +169,13 @@ contains
                if (.not. allocated(error)) call store(key, number)
             case default
                call log%warning(text%file // ", line " // integer_text(place%line) // ': the key "' // printable(key) // &
-                  & '" is not known and ignored.')
+                  & '" is unknown and ignored.')
             end select
          case default
-            call fatal_error(error, '"' // printable(key) // '" stands outside of the blocks header and spline', &
+            call fatal_error(error, '"' // printable(key) // '" is outside the blocks header and spline', &
                & file=text%file, line=place%line, column=verify(line, " "))
          end select
-      end subroutine take_assignment
+      end subroutine read_assignment
 
       subroutine one_number(key, value, number)
          character(len=*), intent(in) :: key, value

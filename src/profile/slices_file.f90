@@ -79,7 +79,7 @@ contains
          kinks = v(2)%i
          call refuse_outside(v(2), 0, features - 2)
          if (.not. allocated(error) .and. v(3)%i /= 0) call fatal_error(error, "NACCEL = " // integer_text(v(3)%i) // &
-            & ": jumps of curvature between parts are not built; accepted is 0, with a kink (NKINK) where the section bends", &
+            & ": jumps of curvature between parts are not supported; accepted is 0, with a kink (NKINK) where the section bends", &
             & error_kind%unsupported, text%file, v(3)%line, v(3)%column)
          if (allocated(error)) return
       end if
@@ -93,12 +93,12 @@ contains
          call text%read_group("rs", "U_SLC NAME", v, error)
          if (allocated(error)) return
          list%slices(k)%u = scale*(offset + v(1)%r)
-         call place_beside(text%file, v(2)%s, list%slices(k)%file)
+         call resolve_path(text%file, v(2)%s, list%slices(k)%file)
          list%slices(k)%line = v(1)%line
          if (k == 1) cycle
          if (list%slices(k)%u - list%slices(k - 1)%u > min_distance) cycle
          call fatal_error(error, "slice " // integer_text(k) // " is at " // real_text(list%slices(k)%u) // ", the one before at " &
-            & // real_text(list%slices(k - 1)%u) // "; positions must rise by more than 0.001", file=text%file, line=v(1)%line)
+            & // real_text(list%slices(k - 1)%u) // "; positions must increase by more than 0.001", file=text%file, line=v(1)%line)
          return
       end do
       if (side == profile_side%wheel) then
@@ -177,10 +177,10 @@ contains
          else if (count(there) /= last - first + 1) then
             complaint = "lacks a feature between others"
          else if (any(s(first + 1:last) - s(first:last - 1) <= min_feature)) then
-            complaint = "has features that do not rise"
+            complaint = "has features that do not increase"
          end if
          if (len(complaint) > 0) call fatal_error(error, "slice " // integer_text(slice) // " " // complaint // &
-            & "; expected negative values only at the beginning and the end, between them rising places [mm]", &
+            & "; expected negative values only at the start and the end, between them increasing positions [mm]", &
             & file=text%file, line=line)
       end subroutine check_features
    end subroutine read_slices_file
@@ -205,7 +205,7 @@ contains
    end subroutine check_angles
 
    !> A file name relative to the folder of another file
-   pure subroutine place_beside(file, name, path)
+   pure subroutine resolve_path(file, name, path)
       character(len=*), intent(in) :: file, name
       character(len=:), allocatable, intent(out) :: path
 
@@ -213,5 +213,5 @@ contains
       if (len(path) == 0) return
       if (path(1:1) == "/" .or. index(path, ":/") == 2) return
       path = file(:scan(file, "/\", back=.true.)) // path
-   end subroutine place_beside
+   end subroutine resolve_path
 end module contact_profile_slices_file

@@ -13,7 +13,7 @@ module contact_profile_store
    use contact_profile_prepare, only : extension_of, read_profile
    use contact_profile_request, only : profile_request, same_request
    use contact_profile_slices_file, only : read_slices_file, slices_list
-   use contact_profile_surface, only : large_swing, new_surface, profile_surface, surface_cut
+   use contact_profile_surface, only : large_overshoot, new_surface, profile_surface, surface_cut
    use contact_text_lexer, only : input_lexer
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
@@ -203,14 +203,14 @@ contains
       allocate(profile%surface)
       call new_surface(request%side, list, curves, request%file, profile%surface, error)
       profile%curve = curves(1)
-      if (.not. allocated(error)) call warn_of_swing(profile%surface, list, curves, request%file, log)
+      if (.not. allocated(error)) call warn_of_overshoot(profile%surface, list, curves, request%file, log)
    end subroutine load_profile
 
    !> Warn if the surface, half-way between two slices, deviates from both of them
    !>
    !> Splines along u overshoot between slices whose outlines differ abruptly without a feature that marks where a part begins
    !> or ends, by many times the difference of the slices.
-   subroutine warn_of_swing(surface, list, curves, file, log)
+   subroutine warn_of_overshoot(surface, list, curves, file, log)
       type(profile_surface), intent(in) :: surface
       type(slices_list), intent(in) :: list
       !> One per slice
@@ -221,7 +221,7 @@ contains
       real(wp), parameter :: relative = 1.0_wp
       integer, parameter :: places = 15
       type(surface_cut) :: section
-      real(wp) :: y(places), z(places, 3), range(2), swing, largest
+      real(wp) :: y(places), z(places, 3), range(2), overshoot, largest
       logical :: found(places, 3)
       integer :: i, k, worst
 
@@ -241,18 +241,18 @@ contains
          call section%curve%heights(y, z(:, 3), found(:, 3))
          do i = 1, places
             if (.not. all(found(i, :))) cycle
-            swing = max(minval(z(i, :2)) - z(i, 3), z(i, 3) - maxval(z(i, :2)))
-            if (swing <= max(large_swing, largest, relative*abs(z(i, 1) - z(i, 2)))) cycle
-            largest = swing
+            overshoot = max(minval(z(i, :2)) - z(i, 3), z(i, 3) - maxval(z(i, :2)))
+            if (overshoot <= max(large_overshoot, largest, relative*abs(z(i, 1) - z(i, 2)))) cycle
+            largest = overshoot
             worst = k
          end do
       end do
       if (worst == 0) return
       call log%warning(file // ":" // integer_text(list%slices(worst)%line) // ": between slices " // integer_text(worst) // &
-         & " and " // integer_text(worst + 1) // " the surface leaves both of them by " // real_text(largest) // " mm: their " // &
-         & "outlines change suddenly. What the program finds there is not the shape of the body; features (NFEAT) mark where " // &
-         & "a part begins or ends, or more slices describe it")
-   end subroutine warn_of_swing
+         & " and " // integer_text(worst + 1) // " the surface deviates from both of them by " // real_text(largest) // &
+         & " mm, because their outlines change abruptly. Between them it is not the shape of the body; mark where a part " // &
+         & "begins or ends by features (NFEAT), or give more slices")
+   end subroutine warn_of_overshoot
 
    pure logical function is_slices_file(request)
       type(profile_request), intent(in) :: request
@@ -273,7 +273,7 @@ contains
       if (.not. allocated(files)) return
       do k = 1, size(files)
          now = stamp_of(files(k)%name)
-         if (.not. now%is_still(files(k)%stamp)) return
+         if (.not. now%is_unchanged_since(files(k)%stamp)) return
       end do
       are_untouched = .true.
    end function are_untouched

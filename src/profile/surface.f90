@@ -71,13 +71,13 @@ module contact_profile_surface
    !> Distance between lines across the profile [mm]
    real(wp), parameter :: line_distance = 0.5_wp
    !> A surface that deviates by more than this from the slices on both sides gives a warning when it is read [mm]
-   real(wp), parameter, public :: large_swing = 0.5_wp
+   real(wp), parameter, public :: large_overshoot = 0.5_wp
    !> Minimum dy/ds for slopes; vertical walls have none
    real(wp), parameter :: vertical = 1.0e-6_wp
    !> Tolerance at the ends of the range, relative to its length
    real(wp), parameter :: rounding = 1.0e-9_wp
    !> Minimum number of slices for a spline along u
-   integer, parameter :: fewest_slices = 4
+   integer, parameter :: min_slices = 4
 
    !> Features less than this before the start of a slice are at its start [mm]; -1 means absent
    real(wp), parameter :: at_start = 1.0e-6_wp
@@ -103,9 +103,9 @@ contains
       integer :: slices, parts, f, k
 
       slices = size(curves)
-      if (slices < fewest_slices) then
+      if (slices < min_slices) then
          call fatal_error(error, "there are " // integer_text(slices) // " slices; a surface needs at least " // &
-            & integer_text(fewest_slices), file=file)
+            & integer_text(min_slices), file=file)
          return
       end if
       parts = size(list%features, 1) - 1
@@ -162,10 +162,10 @@ contains
                if (.not. there(b + 1)) exit
                b = b + 1
             end do
-            if (b - a + 1 < fewest_slices) then
+            if (b - a + 1 < min_slices) then
                call fatal_error(error, "a part of the profile exists in the slices " // integer_text(a) // " to " // &
-                  & integer_text(b) // " only; it must exist in at least " // integer_text(fewest_slices) // &
-                  & " slices one after the other", file=file, line=list%slices(a)%line)
+                  & integer_text(b) // " only; it must exist in at least " // integer_text(min_slices) // &
+                  & " consecutive slices", file=file, line=list%slices(a)%line)
                return
             end if
             group%low = u(a)
@@ -205,7 +205,7 @@ contains
          features(last, k) = min(features(last, k), range(2) - range(1))
          if (features(last, k) > features(last - 1, k)) cycle
          call fatal_error(error, "slice " // integer_text(k) // " is " // real_text(range(2) - range(1)) // " mm long, but the &
-            &last but one of its features stands at " // real_text(features(last - 1, k)) // " mm", file=file, &
+            &last but one of its features is at " // real_text(features(last - 1, k)) // " mm", file=file, &
             & line=list%slices(k)%line)
          return
       end do

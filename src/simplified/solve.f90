@@ -93,7 +93,7 @@ contains
       do while (.not. search%finished)
          creep(1) = search%x
          call tractions_at(problem, creep, solution)
-         call search%answer(solution%force(1) - problem%force(1), solution%sliding)
+         call search%update(solution%force(1) - problem%force(1), solution%sliding)
       end do
       report%iterations = report%iterations + search%evaluations
       creep(1) = search%best
@@ -122,7 +122,7 @@ contains
             best = creep
             best_error = error
          end if
-         call search%answer(solution%force(2) - problem%force(2), solution%sliding)
+         call search%update(solution%force(2) - problem%force(2), solution%sliding)
       end do
       creep = best
       call tractions_at(problem, creep, solution)

@@ -54,7 +54,7 @@ contains
       a(:, 2) = [stress(2), stress(4), stress(5)]/scale
       a(:, 3) = [stress(3), stress(5), stress(6)]/scale
       do sweep = 1, max_sweeps
-         if (all_settled(a)) exit
+         if (is_diagonal(a)) exit
          do p = 1, 2
             do q = p + 1, 3
                if (abs(a(p, q)) < negligible) cycle
@@ -84,19 +84,19 @@ contains
    !> Are off-diagonal entries too small to change the eigenvalues?
    !>
    !> They change them by their squares divided by the differences of the eigenvalues, and at most by their own magnitude.
-   pure logical function all_settled(a) result(settled)
+   pure logical function is_diagonal(a) result(diagonal)
       !> Symmetric; the largest entry is about 1
       real(wp), intent(in) :: a(3, 3)
       !> Fraction of the machine precision that is insignificant
       real(wp), parameter :: converged = 0.01_wp
       integer :: p, q
 
-      settled = .true.
+      diagonal = .true.
       do p = 1, 2
          do q = p + 1, 3
-            settled = settled .and. min(abs(a(p, q)), a(p, q)**2/max(abs(a(p, p) - a(q, q)), tiny(1.0_wp))) &
+            diagonal = diagonal .and. min(abs(a(p, q)), a(p, q)**2/max(abs(a(p, p) - a(q, q)), tiny(1.0_wp))) &
                & < converged*epsilon(1.0_wp)
          end do
       end do
-   end function all_settled
+   end function is_diagonal
 end module contact_subsurface_invariants

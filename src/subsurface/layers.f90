@@ -34,7 +34,7 @@ module contact_subsurface_layers
    real(wp), parameter :: memory = 1.0e9_wp
    !> Spectra are kept for all positions of loads on the grid if this enlarges the padded window by at most this factor; chosen:
    !> products take about a third of the time of the responses
-   real(wp), parameter :: most_widening = 4.0_wp
+   real(wp), parameter :: max_widening = 4.0_wp
 
 contains
 
@@ -64,7 +64,7 @@ contains
       call find_window(load, ix, iy, window)
       call choose_packs(load%acts, packs)
       stores = .false.
-      if (present(shelf)) call consult(shelf, load, ix, iy, z, size(packs), window, stores)
+      if (present(shelf)) call prepare_shelf(shelf, load, ix, iy, z, size(packs), window, stores)
       call transform_loads(load, window, spectrum)
       threads = 1
       !$ threads = omp_get_max_threads()
@@ -72,7 +72,7 @@ contains
       ! numbers
       threads = min(threads, size(z), max(1, int(memory/(8.0_wp*16.0_wp*real(window%px, wp)*real(window%py, wp)))))
       !$omp parallel num_threads(threads) default(shared)
-      call share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
+      call compute_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
       !$omp end parallel
       if (.not. stores) return
       shelf%nx = window%nx
@@ -80,7 +80,7 @@ contains
    end subroutine transform_layers
 
    !> Determine the window of a case whose spectra are, or will be, kept
-   subroutine consult(shelf, load, ix, iy, z, n_packs, window, stores)
+   subroutine prepare_shelf(shelf, load, ix, iy, z, n_packs, window, stores)
       type(response_shelf), intent(inout) :: shelf
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points, ascending
@@ -97,7 +97,7 @@ contains
 
       stores = .false.
       if (.not. shelf%is_for(load, z)) then
-         call shelf%note(load, z)
+         call shelf%record(load, z)
          return
       end if
       wide = window
@@ -112,10 +112,10 @@ contains
       wide%nx = max(window%nx, ix(size(ix)) - 1, load%grid%mx - ix(1))
       wide%ny = max(window%ny, iy(size(iy)) - 1, load%grid%my - iy(1))
       call pad(wide)
-      if (real(wide%px, wp)*wide%py > most_widening*real(window%px, wp)*window%py) return
+      if (real(wide%px, wp)*wide%py > max_widening*real(window%px, wp)*window%py) return
       call shelf%make_room([wide%py/2 + 1, wide%px/2 + 1, n_parts, n_packs, size(z)], stores)
       if (stores) window = wide
-   end subroutine consult
+   end subroutine prepare_shelf
 
    !> Number of padded elements, and of differences between points and loads, as measures of the cost
    pure subroutine padded_size(load, ix, iy, padded, differences)
@@ -181,7 +181,7 @@ contains
    end subroutine transform_loads
 
    !> Layers of one thread, with its own plans and workspace
-   subroutine share_of_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
+   subroutine compute_layers(load, window, spectrum, packs, ix, iy, z, displacement, stress, shelf)
       type(surface_load), intent(in) :: load
       type(layer_window), intent(in) :: window
       !> Spectra of the tractions, shape (py, px/2 + 1, 3)
@@ -248,7 +248,7 @@ contains
       !$omp end do nowait
       call plan%release()
       if (.not. serves) call period_plan%release()
-   end subroutine share_of_layers
+   end subroutine compute_layers
 
    !> Responses at one depth, for non-negative differences of columns and rows
    pure subroutine fill_responses(load, window, z, response)

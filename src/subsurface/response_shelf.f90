@@ -12,7 +12,7 @@ module contact_subsurface_response_shelf
    public :: response_shelf
 
    !> Maximum memory of a shelf [bytes]
-   real(wp), parameter :: most_memory = 64.0e6_wp
+   real(wp), parameter :: max_memory = 64.0e6_wp
    !> Bytes per number
    real(wp), parameter :: bytes = 8.0_wp
 
@@ -32,7 +32,7 @@ module contact_subsurface_response_shelf
       !> Is this request the same as the recorded one, except for the positions of loads and points?
       procedure :: is_for
       !> Record the current request, without spectra
-      procedure :: note
+      procedure :: record
       !> Allocate spectra if there is enough memory; they are valid as soon as nx and ny are set
       procedure :: make_room
    end type response_shelf
@@ -53,7 +53,7 @@ contains
          & abs(self%z - z)] <= 0.0_wp)
    end function is_for
 
-   pure subroutine note(self, load, z)
+   pure subroutine record(self, load, z)
       class(response_shelf), intent(inout) :: self
       !> Elements, bodies and tractions
       type(surface_load), intent(in) :: load
@@ -69,7 +69,7 @@ contains
       self%nx = -1
       self%ny = -1
       if (allocated(self%factor)) deallocate(self%factor)
-   end subroutine note
+   end subroutine record
 
    pure subroutine make_room(self, sizes, is_there)
       class(response_shelf), intent(inout) :: self
@@ -81,7 +81,7 @@ contains
       self%nx = -1
       self%ny = -1
       if (allocated(self%factor)) deallocate(self%factor)
-      is_there = product(real(sizes, wp))*bytes <= most_memory
+      is_there = product(real(sizes, wp))*bytes <= max_memory
       if (is_there) allocate(self%factor(sizes(1), sizes(2), sizes(3), sizes(4), sizes(5)))
    end subroutine make_room
 end module contact_subsurface_response_shelf

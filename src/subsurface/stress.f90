@@ -44,7 +44,7 @@ contains
       if (size(displacement, 2) == 0) return
       call find_centres(points%x, load%grid%xl, load%grid%dx, ix)
       call find_centres(points%y, load%grid%yl, load%grid%dy, iy)
-      if (transforms_pay(load, ix, iy)) then
+      if (transforms_are_faster(load, ix, iy)) then
          call transform_layers(load, ix, iy, points%z, displacement, stress, shelf)
       else
          allocate(position(3, points%n()))
@@ -74,16 +74,16 @@ contains
    end subroutine find_centres
 
    !> Are transforms faster than direct sums, per layer?
-   pure logical function transforms_pay(load, ix, iy) result(pays)
+   pure logical function transforms_are_faster(load, ix, iy) result(is_faster)
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points; unallocated if they are not centres
       integer, allocatable, intent(in) :: ix(:), iy(:)
       real(wp) :: padded, differences
 
-      pays = .false.
+      is_faster = .false.
       if (.not. (allocated(ix) .and. allocated(iy)) .or. .not. any(load%acts)) return
       call padded_size(load, ix, iy, padded, differences)
-      pays = padded_cost*padded + difference_cost*differences &
+      is_faster = padded_cost*padded + difference_cost*differences &
          & < term_cost*real(size(ix), wp)*real(size(iy), wp)*number_of_terms(load)
-   end function transforms_pay
+   end function transforms_are_faster
 end module contact_subsurface_stress

@@ -29,14 +29,14 @@ module contact_tables_creep_table
    implicit none (type, external)
    private
 
-   public :: creep_table, find_creep_force, most_spin, scaled_creepages
+   public :: creep_table, find_creep_force, max_spin, scaled_creepages
 
    !> Values per node: Fx, Fy, Mz
    integer, parameter, public :: values_per_node = 3
    !> Number of values of a row of nodes along z
    integer, parameter :: stretch = values_per_node*order
    !> Scaled creepages beyond this are practically infinite, and their fourth powers do not overflow [-]
-   real(wp), parameter :: endless = 1.0e15_wp
+   real(wp), parameter :: infinite = 1.0e15_wp
    !> A shape that exceeds the range of a table by less than this is on its border: round-off of ratios [-]
    real(wp), parameter :: edge = 1.0e-9_wp
    !> KX, KY and KP as polynomials of g: Kalker's C11/3, C22/3 and C23 for a Poisson ratio of 1/4, within some per cent for 0.1
@@ -45,12 +45,12 @@ module contact_tables_creep_table
       & scale_spin(4) = [0.4147_wp, 1.0184_wp, 0.0565_wp, -0.0013_wp]
 
    !> Outcome of a look-up
-   type :: answer_list
+   type :: lookup_status_list
       !> Within the table; outside its range of shapes, where the nearest shape is used; invalid arguments, no forces
-      integer :: inside = 0, outside = 1, wrong = 2
-   end type answer_list
-   !> Members of answer_list
-   type(answer_list), parameter, public :: answer = answer_list()
+      integer :: inside = 0, outside = 1, invalid = 2
+   end type lookup_status_list
+   !> Members of lookup_status_list
+   type(lookup_status_list), parameter, public :: lookup_status = lookup_status_list()
 
    !> A table
    type :: creep_table
@@ -110,7 +110,7 @@ contains
       real(wp), intent(in) :: creep(3)
       !> Fx, Fy [N], Mz [N mm]
       real(wp), intent(out) :: force(3)
-      !> Member of answer
+      !> Member of lookup_status
       integer, intent(out) :: status
       !> Derivatives of each force (first index) with respect to each creepage; absent: not computed
       real(wp), intent(out), optional :: slopes(3, 3)
@@ -120,10 +120,10 @@ contains
 
       force = 0.0_wp
       if (present(slopes)) slopes = 0.0_wp
-      status = answer%wrong
+      status = lookup_status%invalid
       sizes = [gg, aa, bneg, bpos]
       if (.not. (all(abs([fn, mu, creep]) <= huge(fn)) .and. all(sizes > 0.0_wp .and. sizes <= huge(fn)))) return
-      status = answer%inside
+      status = lookup_status%inside
       if (fn <= 0.0_wp .or. mu <= 0.0_wp) return
       bb = 0.5_wp*(bneg + bpos)
       c = sqrt(aa*bb)
@@ -134,24 +134,24 @@ contains
       turn = [scale(1)*bb, scale(2)*aa]/(c*scale(3))
       factor = scale*(gg*aa*bb/(mu*fn))
       factor(3) = factor(3)*c
-      u = min(max(factor*[creep(1) - arm*creep(3), creep(2:3)], -endless), endless)
+      u = min(max(factor*[creep(1) - arm*creep(3), creep(2:3)], -infinite), infinite)
       ! map to the part covered by the table
       sign_x = sign(1.0_wp, u(1))
       sign_s = sign(1.0_wp, u(3))
       u = u*[sign_x, sign_s, sign_s]
       ! for a table with limited spin: forces are constant beyond it
-      is_beyond = u(3) > most_spin(table)
-      if (is_beyond) u(3) = most_spin(table)
+      is_beyond = u(3) > max_spin(table)
+      if (is_beyond) u(3) = max_spin(table)
       unit = mu*fn*[sign_x, sign_s, sign_s*c]
       if (present(slopes)) then
          call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, turn, f, status, df)
          if (is_beyond) df(:, 3) = 0.0_wp
-         call keep_below_friction(table%band, f, df)
+         call limit_to_friction(table%band, f, df)
       else
          call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, turn, f, status)
-         call keep_below_friction(table%band, f)
+         call limit_to_friction(table%band, f)
       end if
-      if (is_beyond) status = answer%outside
+      if (is_beyond) status = lookup_status%outside
       force = unit*f
       force(3) = force(3) - arm*force(1)
       if (.not. present(slopes)) return
@@ -164,13 +164,13 @@ contains
    end subroutine find_creep_force
 
    !> Maximum scaled spin of a table [-]; huge: unlimited
-   pure real(wp) function most_spin(table)
+   pure real(wp) function max_spin(table)
       !> Splines over all axes, from read_table
       type(creep_table), intent(in) :: table
 
-      most_spin = huge(most_spin)
-      if (table%z%high < 1.0_wp) most_spin = table%z%high/(1.0_wp - table%z%high)
-   end function most_spin
+      max_spin = huge(max_spin)
+      if (table%z%high < 1.0_wp) max_spin = table%z%high/(1.0_wp - table%z%high)
+   end function max_spin
 
    !> KX, KY and KP for a given ratio of semi-axes [-]
    pure function scaled_creepages(g) result(scales)
@@ -203,8 +203,8 @@ contains
       real(wp), dimension(order, 5) :: basis, slope
       integer :: first(5)
 
-      if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = answer%outside
-      if (abs(offset) > table%offset%high + edge) status = answer%outside
+      if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = lookup_status%outside
+      if (abs(offset) > table%offset%high + edge) status = lookup_status%outside
       s = sqrt(1.0_wp + (turn*u(3))**2)
       v = u(:2)/s
       largest = max(v(1), abs(v(2)))
@@ -307,7 +307,7 @@ contains
    end function along_z
 
    !> Limit forces above 1 - band smoothly to 1, with continuous slope
-   pure subroutine keep_below_friction(band, f, df)
+   pure subroutine limit_to_friction(band, f, df)
       real(wp), intent(in) :: band
       real(wp), intent(inout) :: f(3)
       !> Derivatives; absent: not needed
@@ -336,5 +336,5 @@ contains
       ! allow for round-off, here and in the multiplication by the friction bound
       size_ = norm2(f(:2))
       if (size_ > 1.0_wp - rounding) f(:2) = f(:2)*((1.0_wp - rounding)/size_)
-   end subroutine keep_below_friction
+   end subroutine limit_to_friction
 end module contact_tables_creep_table

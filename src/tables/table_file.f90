@@ -23,7 +23,7 @@ module contact_tables_table_file
    integer, parameter :: real_bytes = 8, short_bytes = 4
    !> Maximum file size [bytes], maximum number of coefficients along an axis: limits of 32-bit indices
    integer(long), parameter :: longest = 2000000000_long
-   integer, parameter :: most_along = 10000
+   integer, parameter :: max_along = 10000
 
 contains
 
@@ -51,12 +51,12 @@ contains
          if (.not. allocated(reason) .and. done < length) reason = "it ended while it was read"
       end if
       call close_descriptor(descriptor)
-      if (.not. allocated(reason)) call take_table(text, table, reason)
+      if (.not. allocated(reason)) call parse_table(text, table, reason)
       if (allocated(reason)) call fatal_error(error, "the table " // file // " cannot be used: " // reason, kind=error_kind%file)
    end subroutine read_table
 
    !> Parse the bytes of a file
-   subroutine take_table(text, table, reason)
+   subroutine parse_table(text, table, reason)
       character(len=*), intent(in) :: text
       type(creep_table), intent(inout) :: table
       !> What is wrong; unallocated if nothing
@@ -94,23 +94,23 @@ contains
       table%grid_force = number(7)
       table%grid_moment = number(8)
       reason = "its content is invalid; it was not written by this program"
-      if (any(whole(2:6) < 1 .or. whole(2:6) > most_along)) return
+      if (any(whole(2:6) < 1 .or. whole(2:6) > max_along)) return
       if (.not. all(abs(number) <= huge(number)) .or. table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
       place = head_bytes
-      call take_axis(text, place, whole(2), table%shape, is_good(1))
-      call take_axis(text, place, whole(3), table%offset, is_good(2))
-      call take_axis(text, place, whole(4), table%x, is_good(3))
-      call take_axis(text, place, whole(5), table%y, is_good(4))
-      call take_axis(text, place, whole(6), table%z, is_good(5))
+      call parse_axis(text, place, whole(2), table%shape, is_good(1))
+      call parse_axis(text, place, whole(3), table%offset, is_good(2))
+      call parse_axis(text, place, whole(4), table%x, is_good(3))
+      call parse_axis(text, place, whole(5), table%y, is_good(4))
+      call parse_axis(text, place, whole(6), table%z, is_good(5))
       if (.not. all(is_good) .or. any(whole(4:6) < order)) return
       length = values_per_node*product(int(whole(2:6), long))
       if (place + short_bytes*length + digits /= len(text, long)) return
-      call take_coefficients(text, place, length, table, is_good(1))
+      call parse_coefficients(text, place, length, table, is_good(1))
       if (is_good(1)) deallocate(reason)
-   end subroutine take_table
+   end subroutine parse_table
 
    !> Parse the knots of an axis
-   subroutine take_axis(text, place, count, axis, is_good)
+   subroutine parse_axis(text, place, count, axis, is_good)
       character(len=*), intent(in) :: text
       !> Position in the text [bytes]; advanced
       integer(long), intent(inout) :: place
@@ -127,10 +127,10 @@ contains
       if (count > 1) knots = transfer(text(place + 1:place + length), knots)
       call make_axis(axis, int(count), knots, is_good)
       place = place + length
-   end subroutine take_axis
+   end subroutine parse_axis
 
    !> Parse the coefficients
-   subroutine take_coefficients(text, place, length, table, is_good)
+   subroutine parse_coefficients(text, place, length, table, is_good)
       character(len=*), intent(in) :: text
       integer(long), intent(in) :: place, length
       type(creep_table), intent(inout) :: table
@@ -148,5 +148,5 @@ contains
          is_good = is_good .and. all(abs(node) <= huge(node))
          table%coefficients(values_per_node*k + 1:values_per_node*(k + 1)) = node
       end do
-   end subroutine take_coefficients
+   end subroutine parse_coefficients
 end module contact_tables_table_file

@@ -368,7 +368,7 @@ contains
 
       call search%start(first_share*self%estimated_step(), line_tolerance)
       do while (.not. search%finished)
-         call search%answer(square_after(search%x, p, self%slip, self%v, self%q, self%weight, state))
+         call search%update(square_after(search%x, p, self%slip, self%v, self%q, self%weight, state))
       end do
       self%last_step = search%best
    end subroutine find_step

@@ -84,15 +84,15 @@ contains
          w(k) = ior(ior(shiftl(byte(4*k - 3), 24), shiftl(byte(4*k - 2), 16)), ior(shiftl(byte(4*k - 1), 8), byte(4*k)))
       end do
       do k = 17, words
-         first = ieor(ieor(turned(w(k - 15), 7), turned(w(k - 15), 18)), shiftr(w(k - 15), 3))
-         second = ieor(ieor(turned(w(k - 2), 17), turned(w(k - 2), 19)), shiftr(w(k - 2), 10))
+         first = ieor(ieor(rotated(w(k - 15), 7), rotated(w(k - 15), 18)), shiftr(w(k - 15), 3))
+         second = ieor(ieor(rotated(w(k - 2), 17), rotated(w(k - 2), 19)), shiftr(w(k - 2), 10))
          w(k) = iand(w(k - 16) + first + w(k - 7) + second, all_bits)
       end do
       v = state
       do k = 1, words
-         first = v(8) + ieor(ieor(turned(v(5), 6), turned(v(5), 11)), turned(v(5), 25)) &
+         first = v(8) + ieor(ieor(rotated(v(5), 6), rotated(v(5), 11)), rotated(v(5), 25)) &
             & + ieor(iand(v(5), v(6)), iand(ieor(v(5), all_bits), v(7))) + constants(k) + w(k)
-         second = ieor(ieor(turned(v(1), 2), turned(v(1), 13)), turned(v(1), 22)) &
+         second = ieor(ieor(rotated(v(1), 2), rotated(v(1), 13)), rotated(v(1), 22)) &
             & + ieor(ieor(iand(v(1), v(2)), iand(v(1), v(3))), iand(v(2), v(3)))
          v(2:8) = v(1:7)
          v(5) = iand(v(5) + first, all_bits)
@@ -109,11 +109,11 @@ contains
    end subroutine add_block
 
    !> A word rotated to the right
-   elemental integer(long) function turned(word, steps)
+   elemental integer(long) function rotated(word, steps)
       integer(long), intent(in) :: word
       !> Number of bits
       integer, intent(in) :: steps
 
-      turned = iand(ior(shiftr(word, steps), shiftl(word, 32 - steps)), all_bits)
-   end function turned
+      rotated = iand(ior(shiftr(word, steps), shiftl(word, 32 - steps)), all_bits)
+   end function rotated
 end module contact_text_sha256

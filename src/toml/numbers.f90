@@ -29,7 +29,7 @@ contains
 
       i = 0
       r = 0.0_wp
-      call look_at_form(word, is_good, is_real)
+      call check_form(word, is_good, is_real)
       if (.not. is_good) then
          call describe_form(word, complaint)
          return
@@ -51,7 +51,7 @@ contains
    end subroutine read_number
 
    !> Check the form: optional sign, digits without leading zeros, optional fraction and exponent
-   pure subroutine look_at_form(word, is_good, is_real)
+   pure subroutine check_form(word, is_good, is_real)
       character(len=*), intent(in) :: word
       !> Is it a valid number?
       logical, intent(out) :: is_good
@@ -76,7 +76,7 @@ contains
          call skip_figures(word, at, is_good)
       end if
       is_good = is_good .and. at > len(word)
-   end subroutine look_at_form
+   end subroutine check_form
 
    !> A letter of a word; blank beyond its end
    pure character function letter(word, at)

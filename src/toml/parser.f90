@@ -152,12 +152,12 @@ contains
       else if (document%nodes(below)%kind == toml_kind%table) then
          table = below
       else
-         call fail_twice(p, document, part, below, "is no table and has no keys")
+         call fail_duplicate(p, document, part, below, "is no table and has no keys")
       end if
    end subroutine enter
 
    !> Report a key that is already defined
-   subroutine fail_twice(p, document, part, index, what)
+   subroutine fail_duplicate(p, document, part, index, what)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(in) :: document
       type(key_part), intent(in) :: part
@@ -171,7 +171,7 @@ contains
          call fatal_error(p%error, '"' // printable(document%store(part%first:part%last)) // '" ' // what // &
             & "; it was given in line " // integer_text(node%key_line), error_kind%input, p%file, part%line, part%column)
       end associate
-   end subroutine fail_twice
+   end subroutine fail_duplicate
 
    !> Parse a header: a key in single or double brackets
    subroutine take_header(p, document, table)
@@ -208,7 +208,7 @@ contains
          call enter(p, document, parts(k), table, with_arrays=.true.)
          if (allocated(p%error)) return
          if (document%nodes(table)%is_frozen) then
-            call fail_twice(p, document, parts(k), table, "is complete, nothing can be added")
+            call fail_duplicate(p, document, parts(k), table, "is complete, nothing can be added")
             return
          end if
       end do
@@ -221,7 +221,7 @@ contains
             call place_node(parts(n))
             call document%add(table, node, below)
          else if (.not. document%nodes(below)%has_tables) then
-            call fail_twice(p, document, parts(n), below, "is no array of tables")
+            call fail_duplicate(p, document, parts(n), below, "is no array of tables")
             return
          end if
          node = toml_node(kind=toml_kind%table)
@@ -230,7 +230,7 @@ contains
       else
          if (below > 0) then
             if (document%nodes(below)%is_explicit .or. document%nodes(below)%is_frozen) then
-               call fail_twice(p, document, parts(n), below, "cannot be opened a second time")
+               call fail_duplicate(p, document, parts(n), below, "cannot be opened a second time")
                return
             end if
          end if
@@ -284,14 +284,14 @@ contains
          call enter(p, document, parts(k), below, with_arrays=.false.)
          if (allocated(p%error)) return
          made(k) = below
-         if (document%nodes(below)%is_frozen) call fail_twice(p, document, parts(k), below, "is complete, nothing can be added")
-         if (document%nodes(below)%is_explicit) call fail_twice(p, document, parts(k), below, &
+         if (document%nodes(below)%is_frozen) call fail_duplicate(p, document, parts(k), below, "is complete, nothing can be added")
+         if (document%nodes(below)%is_explicit) call fail_duplicate(p, document, parts(k), below, &
             & "has a header of its own, under which its keys belong")
          if (allocated(p%error)) return
       end do
       index = document%child(below, document%store(parts(n)%first:parts(n)%last))
       if (index > 0) then
-         call fail_twice(p, document, parts(n), index, "is given twice")
+         call fail_duplicate(p, document, parts(n), index, "is given twice")
          return
       end if
       node%key_first = parts(n)%first
@@ -346,7 +346,7 @@ contains
       integer, intent(in) :: array
       type(toml_node) :: node
 
-      call go_deeper(p)
+      call enter_level(p)
       p%at = p%at + 1
       do
          call skip_lines(p)
@@ -372,7 +372,7 @@ contains
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: table
 
-      call go_deeper(p)
+      call enter_level(p)
       if (allocated(p%error)) return
       ! the table itself is complete at its end
       document%nodes(table)%is_frozen = .false.
@@ -411,12 +411,12 @@ contains
    end subroutine freeze_below
 
    !> Enter an array or an inline table
-   subroutine go_deeper(p)
+   subroutine enter_level(p)
       type(toml_parser), intent(inout) :: p
 
       p%depth = p%depth + 1
       if (p%depth > deepest) call fail(p, "arrays and inline tables are nested more than " // integer_text(deepest) // " deep")
-   end subroutine go_deeper
+   end subroutine enter_level
 
    !> Check the size of the document
    subroutine check_size(p, document)

@@ -55,7 +55,7 @@ contains
       real(wp), intent(out) :: value
       !> Why it is invalid; unallocated if it is valid
       character(len=:), allocatable, intent(out) :: complaint
-      type(unit_type) :: given, asked
+      type(unit_type) :: given, required
       character(len=:), allocatable :: name
       integer(long) :: i
       integer :: blank, first, last
@@ -75,7 +75,7 @@ contains
       name = trim(adjustl(text(blank:)))
       call read_unit(name, given, is_known)
       if (.not. is_known) then
-         complaint = 'has the unit "' // name // '", which is not known; wanted is ' // trim(asked_for(wanted))
+         complaint = 'has the unit "' // name // '", which is not known; wanted is ' // trim(required_unit(wanted))
          return
       end if
       fits = .false.
@@ -83,8 +83,8 @@ contains
       do while (.not. fits .and. first <= len_trim(wanted))
          last = index(wanted(first:), " or ")
          last = merge(len_trim(wanted), first + last - 2, last == 0)
-         call read_unit(wanted(first:last), asked, is_known)
-         if (is_known) fits = all(asked%dimensions == given%dimensions)
+         call read_unit(wanted(first:last), required, is_known)
+         if (is_known) fits = all(required%dimensions == given%dimensions)
          first = last + 5
       end do
       ! kelvin: temperatures would need an offset and differences would not, and the table does not distinguish them
@@ -93,23 +93,23 @@ contains
       else if (.not. fits .and. (wanted == "integer" .or. index(wanted, "...") > 0)) then
          complaint = "has a unit, but a plain number is wanted"
       else if (.not. fits) then
-         complaint = 'has the unit "' // name // '", wanted is ' // trim(asked_for(wanted)) // &
+         complaint = 'has the unit "' // name // '", wanted is ' // trim(required_unit(wanted)) // &
          & " or a unit that can be converted to it"
       end if
       if (allocated(complaint)) return
-      call scale_number(text(:blank - 1), given%power - asked%power, value, fits)
+      call scale_number(text(:blank - 1), given%power - required%power, value, fits)
       if (.not. fits) complaint = "is too large or too small for a number"
-      if (abs(given%rest - asked%rest) > 0.0_wp) value = value*(given%rest/asked%rest)
+      if (abs(given%rest - required%rest) > 0.0_wp) value = value*(given%rest/required%rest)
    end subroutine read_quantity
 
    !> A unit as shown in a message, padded with blanks
-   pure function asked_for(wanted) result(text)
+   pure function required_unit(wanted) result(text)
       character(len=*), intent(in) :: wanted
       character(len=len(wanted) + 14) :: text
 
       text = wanted
       if (index(wanted, "-") == 1) text = "a plain number" // wanted(2:)
-   end function asked_for
+   end function required_unit
 
    !> A number times a power of ten, rounded once
    subroutine scale_number(word, power, value, is_good)

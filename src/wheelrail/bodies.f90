@@ -7,7 +7,7 @@
 module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
-   use contact_profile_surface, only : large_swing, profile_surface, surface_cut
+   use contact_profile_surface, only : large_overshoot, profile_surface, surface_cut
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_wheel_surface, only : wheel_height, wheel_row
@@ -188,7 +188,7 @@ contains
       end do
       if (.not. all(found)) return
       swing = minval(height) - z
-      if (swing < large_swing) swing = 0.0_wp
+      if (swing < large_overshoot) swing = 0.0_wp
    end function swing
 
    !> The nearest section; 0 beyond the ends

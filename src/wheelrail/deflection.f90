@@ -53,7 +53,7 @@ contains
          search%resolution = fine_deflection
          if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, part_of_tolerance*tolerance/rail%ky)
          do
-            call search%answer(residual, abs(search%x - first) > out_of_sight)
+            call search%update(residual, abs(search%x - first) > out_of_sight)
             if (search%finished) exit
             memory%geometry%deflection = search%x
             call settle(problem, memory, z, silent, result, error)
@@ -65,7 +65,7 @@ contains
          if (allocated(error)) return
          residual = unbalanced()
          if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
-         call result%status%miss_force("lateral force of the rail's spring", spring_force(), spring_force() + residual, &
+         call result%status%record_missed_force("lateral force of the rail's spring", spring_force(), spring_force() + residual, &
             & trim(merge("it jumps where contact patches appear, join or separate", &
             &            "no deflection balances them                            ", search%bracketed)))
          call log%warning(result%status%reason)

@@ -101,7 +101,7 @@ contains
       end if
       if (memory%geometry%touch - z > out_of_sight) then
          memory%used = 0
-         call result%status%miss_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
+         call result%status%record_missed_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
             & "wheel and rail do not meet: their lateral positions are apart")
          call log%warning(result%status%reason)
          return
@@ -122,7 +122,7 @@ contains
             z = touch
             if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
             if (problem%force_prescribed .and. target < -no_force) then
-               call result%status%miss_force("vertical force", target, 0.0_wp, "FZ < 0 pulls at the wheel, which contact &
+               call result%status%record_missed_force("vertical force", target, 0.0_wp, "FZ < 0 pulls at the wheel, which contact &
                   &cannot: the wheel stands at first touch without any force")
                call log%warning(result%status%reason)
             end if
@@ -178,7 +178,7 @@ contains
       if (.not. allocated(error) .and. .not. is_settled) call search_together(problem, memory, search, log, error)
       z = search%z
       if (allocated(error)) return
-      call log%speak()
+      call log%write_held()
       memory%geometry%penetration = z - search%touch
       result%force_evaluations = result%force_evaluations + search%trials
       result%max_trials = max(result%max_trials, search%trials)
@@ -277,7 +277,7 @@ contains
          ! grids follow the contact in whole elements, which leaves small steps in the force
          if (abs(result%force_error) > max(tolerance, small_step*target)) then
             call explain(search%balance, target, sum_of_normal_forces(memory), why)
-            call result%status%miss_force("vertical force", target, target + result%force_error, why)
+            call result%status%record_missed_force("vertical force", target, target + result%force_error, why)
             call log%warning(result%status%reason)
          else if (abs(result%force_error) > tolerance) then
             write(missed, "(ES8.1)") abs(result%force_error)/target

@@ -384,7 +384,7 @@ contains
       memory%geometry%pressure_eps = 1.0_wp
       memory%geometry%traction_eps = 1.0_wp
       if (allocated(error)) then
-         if (memory%geometry%coarser == 1) call log%speak()
+         if (memory%geometry%coarser == 1) call log%write_held()
          return
       end if
       self%force = vertical_force(memory) + self%spring*(z - self%touch)

@@ -67,7 +67,7 @@ contains
          ! where the spin turns the slip another way at each place, the force changes although all slides
          search%reach = part_of_slip*largest_slip(memory)*moving
          do
-            call search%answer(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
+            call search%update(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
             if (search%finished) exit
             memory%geometry%pitch_rate = search%x
             call settle(problem, memory, z, silent, result, error)
@@ -80,7 +80,7 @@ contains
       if (allocated(error)) return
       residual = missing()
       if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
-      call result%status%miss_force("longitudinal force", problem%spec%wheelset%fx, problem%spec%wheelset%fx - residual, &
+      call result%status%record_missed_force("longitudinal force", problem%spec%wheelset%fx, problem%spec%wheelset%fx - residual, &
          & trim(reason()))
       call log%warning(result%status%reason)
 

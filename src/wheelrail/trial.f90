@@ -37,7 +37,7 @@ contains
       character(len=15) :: name
       integer :: k
 
-      call problem%limits%deadline%watch("in the search for contact", error)
+      call problem%limits%deadline%check("in the search for contact", error)
       if (allocated(error)) return
       ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
       if (z - memory%geometry%touch > memory%geometry%gap%depth) &

@@ -104,7 +104,7 @@ class Confined(unittest.TestCase):
         for name in PROFILES:
             (self.folder / "profiles" / name).unlink()
             os.mkfifo(self.folder / "profiles" / name)
-        self.refused("no ordinary file", self.rail)
+        self.refused("not a regular file", self.rail)
         self.assertEqual(self.run_program("3", "a")[0], 1)   # and nobody waits for it otherwise
         self.refused("not below the folder", ball(coefficients="'/dev/zero'"))
         self.refused("not below the folder", ball(coefficients="'/proc/self/environ'"))
@@ -142,7 +142,7 @@ class Confined(unittest.TestCase):
             self.assertEqual((self.outside / "secret.txt").read_text(), secret, suffix)
             if suffix in ("out", "jsonl", "pvd"):
                 self.assertEqual(status, 1, suffix)
-                self.assertIn("no ordinary file", err)
+                self.assertIn("not a regular file", err)
 
     def size(self):
         return sum(path.stat().st_size for path in self.folder.rglob("*") if path.is_file() and path.suffix not in (".inp", ".slcs")

@@ -94,7 +94,7 @@ class Effects(unittest.TestCase):
                                         friction="0.1 0.2 1 0 1\n0 1", rolling="0 0.1 1e7"))
         self.assertIn("; NOT CONVERGED: force, requested FX 27.0000 N, found 10.0000 N", told[0])
         _, told = self.run_program(case(limits="2 100 30 1 1e-9"))
-        self.assertIn("; NOT CONVERGED: normal problem, NormCG used up its iterations", told[0])
+        self.assertIn("; NOT CONVERGED: normal problem, NormCG reached the iteration limit", told[0])
 
     def test_missed_forces_of_wheel_and_rail(self):
         with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as file:

@@ -194,11 +194,11 @@ class Surroundings(Scratch):
         for name in ("pipe", "zero", "folder"):
             status, _, err = self.run_program("2", name)
             self.assertEqual(status, 1, name)
-            self.assertIn("no ordinary file", err, name)
+            self.assertIn("not a regular file", err, name)
         os.mkfifo(self.folder / "a.out")
         status, _, err = self.run_program("2", "a")
         self.assertEqual(status, 1)
-        self.assertIn("no ordinary file", err)
+        self.assertIn("not a regular file", err)
 
     @unittest.skipIf(IS_INSTRUMENTED, "sanitizers need address space")
     def test_small_limits_of_the_system(self):

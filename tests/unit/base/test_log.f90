@@ -12,7 +12,7 @@ program test_log
 
 contains
 
-   !> What counts as the same warning
+   !> Which warnings are regarded as the same
    subroutine warnings(suite)
       type(test_suite), intent(inout) :: suite
       type(log_type) :: log
@@ -22,7 +22,7 @@ contains
       call log%warning("the force of 12.5 N is not met")
       call log%warning("the force of 3.25 N is not met")
       call log%warning("the force of -1.0E-05 N is not met")
-      call suite%check(log%warnings == 1 .and. log%heard == 3, "numbers with a point make no difference")
+      call suite%check(log%warnings == 1 .and. log%occurrences == 3, "numbers with a point make no difference")
       call log%warning("the force of 4 N is not met")
       call log%warning("the force of 5 N is not met")
       call suite%check(log%warnings == 3, "whole numbers do")
@@ -33,13 +33,13 @@ contains
       call suite%check(log%warnings == 7, "more words, fewer words, other words do")
       call log%warning("")
       call log%warning("")
-      call suite%check(log%heard == 11, "an empty one is heard, too")
+      call suite%check(log%occurrences == 11, "an empty warning is counted")
       call log%end_case()
       call finish(log, lines)
       call suite%check(index(lines, "times in this case) the force of 12.5 N is not met" // achar(10)) > 0, &
          & "how often, with the first words: " // lines)
       call suite%check(index(lines, "3.25") == 0, "the later ones are not written")
-      call suite%check(index(lines, "(1 times") == 0, "nothing is told of a single one")
+      call suite%check(index(lines, "(1 times") == 0, "a single occurrence is not reported")
       call suite%check(count_of(lines, "4 N is not met") == 1, "a single warning is written once")
 
       call begin(log)
@@ -63,10 +63,10 @@ contains
       call log%hold()
       call log%warning("of the last trial")
       call log%warning("and a second one")
-      call suite%check(log%heard == 0, "held back")
-      call log%speak()
+      call suite%check(log%occurrences == 0, "held back")
+      call log%write_held()
       call log%warning("after it")
-      call suite%check(log%warnings == 3, "said")
+      call suite%check(log%warnings == 3, "written warnings are counted")
       call finish(log, lines)
       call suite%check(index(lines, "does not count") == 0, "warnings of trials are forgotten")
       call suite%check(index(lines, "of the last trial") < index(lines, "and a second one") .and. &

@@ -19,7 +19,7 @@ program test_experiment
 
 contains
 
-   !> How a case ended: a letter of its own for each, whose capital keeps it and tells that a larger grid was named
+   !> Final status of a case: each has its own letter, in upper case if a larger grid was recommended
    subroutine letters(suite)
       type(test_suite), intent(inout) :: suite
       character(len=*), parameter :: expected = "snrti"

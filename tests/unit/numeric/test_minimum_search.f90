@@ -23,20 +23,20 @@ contains
       do i = 1, size(first)
          call search%start(first(i), 1.0e-6_wp)
          do while (.not. search%finished)
-            call search%answer((search%x - 0.7_wp)**2)
+            call search%update((search%x - 0.7_wp)**2)
          end do
          call suite%close_to(search%best, 0.7_wp, 1.0e-5_wp, "parabola")
          call suite%check(search%evaluations < 60, "in few evaluations")
 
          call search%start(first(i), 1.0e-6_wp)
          do while (.not. search%finished)
-            call search%answer(2.0_wp*exp(-search%x) + 0.5_wp*search%x)
+            call search%update(2.0_wp*exp(-search%x) + 0.5_wp*search%x)
          end do
          call suite%close_to(search%best, log(4.0_wp), 1.0e-4_wp, "exponential")
 
          call search%start(first(i), 1.0e-6_wp)
          do while (.not. search%finished)
-            call search%answer(merge(5.0_wp, -1.0_wp, search%x > 3.0_wp)*(search%x - 3.0_wp))
+            call search%update(merge(5.0_wp, -1.0_wp, search%x > 3.0_wp)*(search%x - 3.0_wp))
          end do
          call suite%close_to(search%best, 3.0_wp, 1.0e-4_wp, "kink")
       end do
@@ -49,22 +49,22 @@ contains
 
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
-         call search%answer(search%x)
+         call search%update(search%x)
       end do
       call suite%check(search%best < 1.0e-8_wp .and. search%evaluations < 100, "a function that rises")
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
-         call search%answer(-search%x)
+         call search%update(-search%x)
       end do
       call suite%check(search%best > 1.0e8_wp .and. search%evaluations < 100, "a function that falls")
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
-         call search%answer(2.0_wp)
+         call search%update(2.0_wp)
       end do
       call suite%check(search%evaluations < 100, "a constant")
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
-         call search%answer(search%x*huge(search%x)*10.0_wp - search%x*huge(search%x)*10.0_wp)
+         call search%update(search%x*huge(search%x)*10.0_wp - search%x*huge(search%x)*10.0_wp)
       end do
       call suite%check(search%evaluations < 100, "no number")
    end subroutine without_minimum

@@ -23,7 +23,7 @@ contains
       do i = 1, size(starts)
          call search%start(starts(i), 0.01_wp, 1.0e-12_wp)
          do while (.not. search%finished)
-            call search%answer(1.0_wp - tanh(search%x) - 0.7_wp, .false.)
+            call search%update(1.0_wp - tanh(search%x) - 0.7_wp, .false.)
          end do
          call suite%check(search%found, "the root of a smooth function is found")
          call suite%close_to(search%best, atanh(0.3_wp), 1.0e-11_wp, "at its place")
@@ -31,14 +31,14 @@ contains
 
          call search%start(starts(i), 1.0_wp, 1.0e-12_wp)
          do while (.not. search%finished)
-            call search%answer(merge(-1.0e-3_wp, -100.0_wp, search%x < 2.0_wp)*(search%x - 2.0_wp), .false.)
+            call search%update(merge(-1.0e-3_wp, -100.0_wp, search%x < 2.0_wp)*(search%x - 2.0_wp), .false.)
          end do
          call suite%check(search%found, "the root at a kink is found")
          call suite%close_to(search%best, 2.0_wp, 1.0e-8_wp, "the kink")
 
          call search%start(starts(i), 1.0_wp, 1.0e-12_wp)
          do while (.not. search%finished)
-            call search%answer(merge(0.5_wp, -0.3_wp, search%x < 3.0_wp), .false.)
+            call search%update(merge(0.5_wp, -0.3_wp, search%x < 3.0_wp), .false.)
          end do
          call suite%check(search%bracketed .and. .not. search%found, "a jump is no root")
          call suite%close_to([search%best, search%best_value], [3.0_wp, 0.3_wp], 1.0e-12_wp, "but its place is found")
@@ -52,14 +52,14 @@ contains
 
       call search%start(0.0_wp, 1.0_wp, 1.0e-6_wp)
       do while (.not. search%finished)
-         call search%answer(0.1_wp + 1.0_wp/(1.0_wp + search%x**2), search%x > 10.0_wp)
+         call search%update(0.1_wp + 1.0_wp/(1.0_wp + search%x**2), search%x > 10.0_wp)
       end do
       call suite%check(.not. (search%found .or. search%bracketed), "no sign change is reported")
       call suite%check(search%evaluations < 40, "the walk ends when the function saturates")
-      call suite%close_to(search%best_value, 0.1_wp, 1.0e-6_wp, "and tells the smallest value")
+      call suite%close_to(search%best_value, 0.1_wp, 1.0e-6_wp, "and gives the smallest value")
       call search%start(0.0_wp, 1.0_wp, 1.0e-6_wp)
       do while (.not. search%finished)
-         call search%answer(1.0_wp, .false.)
+         call search%update(1.0_wp, .false.)
       end do
       call suite%check(.not. search%found, "a constant has no root")
 
@@ -67,13 +67,13 @@ contains
       call search%start(0.0_wp, 1.0e-7_wp, 1.0e-6_wp)
       search%reach = 1.0_wp
       do while (.not. search%finished)
-         call search%answer(0.1_wp*(2.0_wp - search%x), .true.)
+         call search%update(0.1_wp*(2.0_wp - search%x), .true.)
       end do
-      call suite%check(search%found .and. search%evaluations < 15, "a walk in short steps goes on where the function still falls")
+      call suite%check(search%found .and. search%evaluations < 15, "short steps continue while the function still decreases")
       call search%start(0.0_wp, 1.0e-7_wp, 1.0e-6_wp)
       search%reach = 1.0_wp
       do while (.not. search%finished)
-         call search%answer(1.0_wp, .true.)
+         call search%update(1.0_wp, .true.)
       end do
       call suite%check(.not. search%found .and. search%evaluations == 3, "a saturated constant is known after one long step")
    end subroutine without_root

@@ -196,7 +196,7 @@ contains
       result%tangential%gave_up = "third method"
       result%tangential%ended = ending%stagnated
       result%tangential%tolerance = 1.0e-6_wp
-      call result%status%judge(missed_iteration%tangential, "tangential problem", result%tangential)
+      call result%status%record_iteration(missed_iteration%tangential, "tangential problem", result%tangential)
       call write_file(spec, result, 1, lines)
       at = find_line(lines, " EFFECTS: ", 1)
       call suite%check(index(lines(at)%text, " EFFECTS: thin sheet in case of need;") == 1, "effects, harmless for counters")

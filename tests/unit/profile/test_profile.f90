@@ -386,7 +386,7 @@ contains
             call refused(suite, request, text, "is the end of a spike", n + 6, "a spike")
             request%doubt = doubt%ignore
             call read_profile(request, curve, log, error)
-            call suite%check(.not. allocated(error), "a spike is taken when asked for")
+            call suite%check(.not. allocated(error), "a spike is accepted on request")
             request%doubt = doubt%refuse
          end do
       end do
@@ -419,8 +419,8 @@ contains
       call refused(suite, request, "0 0" // nl // "1 NaN", '"NaN" is not a finite number', 2, "NaN")
       call refused(suite, request, "0 0" // nl // "1 1e999", '"1e999" is too large', 2, "overflow")
       call refused(suite, request, "0 0" // nl // "1 two", '"two" is not a number; expected a point', 2, "a word")
-      call refused(suite, request, "0 0" // nl // "1", "one number alone", 2, "one number")
-      call refused(suite, request, "0 0" // nl // "X=1", "behind the first point", 2, "a key behind points")
+      call refused(suite, request, "0 0" // nl // "1", "a single number", 2, "one number")
+      call refused(suite, request, "0 0" // nl // "X=1", "follows the first point", 2, "a key behind points")
       call refused(suite, request, "-.02 .01" // nl // "0 0" // nl // ".02 .01", "mm long", 0, "metres without a factor")
       call refused(suite, request, "-2000 1000" // nl // "0 0" // nl // "2000 1000", "mm long", 0, "micrometres")
       call refused(suite, request, "-20 5" // nl // "0 0" // nl // "10 2" // nl // "10 6" // nl // "5 6" // nl // "5 .5" // nl // &
@@ -435,7 +435,7 @@ contains
       call refused(suite, request, "header.begin" // nl // "type = one", '"one" is not a number', 2, "a word in the header")
       call refused(suite, request, "header.begin" // nl // "type = 0 1", "has 2 values", 2, "a header value too many")
       call refused(suite, request, "header.begin" // nl // "spline.begin", "inside the block header", 2, "wrong nesting")
-      call refused(suite, request, "point.begin", "stands outside", 1, "points without a block")
+      call refused(suite, request, "point.begin", "is outside its block", 1, "points without a block")
       call refused(suite, request, "spline.start", "is not known", 1, "a word that is not known")
       call refused(suite, request, simpack_head // "rotate = 5" // nl // "point.begin" // nl // roof // simpack_tail, &
          & "rotate = 5", 9, "a rotation in degrees without their unit")
@@ -482,7 +482,7 @@ contains
       view = curve%seen_from([30.0_wp*sin(-0.5_wp), 30.0_wp*(1.0_wp - cos(0.5_wp))], -0.5_wp, [-25.0_wp, 5.0_wp])
       y = [-8.0_wp, 0.0_wp, 8.0_wp]
       call suite%close_to(view%height(y), 30.0_wp - sqrt(900.0_wp - y**2), 1.0e-6_wp, "seen along another radius")
-      call suite%check(.not. view%has(25.0_wp), "only the range asked for")
+      call suite%check(.not. view%has(25.0_wp), "only the requested range")
    end subroutine arc
 
    !> Heights of many points are those of each
@@ -539,7 +539,7 @@ contains
       call suite%check(.not. allocated(error), "a box")
    end subroutine hidden
 
-   !> A zig-zag is told, kept secret, or an error
+   !> A zig-zag gives a warning, no message, or an error
    subroutine doubts(suite)
       type(test_suite), intent(inout) :: suite
       type(profile_curve) :: curve
@@ -564,7 +564,7 @@ contains
          call log%begin_case()
          call read_profile(request, curve, log, error)
          call suite%equal(log%warnings, warnings(k), "warnings about a zig-zag")
-         call suite%check(allocated(error) .eqv. choices(k) == doubt%refuse, "refused only when asked for")
+         call suite%check(allocated(error) .eqv. choices(k) == doubt%refuse, "refused only on request")
          if (allocated(error) .and. choices(k) /= doubt%refuse) call suite%check(.false., full_text(error))
       end do
    end subroutine doubts

@@ -103,7 +103,7 @@ contains
       if (.not. allocated(error)) call suite%check(allocated(profile%surface), what // " is a surface")
    end subroutine load
 
-   !> Outlines that change suddenly make the surface swing between slices, which is told; a feature, or a slow change, ends it
+   !> Abrupt changes of the outline make the surface overshoot between slices, with a warning; not with a feature or a slow change
    subroutine swing(suite)
       type(test_suite), intent(inout) :: suite
       type(log_type) :: log
@@ -430,13 +430,13 @@ contains
       end do
       call refused(suite, "", "U_OFFSET", 1, "an empty slices file")
       call refused(suite, slices_text(3, 10.0_wp, plain, ""), "at least 4", 0, "three slices")
-      call refused(suite, slices_text(6, 0.0005_wp, plain, ""), "must rise", 7, "slices too close")
-      call refused(suite, slices_text(6, -1.0_wp, plain, ""), "must rise", 7, "slices in falling order")
+      call refused(suite, slices_text(6, 0.0005_wp, plain, ""), "must increase", 7, "slices too close")
+      call refused(suite, slices_text(6, -1.0_wp, plain, ""), "must increase", 7, "slices in falling order")
       call refused(suite, slices_text(6, 1.0_wp, "0 0 0" // nl // "3", ""), "accepted are 1 to 2", 5, "an unknown interpolation")
       call refused(suite, slices_text(6, 1.0_wp, "3 0 1" // nl // "1", ""), "accepted is 0", 4, "accelerations")
       call refused(suite, slices_text(6, 1.0_wp, "3 2 0" // nl // "1", ""), "accepted are 0 to 1", 4, "too many kinks")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", ""), "end of the file", 12, "no features")
-      call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 2"), "do not rise", 12, "features that fall")
+      call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 2"), "do not increase", 12, "features that fall")
       call refused(suite, slices_text(6, 1.0_wp, "3 0 0" // nl // "1", "0 5 -1 9"), "between others", 12, "a missing feature")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 -1"), "fewer than two", 12, "one feature")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "1 0 9"), "position 1", 12, "features of another slice")
@@ -494,7 +494,7 @@ contains
       call profiles%get(request, one, log, error)
       known = profiles%comparisons
       call profiles%get(request, one, log, error)
-      call suite%equal(profiles%comparisons, known, "a file that nobody touched is not read to see whether it is the same")
+      call suite%equal(profiles%comparisons, known, "an unchanged file is not read for comparison")
       call write_slice("slice1.txt", 0.0_wp, 2.0_wp)
       call profiles%get(request, one, log, error)
       call suite%close_to(one%curve%height(0.0_wp), 2.0_wp, 1.0e-9_wp, "a file that was changed later, of the same length")

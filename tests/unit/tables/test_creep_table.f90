@@ -5,7 +5,7 @@ program test_creep_table
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_tables_axis, only : find_basis, make_axis, order, spline_axis
-   use contact_tables_creep_table, only : answer, creep_table, find_creep_force, scaled_creepages, values_per_node
+   use contact_tables_creep_table, only : creep_table, find_creep_force, lookup_status, scaled_creepages, values_per_node
    use contact_tables_table_file, only : read_table
    use contact_test_harness, only : test_suite
    use contact_text_sha256, only : sha256
@@ -101,7 +101,7 @@ contains
       expected(:2) = v/((v(1)**4 + v(2)**4)**0.25_wp + 1.0_wp)
       expected(3) = u(3)/(1.0_wp + u(3))
       expected = -0.5_wp*mu*fn*[1.0_wp, 1.0_wp, c]*expected
-      call suite%equal(status, answer%inside, "within the table")
+      call suite%equal(status, lookup_status%inside, "within the table")
       call suite%check(all(abs(force - expected) < short*mu*fn*c), "forces follow the formulas")
       step = 1.0e-6_wp/factor
       do j = 1, 3
@@ -165,7 +165,7 @@ contains
       call suite%check(all(abs(force(:2)) <= mu*fn) .and. all(abs(slopes) < huge(unit)), "endless creepages have forces")
    end subroutine the_bound
 
-   !> What is no contact is told, and has no forces
+   !> Arguments without a contact are reported, and give no forces
    subroutine refusals(suite)
       type(test_suite), intent(inout) :: suite
       type(creep_table) :: table
@@ -175,16 +175,16 @@ contains
       call make_table(table, -0.5_wp)
       creep = [0.001_wp, 0.0_wp, 0.0_wp]
       call find_creep_force(table, fn, mu, gg, 30.0_wp, bb, bb, creep, force, status, slopes)
-      call suite%check(status == answer%outside .and. force(1) < 0.0_wp, "a shape that the table has not is told")
+      call suite%check(status == lookup_status%outside .and. force(1) < 0.0_wp, "a shape outside the table is reported")
       call find_creep_force(table, fn, mu, gg, aa, 0.9_wp*bb, 1.1_wp*bb, creep, force, status, slopes)
-      call suite%equal(status, answer%outside, "half ellipses in a table of ellipses are told")
+      call suite%equal(status, lookup_status%outside, "half ellipses in a table of ellipses are reported")
       call find_creep_force(table, fn, mu, gg, aa, bb, -bb, creep, force, status, slopes)
-      call suite%check(status == answer%wrong .and. all(abs(force) <= 0.0_wp), "a negative length is refused")
+      call suite%check(status == lookup_status%invalid .and. all(abs(force) <= 0.0_wp), "a negative length is refused")
       creep(2) = ieee_value(1.0_wp, ieee_quiet_nan)
       call find_creep_force(table, fn, mu, gg, aa, bb, bb, creep, force, status, slopes)
-      call suite%check(status == answer%wrong .and. all(abs(force) <= 0.0_wp), "what is no number is refused")
+      call suite%check(status == lookup_status%invalid .and. all(abs(force) <= 0.0_wp), "what is no number is refused")
       call find_creep_force(table, -1.0_wp, mu, gg, aa, bb, bb, [1.0_wp, 0.0_wp, 0.0_wp], force, status, slopes)
-      call suite%check(status == answer%inside .and. all(abs(force) <= 0.0_wp), "no normal force, no forces")
+      call suite%check(status == lookup_status%inside .and. all(abs(force) <= 0.0_wp), "no normal force, no forces")
    end subroutine refusals
 
    !> A file is read; one with another byte, cut off, or of another kind is refused in one sentence

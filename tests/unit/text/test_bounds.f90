@@ -90,7 +90,7 @@ contains
       if (len(words) == 0) then
          call suite%check(len(complaint) == 0, name // " is accepted: " // complaint)
       else
-         call suite%check(index(complaint, words) > 0, name // ": '" // complaint // "' tells '" // words // "'")
+         call suite%check(index(complaint, words) > 0, name // ": '" // complaint // "' contains '" // words // "'")
       end if
    end subroutine expect
 
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine manual
 
-   !> A row of the manual, which speaks of digits
+   !> A row of the manual, which names digits
    pure function manual_row(bounds) result(row)
       type(number_bounds), intent(in) :: bounds
       character(len=280) :: row

@@ -1,4 +1,4 @@
-!> Tells what texts in TOML say, for comparison with another parser
+!> Writes the content of TOML texts, for comparison with another parser
 !>
 !> Usage: toml_values FILE. The file has many texts, each behind a line with its length in bytes. For each text the values are
 !> written depth first, one a line, strings and real numbers as hexadecimal bytes, and a line "." at the end; or "error" and why.
