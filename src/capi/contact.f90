@@ -16,8 +16,7 @@ module contact_capi_contact
    implicit none (type, external)
    private
 
-   public :: set_creepages, set_extra_slip, set_grid, set_hertz, set_normal_force, set_penetration, set_undeformed_distance, &
-      & set_velocity
+   public :: set_creepages, set_extra_slip, set_grid, set_hertz, set_normal, set_undeformed_distance, set_velocity
 
    !> Smallest velocity: a body that stands still counts as such [mm/s]
    real(wp), parameter :: min_velocity = 1.0e-9_wp
@@ -128,25 +127,22 @@ contains
       end associate
    end function number_of_heights
 
-   !> Prescribed approach (N = 0)
-   subroutine set_penetration(a, problem)
+   !> A prescribed approach or force, which chooses N
+   subroutine set_normal(a, name, value, n, digit)
       type(caller), intent(inout) :: a
-      type(library_problem), intent(inout), target :: problem
+      !> As the table of bounds has it
+      character(len=*), intent(in) :: name
+      !> Where the problem keeps it
+      real(wp), intent(inout), target :: value
+      !> N of the problem
+      integer, intent(inout) :: n
+      !> What it becomes
+      integer, intent(in) :: digit
 
-      call a%real("PEN", problem%stored%kinematics%pen)
+      call a%real(name, value)
       call a%end_line()
-      if (a%is_good) problem%digits%n = 0
-   end subroutine set_penetration
-
-   !> Prescribed normal force (N = 1)
-   subroutine set_normal_force(a, problem)
-      type(caller), intent(inout) :: a
-      type(library_problem), intent(inout), target :: problem
-
-      call a%real("FN", problem%stored%kinematics%fn)
-      call a%end_line()
-      if (a%is_good) problem%digits%n = 1
-   end subroutine set_normal_force
+      if (a%is_good) n = digit
+   end subroutine set_normal
 
    !> Creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
    subroutine set_creepages(a, problem)

@@ -11,7 +11,7 @@ module contact_capi_fields
    implicit none (type, external)
    private
 
-   public :: get_division, get_errors, get_field, get_fields, get_largest_traction, get_largest_temperatures, get_wear
+   public :: get_errors, get_field, get_fields, get_largest_temperatures, get_wear
 
 contains
 
@@ -67,16 +67,6 @@ contains
       call a%give(k, factor*reshape(row%values(:, view%rows()), [size(row%values)]))
    end subroutine give_field
 
-   !> States of the elements
-   subroutine get_division(a, view)
-      type(caller), intent(in) :: a
-      type(result_view), intent(in) :: view
-
-      associate (division => view%patch%division)
-         call a%give(1, reshape(division(:, view%rows()), [size(division)]))
-      end associate
-   end subroutine get_division
-
    !> Estimated errors of the totals of a patch; -1 for none
    subroutine get_errors(a, view)
       type(caller), intent(in) :: a
@@ -101,14 +91,6 @@ contains
       call a%give(1, view%totals([character(len=16) :: "t_gamma", "wear_index", "max_power", "max_wear", "worn_section", &
          & "traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]))
    end subroutine get_wear
-
-   !> Largest tangential traction
-   subroutine get_largest_traction(a, view)
-      type(caller), intent(in) :: a
-      type(result_view), intent(in) :: view
-
-      call a%give_each([maxval(hypot(view%patch%px, view%patch%py))*outward(view%units, quantity%pressure)])
-   end subroutine get_largest_traction
 
    !> Largest surface temperatures; 0 when they are not calculated
    subroutine get_largest_temperatures(a, view)

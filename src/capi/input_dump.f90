@@ -5,7 +5,7 @@ module contact_capi_input_dump
    use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_cases_spec, only : case_spec, part_source
+   use contact_cases_spec, only : case_parts, case_spec, part_source
    use contact_output_finished_file, only : finished_file
    use contact_output_input_case, only : write_contact_case, write_input_case
    use contact_wheelrail_spec, only : profile_spec
@@ -53,18 +53,7 @@ contains
       written%ends_module = .true.
       written%parts%heat = part_source%given
       associate (parts => written%parts)
-         if (problem%write_input >= complete) then
-            parts%friction = part_source%given
-            parts%search = part_source%given
-            parts%material = part_source%given
-            parts%damping = part_source%given
-            parts%track = part_source%given
-            parts%rail_profile = part_source%given
-            parts%deviations = part_source%given
-            parts%wheel_profile = part_source%given
-            parts%position = part_source%given
-            parts%velocity = part_source%given
-         end if
+         if (problem%write_input >= complete) parts = case_parts(iteration=parts%iteration, flexibility=parts%flexibility)
          if (parts%rail_profile == part_source%given) &
             & call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
          if (parts%wheel_profile == part_source%given) &

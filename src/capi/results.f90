@@ -15,8 +15,8 @@ module contact_capi_results
    implicit none (type, external)
    private
 
-   public :: get_areas, get_approach, get_creepages, get_element_sides, get_grid, get_hertz, get_parameters, get_sensitivities
-   public :: get_time, get_velocity, reset_time
+   public :: get_approach, get_creepages, get_element_sides, get_grid, get_hertz, get_parameters, get_sensitivities, get_time
+   public :: kinematic_constants, reset_time
 
 contains
 
@@ -36,6 +36,7 @@ contains
    !> V, chi, dq, spinxo, spinyo, tau_c0
    function kinematic_constants(problem, icp) result(list)
       type(library_problem), intent(in) :: problem
+      !> Patch of module 1
       integer, intent(in) :: icp
       real(wp) :: list(6)
 
@@ -104,16 +105,6 @@ contains
             & (sets(k)%position, sets(k)%fstat, sets(k)%fkin, k=1, size(sets))]
       end associate
    end function friction_constants
-
-   !> Rolling velocity
-   subroutine get_velocity(a, problem)
-      type(caller), intent(in) :: a
-      type(library_problem), intent(in) :: problem
-
-      associate (constants => kinematic_constants(problem, a%call_of%icp))
-         call a%give_each(constants(:1))
-      end associate
-   end subroutine get_velocity
 
    !> The Hertz solution: a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob
    subroutine get_hertz(a, problem)
@@ -209,16 +200,6 @@ contains
       if (problem%motion() == motion%shift) units = [quantity%length, quantity%length, quantity%angle]
       call a%give_each(creep*outward(problem%units, units, signs, left))
    end subroutine get_creepages
-
-   !> Areas of contact, adhesion and slip
-   subroutine get_areas(a, view)
-      type(caller), intent(in) :: a
-      type(result_view), intent(in) :: view
-
-      associate (patch => view%patch)
-         call a%give_each([patch%ncon, patch%nadh, patch%nslip]*(patch%grid%dx*patch%grid%dy*outward(view%units, quantity%area)))
-      end associate
-   end subroutine get_areas
 
    !> Sensitivities: rows Fn, Fx, Fy, Mz, columns approach, creepages, spin; the first four by four entries
    subroutine get_sensitivities(a, problem, view)

@@ -7,10 +7,9 @@ module contact_capi_routines
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, path_of, real_of
    use contact_capi_caller, only : answer_place, caller
-   use contact_capi_contact, only : set_creepages, set_extra_slip, set_grid, set_hertz, set_normal_force, set_penetration, &
-      & set_undeformed_distance, set_velocity
-   use contact_capi_fields, only : get_division, get_errors, get_field, get_fields, get_largest_temperatures, &
-      & get_largest_traction, get_wear
+   use contact_capi_contact, only : set_creepages, set_extra_slip, set_grid, set_hertz, set_normal, set_undeformed_distance, &
+      & set_velocity
+   use contact_capi_fields, only : get_errors, get_field, get_fields, get_largest_temperatures, get_wear
    use contact_capi_flags, only : get_flags, set_flags, set_metadata
    use contact_capi_messages, only : say
    use contact_capi_physics, only : set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, &
@@ -19,13 +18,13 @@ module contact_capi_routines
    use contact_capi_profile_values, only : get_profile_values
    use contact_capi_profiles, only : set_profile
    use contact_capi_registry, only : enter, leave, scope, scope_type
-   use contact_capi_results, only : get_approach, get_areas, get_creepages, get_element_sides, get_grid, get_hertz, &
-      & get_parameters, get_sensitivities, get_time, get_velocity, reset_time
+   use contact_capi_results, only : get_approach, get_creepages, get_element_sides, get_grid, get_hertz, get_parameters, &
+      & get_sensitivities, get_time, kinematic_constants, reset_time
    use contact_capi_subsurface, only : add_block, get_block, get_block_size
    use contact_capi_view, only : look_at, result_view
    use contact_capi_wheel_rail_results, only : get_forces, get_location, get_wheelset_position, get_wheelset_velocity
-   use contact_capi_wheel_rail_settings, only : set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, &
-      & set_wheelset_velocity
+   use contact_capi_wheel_rail_settings, only : set_track, set_wheelset
+   use contact_control_units, only : outward, quantity
    implicit none (type, external)
    private
 
@@ -84,19 +83,16 @@ contains
       case ("cntc_setPotContact"); call set_grid(a, problem)
       case ("cntc_setHertzContact"); call set_hertz(a, problem)
       case ("cntc_setUndeformedDistc"); call set_undeformed_distance(a, problem)
-      case ("cntc_setPenetration"); call set_penetration(a, problem)
-      case ("cntc_setNormalForce"); call set_normal_force(a, problem)
+      case ("cntc_setPenetration"); call set_normal(a, "PEN", problem%stored%kinematics%pen, problem%digits%n, 0)
+      case ("cntc_setNormalForce"); call set_normal(a, "FN", problem%stored%kinematics%fn, problem%digits%n, 1)
+      case ("cntc_setVerticalForce"); call set_normal(a, "FZ", problem%stored%wheelset%fz, problem%digits%n, 1)
       case ("cntc_setCreepages"); call set_creepages(a, problem)
       case ("cntc_setExtraRigidSlip"); call set_extra_slip(a, problem)
       case ("cntc_setReferenceVelocity"); call set_velocity(a, problem)
-      case ("cntc_setVerticalForce"); call set_vertical_force(a, problem)
       case ("cntc_setTrackDimensions"); call set_track(a, problem)
-      case ("cntc_setWheelsetDimensions"); call set_dimensions(a, problem)
-      case ("cntc_setWheelsetPosition"); call set_position(a, problem)
-      case ("cntc_setWheelsetVelocity"); call set_wheelset_velocity(a, problem)
-      case ("cntc_setWheelsetFlexibility"); call set_flexibility(a, problem)
-      case ("cntc_setProfileInputFname"); call set_profile(a, problem)
-      case ("cntc_setProfileInputValues"); call set_profile(a, problem)
+      case ("cntc_setWheelsetDimensions", "cntc_setWheelsetPosition", "cntc_setWheelsetVelocity", "cntc_setWheelsetFlexibility")
+         call set_wheelset(a, problem)
+      case ("cntc_setProfileInputFname", "cntc_setProfileInputValues"); call set_profile(a, problem)
       case ("subs_addBlock"); call add_block(a, problem)
       case ("cntc_resetCalculationTime"); call reset_time(a, problem)
       case ("cntc_getFlags"); call get_flags(a, problem)
@@ -109,7 +105,7 @@ contains
       case ("cntc_getWheelsetVelocity"); call get_wheelset_velocity(a, problem)
       case ("cntc_getNumContactPatches"); call a%give_each([size(problem%wheel_rail_result%patches)])
       case ("cntc_getContactLocation"); call get_location(a, problem)
-      case ("cntc_getReferenceVelocity"); call get_velocity(a, problem)
+      case ("cntc_getReferenceVelocity"); call a%give(1, kinematic_constants(problem, a%call_of%icp))
       case ("cntc_getHertzContact"); call get_hertz(a, problem)
       case ("cntc_getGridDiscretization"); call get_element_sides(a, problem)
       case ("cntc_getPenetration"); call get_approach(a, problem)
@@ -121,10 +117,14 @@ contains
       case ("cntc_getNumElements"); call a%give_each([view%patch%grid%mx, view%patch%grid%my])
       case ("cntc_getPotContact"); call get_grid(a, problem, view)
       case ("cntc_getContactForces"); call a%give_each(view%totals(["fn", "fx", "fy", "mz"]))
-      case ("cntc_getContactPatchAreas"); call get_areas(a, view)
-      case ("cntc_getElementDivision"); call get_division(a, view)
+      case ("cntc_getContactPatchAreas")
+         call a%give_each([view%patch%ncon, view%patch%nadh, view%patch%nslip]*(view%patch%grid%dx*view%patch%grid%dy &
+            & *outward(view%units, quantity%area)))
+      case ("cntc_getElementDivision")
+         call a%give(1, reshape(view%patch%division(:, view%rows()), [size(view%patch%division)]))
       case ("cntc_getMaximumPressure"); call a%give_each(view%totals(["pmax"]))
-      case ("cntc_getMaximumTraction"); call get_largest_traction(a, view)
+      case ("cntc_getMaximumTraction")
+         call a%give_each([maxval(hypot(view%patch%px, view%patch%py))*outward(view%units, quantity%pressure)])
       case ("cntc_getMaximumTemperature"); call get_largest_temperatures(a, view)
       case ("cntc_getErrors"); call get_errors(a, view)
       case ("cntc_getWear"); call get_wear(a, view)

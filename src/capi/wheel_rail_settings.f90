@@ -11,19 +11,9 @@ module contact_capi_wheel_rail_settings
    implicit none (type, external)
    private
 
-   public :: set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, set_wheelset_velocity
+   public :: set_track, set_wheelset
 
 contains
-
-   !> Prescribed vertical force on the rail (N = 1)
-   subroutine set_vertical_force(a, problem)
-      type(caller), intent(inout) :: a
-      type(library_problem), intent(inout), target :: problem
-
-      call a%real("FZ", problem%stored%wheelset%fz)
-      call a%end_line()
-      if (a%is_good) problem%digits%n = 1
-   end subroutine set_vertical_force
 
    !> Place of the rail in the track, deviations of the rail, springs of a massless rail (Z)
    subroutine set_track(a, problem)
@@ -80,103 +70,59 @@ contains
       call a%end_line()
    end subroutine visit_place
 
-   !> Dimensions of the wheelset
-   subroutine set_dimensions(a, problem)
+   !> Dimensions, position, velocity and flexible deviations of the wheelset: each routine takes its numbers, and E becomes what an
+   !> input file of the case has
+   subroutine set_wheelset(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(wheelset_spec) :: wheelset
+      logical :: has_dimensions, is_roller
 
-      associate (method => a%single(1), e => problem%digits%e)
-         call check_method(a, 0)
+      associate (routine => a%call_of%name, method => a%single(1), e => problem%digits%e)
+         has_dimensions = routine == "cntc_setWheelsetDimensions"
+         if (method == 0 .and. .not. has_dimensions) return
+         if (method < 0 .or. method > 5) call a%refuse_call("there is no wheelset method " // integer_text(method) // &
+            & "; 0 to 5 are")
          wheelset = problem%stored%wheelset
+         is_roller = problem%digits%c1 >= 4
          do while (a%next_pass())
-            if (method == 3 .or. method == 5) call visit_dimensions(a, wheelset)
+            select case (routine)
+            case ("cntc_setWheelsetDimensions")
+               if (method == 3 .or. method == 5) call visit_dimensions(a, wheelset)
+            ! on rollers as well; which place the first value is will be seen when the case is solved
+            case ("cntc_setWheelsetPosition")
+               call visit_position(a, wheelset, roller=.false., with_force=.false.)
+            ! on rollers the first value is the pitch rate of the roller
+            case ("cntc_setWheelsetVelocity")
+               call visit_velocity(a, wheelset, is_roller, with_force=.false.)
+            case default
+               if (method >= 4) then
+                  call visit_flexibility(a, wheelset)
+               else
+                  call a%skip(optional=.true.)
+                  wheelset%flexible = 0.0_wp
+                  wheelset%flexible_rate = 0.0_wp
+               end if
+            end select
          end do
          if (.not. a%is_good) return
-         problem%stored%wheelset = wheelset
-         ! the digit that input files of the case get
-         if (e <= 3) then
-            e = method
-         else if (e == 4) then
-            e = 5
-         end if
-      end associate
-   end subroutine set_dimensions
-
-   !> Is there such a wheelset method (E)?
-   subroutine check_method(a, lowest)
-      type(caller), intent(inout) :: a
-      integer, intent(in) :: lowest
-
-      if (a%single(1) < lowest .or. a%single(1) > 5) call a%refuse_call("there is no wheelset method " // &
-         & integer_text(a%single(1)) // "; 0 to 5 are")
-   end subroutine check_method
-
-   !> Position of the wheelset; its height counts when no vertical force is prescribed
-   subroutine set_position(a, problem)
-      type(caller), intent(inout) :: a
-      type(library_problem), intent(inout) :: problem
-      type(wheelset_spec) :: wheelset
-
-      if (a%single(1) == 0) return
-      call check_method(a, 1)
-      wheelset = problem%stored%wheelset
-      do while (a%next_pass())
-         ! on rollers as well; which place the first value is will be seen when the case is solved
-         call visit_position(a, wheelset, roller=.false., with_force=.false.)
-      end do
-      if (.not. a%is_good) return
-      problem%stored%wheelset = wheelset
-      problem%digits%e = max(1, problem%digits%e)
-   end subroutine set_position
-
-   !> Velocity of the wheelset; on rollers the first value is the pitch rate of the roller
-   subroutine set_wheelset_velocity(a, problem)
-      type(caller), intent(inout) :: a
-      type(library_problem), intent(inout) :: problem
-      type(wheelset_spec) :: wheelset
-      logical :: is_roller
-
-      if (a%single(1) == 0) return
-      call check_method(a, 1)
-      wheelset = problem%stored%wheelset
-      is_roller = problem%digits%c1 >= 4
-      do while (a%next_pass())
-         call visit_velocity(a, wheelset, is_roller, with_force=.false.)
-      end do
-      if (.not. a%is_good) return
-      if (a%single(1) == 1) call say(1, a%call_of, "method 1 is taken for 2")
-      if (is_roller) wheelset%vs = 0.0_wp
-      problem%stored%wheelset = wheelset
-      if (problem%digits%e <= 1) problem%digits%e = max(2, a%single(1))
-   end subroutine set_wheelset_velocity
-
-   !> Flexible deviations of the wheel and their rates
-   subroutine set_flexibility(a, problem)
-      type(caller), intent(inout) :: a
-      type(library_problem), intent(inout) :: problem
-      type(wheelset_spec) :: wheelset
-
-      associate (method => a%single(1), e => problem%digits%e)
-         if (method == 0) return
-         call check_method(a, 1)
-         wheelset = problem%stored%wheelset
-         do while (a%next_pass())
+         select case (routine)
+         case ("cntc_setWheelsetDimensions")
+            if (e <= 4) e = merge(method, 5, e <= 3)
+         case ("cntc_setWheelsetPosition")
+            e = max(1, e)
+         case ("cntc_setWheelsetVelocity")
+            if (method == 1) call say(1, a%call_of, "method 1 is taken for 2")
+            if (is_roller) wheelset%vs = 0.0_wp
+            if (e <= 1) e = max(2, method)
+         case default
             if (method >= 4) then
-               call visit_flexibility(a, wheelset)
-            else
-               call a%skip(optional=.true.)
-               wheelset%flexible = 0.0_wp
-               wheelset%flexible_rate = 0.0_wp
+               e = merge(5, 4, method == 5 .or. e == 3 .or. e == 5)
+            else if (e >= 4) then
+               e = e - 2
             end if
-         end do
-         if (.not. a%is_good) return
+         end select
          problem%stored%wheelset = wheelset
-         if (method >= 4) then
-            e = merge(5, 4, method == 5 .or. e == 3 .or. e == 5)
-         else if (e >= 4) then
-            e = e - 2
-         end if
       end associate
-   end subroutine set_flexibility
+   end subroutine set_wheelset
 end module contact_capi_wheel_rail_settings

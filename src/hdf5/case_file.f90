@@ -2,7 +2,7 @@
 module contact_hdf5_case_file
    use contact_base_choices, only : is_rolling
    use contact_base_error, only : error_type
-   use contact_base_kinds, only : long, wp
+   use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
@@ -22,20 +22,15 @@ module contact_hdf5_case_file
    public :: hdf5_case_file
 
    !> The HDF5 file of an experiment
-   type :: hdf5_case_file
-      type(hdf5_file), private :: file
+   type, extends(hdf5_file) :: hdf5_case_file
       !> Where the results come from
       type(provenance), private :: origin
    contains
       procedure :: open_file
-      !> Open a file to go on with it; its rows of cases or patches; go on behind some of them, or give it up again
-      procedure :: open_again
-      procedure :: rows
+      !> Go on behind some of the rows of a file that was opened again, or give it up
       procedure :: go_on
       procedure :: abandon
       procedure :: close_file
-      !> Size of the file in the making [bytes]
-      procedure :: bytes_so_far
       !> A case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
@@ -55,20 +50,19 @@ contains
       !> Must files be below the folder?
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
+      !> Absent for the provenance while it is not allocated
+      character(len=:), allocatable :: below
 
-      call self%file%open_file(name, experiment, "contact " // version, error)
+      call self%make_file(name, experiment, "contact " // version, error)
       if (allocated(error)) return
-      if (limits%confined) then
-         call self%origin%start(self%file%container, input, folder, below=folder)
-      else
-         call self%origin%start(self%file%container, input, folder)
-      end if
-      call tell_start(self%file, run, error)
+      if (limits%confined) below = folder
+      call self%origin%start(self%container, input, folder, below)
+      call tell_start(self, run, error)
    end subroutine open_file
 
    !> The run begins
    subroutine tell_start(file, run, error)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
@@ -77,23 +71,14 @@ contains
       call file%text("reason", "", "the run goes on, or was ended from outside")
       call file%close_attributes()
       call file%renew()
-      if (file%has_failed()) call file%close_file(error)
+      if (file%has_failed()) call file%finish_file(error)
    end subroutine tell_start
-
-   subroutine open_again(self, name, error)
-      class(hdf5_case_file), intent(inout) :: self
-      !> Path of the file
-      character(len=*), intent(in) :: name
-      type(error_type), allocatable, intent(out) :: error
-
-      call self%file%open_again(name, error)
-   end subroutine open_again
 
    subroutine abandon(self)
       class(hdf5_case_file), intent(inout) :: self
 
-      call self%origin%release(self%file%container)
-      call self%file%abandon()
+      call self%origin%release(self%container)
+      call self%hdf5_file%abandon()
    end subroutine abandon
 
    subroutine go_on(self, cases, patches, input, folder, run, limits, error)
@@ -108,27 +93,17 @@ contains
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: told_at_the_end(3) = [character(len=13) :: "solved", "not_converged", "refused"]
+      character(len=:), allocatable :: below
       integer :: k
 
-      call self%file%cut(cases, patches, name_of)
+      call self%cut(cases, patches, name_of)
       do k = 1, size(told_at_the_end)
-         call self%file%drop_attribute(trim(told_at_the_end(k)))
+         call self%drop_attribute(trim(told_at_the_end(k)))
       end do
-      if (limits%confined) then
-         call self%origin%start_again(self%file%container, input, folder, below=folder)
-      else
-         call self%origin%start_again(self%file%container, input, folder)
-      end if
-      call tell_start(self%file, run, error)
+      if (limits%confined) below = folder
+      call self%origin%start_again(self%container, input, folder, below)
+      call tell_start(self, run, error)
    end subroutine go_on
-
-   !> Number of rows so far
-   pure integer function rows(self, patch)
-      class(hdf5_case_file), intent(in) :: self
-      !> Of patches, or of cases?
-      logical, intent(in) :: patch
-      rows = self%file%rows(patch)
-   end function rows
 
    subroutine close_file(self, run, error)
       class(hdf5_case_file), intent(inout) :: self
@@ -136,29 +111,23 @@ contains
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%file%is_open()) then
-         call self%file%drop_attribute("reason")
-         call self%file%open_group("")
-         call describe_run(self%file, run)
-         call self%file%close_attributes()
+      if (self%is_open()) then
+         call self%drop_attribute("reason")
+         call self%open_group("")
+         call describe_run(self, run)
+         call self%close_attributes()
       end if
-      call self%origin%release(self%file%container)
-      call self%file%close_file(error)
+      call self%origin%release(self%container)
+      call self%finish_file(error)
    end subroutine close_file
-
-   integer(long) function bytes_so_far(self) result(bytes)
-      class(hdf5_case_file), intent(in) :: self
-
-      bytes = self%file%bytes_so_far()
-   end function bytes_so_far
 
    !> A case that has no result: a row of /cases, and why
    subroutine write_failure(self, head)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
 
-      call begin(self%file, head)
-      call self%file%end_case(head%finished)
+      call begin(self, head)
+      call self%end_case(head%finished)
    end subroutine write_failure
 
    !> A solved case of module 3
@@ -168,12 +137,12 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
 
-      call begin(self%file, head)
-      call self%file%enter("inputs")
-      call describe_input(self%file, spec)
-      call self%file%leave()
-      call write_patch(self%file, head, 1, spec, contact)
-      call self%file%end_case(head%finished)
+      call begin(self, head)
+      call self%enter("inputs")
+      call describe_input(self, spec)
+      call self%leave()
+      call write_patch(self, head, 1, spec, contact)
+      call self%end_case(head%finished)
    end subroutine write_contact
 
    !> A solved case of module 1
@@ -189,21 +158,21 @@ contains
 
       call note_profile(self, spec%wheel_rail%rail_profile, spec%limits)
       call note_profile(self, spec%wheel_rail%wheel_profile, spec%limits)
-      call begin(self%file, head)
-      call self%file%enter("inputs")
-      call describe_input(self%file, spec)
-      call self%file%leave()
-      call describe_wheel_rail(self%file, spec, pair)
+      call begin(self, head)
+      call self%enter("inputs")
+      call describe_input(self, spec)
+      call self%leave()
+      call describe_wheel_rail(self, spec, pair)
       call pair%markers(spec%wheel_rail%left, markers)
-      call describe_list(self%file, "markers", markers)
-      call self%file%enter("profiles")
-      if (present(rail)) call write_profile(self%file, "rail", spec, rail)
-      if (present(wheel)) call write_profile(self%file, "wheel", spec, wheel)
-      call self%file%leave()
+      call describe_list(self, "markers", markers)
+      call self%enter("profiles")
+      if (present(rail)) call write_profile(self, "rail", spec, rail)
+      if (present(wheel)) call write_profile(self, "wheel", spec, wheel)
+      call self%leave()
       do k = 1, size(pair%patches)
-         call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
+         call write_patch(self, head, k, spec, pair%patches(k)%contact, pair%patches(k))
       end do
-      call self%file%end_case(head%finished)
+      call self%end_case(head%finished)
    end subroutine write_wheel_rail
 
    !> Note where a profile comes from
@@ -214,12 +183,12 @@ contains
       type(case_limits), intent(in) :: limits
 
       if (allocated(profile%points) .or. .not. allocated(profile%name)) return
-      call self%origin%note_profile(self%file%container, profile%name, limits%confined)
+      call self%origin%note_profile(self%container, profile%name, limits%confined)
    end subroutine note_profile
 
    !> Begin a case with its row of /cases
    subroutine begin(file, head)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
 
       call file%begin_case(trim(name_of(head%number, head%result_element, head%contact_problem)), &
@@ -252,7 +221,7 @@ contains
 
    !> One contact patch
    subroutine write_patch(file, head, number, spec, contact, place)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
       !> Number of the patch in its case
       integer, intent(in) :: number
@@ -301,7 +270,7 @@ contains
 
    !> The elements and their fields
    subroutine write_elements(file, left, contact, place)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       !> Is this a wheel on the left side of the track?
       logical, intent(in) :: left
       !> In true coordinates of its side of the track
@@ -350,7 +319,7 @@ contains
 
    !> Curved reference of conformal contact, one point per row of elements
    subroutine write_curve(file, spec, place)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       type(case_spec), intent(in) :: spec
       type(wheel_rail_patch), intent(in) :: place
       integer :: last, step
@@ -381,7 +350,7 @@ contains
 
    !> Points of a profile about its marker
    subroutine write_profile(file, name, spec, curve)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       character(len=*), intent(in) :: name
       type(case_spec), intent(in) :: spec
       type(profile_curve), intent(in) :: curve
@@ -395,7 +364,7 @@ contains
 
    !> Displacements and stresses of a block of points
    subroutine write_block(file, block)
-      type(hdf5_file), intent(inout) :: file
+      class(hdf5_file), intent(inout) :: file
       type(subsurface_result), intent(in) :: block
       character(len=2), parameter :: component(6) = ["xx", "xy", "xz", "yy", "yz", "zz"]
       character(len=*), parameter :: sense(6) = [character(len=45) :: "normal stress along x, tension positive", &

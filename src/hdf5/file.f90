@@ -62,11 +62,11 @@ module contact_hdf5_file
       real(wp), private :: last_copy = 0.0_wp, wait = 0.0_wp
    contains
       !> Begin a file; or go on with one, behind some of its rows of /cases and /patches
-      procedure :: open_file
+      procedure :: make_file
       procedure :: open_again
       procedure :: rows
       procedure :: cut
-      procedure :: close_file
+      procedure :: finish_file
       !> Remove the file in the making; what stands under its name stays
       procedure :: abandon
       procedure :: is_open
@@ -103,7 +103,7 @@ module contact_hdf5_file
 contains
 
    !> Make the file
-   subroutine open_file(self, name, experiment, version, error)
+   subroutine make_file(self, name, experiment, version, error)
       class(hdf5_file), intent(inout) :: self
       !> Name of the file
       character(len=*), intent(in) :: name
@@ -126,7 +126,7 @@ contains
          call this%set_text(this%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
          call this%set_count("layout", layout)
       end associate
-   end subroutine open_file
+   end subroutine make_file
 
    !> Go on with a file of results
    subroutine open_again(self, name, error)
@@ -186,7 +186,7 @@ contains
    end subroutine cut
 
    !> Write what is left and close
-   subroutine close_file(self, error)
+   subroutine finish_file(self, error)
       class(hdf5_file), intent(inout) :: self
       !> Allocated when anything failed
       type(error_type), allocatable, intent(out) :: error
@@ -198,7 +198,7 @@ contains
       call self%cases%release(self%container)
       call self%patches%release(self%container)
       call self%container%close_file(error)
-   end subroutine close_file
+   end subroutine finish_file
 
    !> Remove the file in the making
    subroutine abandon(self)
@@ -206,7 +206,7 @@ contains
       type(error_type), allocatable :: ignored
 
       self%container%failed = .true.
-      call self%close_file(ignored)
+      call self%finish_file(ignored)
    end subroutine abandon
 
    !> Is a file open?

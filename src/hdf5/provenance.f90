@@ -15,7 +15,7 @@ module contact_hdf5_provenance
    use contact_output_record, only : item_kind, named_value
    use contact_text_lexer, only : input_lexer
    use contact_text_sha256, only : sha256
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, replaced
    implicit none (type, external)
    private
 
@@ -189,22 +189,16 @@ contains
       logical, intent(in) :: confined
       type(input_lexer) :: lexer
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: path, text
+      !> Absent for the lexer while it is not allocated
+      character(len=:), allocatable :: below, path, text
       integer(hid_t) :: group
-      integer :: k
 
       if (index(self%known, ":" // name // ":") > 0 .or. container%failed .or. self%group < 0) return
       self%known = self%known // name // ":"
-      path = name
-      do k = 1, len(path)
-         if (path(k:k) == "\") path(k:k) = "/"
-      end do
+      path = replaced(name, "\", "/")
       if (path(:1) /= "/" .and. len(self%folder) > 0) path = self%folder // "/" // path
-      if (confined) then
-         call lexer%open_file(path, error, self%folder)
-      else
-         call lexer%open_file(path, error)
-      end if
+      if (confined) below = self%folder
+      call lexer%open_file(path, error, below)
       if (allocated(error)) then
          container%lacking = "all results are there, but not the hash of " // name // ": " // error%message
          return
