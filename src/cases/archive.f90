@@ -14,7 +14,7 @@ module contact_cases_archive
    implicit none (type, external)
    private
 
-   public :: archive_item, case_archive, is_pair, item_kind, text_variable
+   public :: archive_item, case_archive, is_pair, item_kind, own_word, text_variable
 
    !> Most numbers on a line, and length of a number with its name
    integer, parameter :: max_items = 12
@@ -79,6 +79,9 @@ module contact_cases_archive
       procedure(end_line_interface), deferred :: end_line
       !> A list of numbers with lines of its own
       procedure(list_interface), deferred :: list
+      !> A choice or a number of the readable format that input files have no place for, in the group in hand or in the case itself
+      procedure :: own_choice => ignore_choice
+      procedure :: own_number => ignore_number
       !> A number of the last line is wrong, doubtful or replaced: `tell` says so, nothing where values do not come in
       procedure :: refuse
       procedure :: warn
@@ -326,6 +329,47 @@ contains
 
       call self%tell_of_group(.false., text)
    end subroutine warn_of_group
+
+   !> A choice among words; formats without keys of their own have none
+   subroutine ignore_choice(self, name, title, words, chosen, usual, none)
+      class(case_archive), intent(inout) :: self
+      !> Key and meaning; the words, numbers and "true" and "false" among them
+      character(len=*), intent(in) :: name, title, words(:)
+      !> Place of the word that is chosen
+      integer, intent(inout) :: chosen
+      !> Place of the word that counts while no case has the key
+      integer, intent(in) :: usual
+      !> Place of the word that requests nothing; records leave it out
+      integer, intent(in), optional :: none
+
+      associate (unused => self, no_name => name, no_title => title, no_words => words, no_choice => chosen, no_usual => usual, &
+         & no_none => present(none))
+      end associate
+   end subroutine ignore_choice
+
+   !> A number, 0 where none is requested; formats without keys of their own have none
+   subroutine ignore_number(self, name, title, value, lowest, highest)
+      class(case_archive), intent(inout) :: self
+      !> Key and meaning
+      character(len=*), intent(in) :: name, title
+      !> In the unit of the key
+      real(wp), intent(inout) :: value
+      !> Its range, beside 0
+      real(wp), intent(in) :: lowest, highest
+
+      associate (unused => self, no_name => name, no_title => title, no_value => value, no_range => [lowest, highest])
+      end associate
+   end subroutine ignore_number
+
+   !> A word of a choice as the readable format writes it: in quotes, but for numbers, "true" and "false"
+   pure function own_word(word) result(text)
+      !> Of own_choice
+      character(len=*), intent(in) :: word
+      character(len=len(word) + 2) :: text
+
+      text = word
+      if (verify(trim(word), "0123456789") > 0 .and. all(word /= ["true ", "false"])) text = '"' // trim(word) // '"'
+   end function own_word
 
    !> Values that do not come in are right
    subroutine tell_nothing(self, is_error, name, text)

@@ -8,6 +8,7 @@ module contact_cases_whole_case
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
       & visit_rolling, visit_sheet, visit_wear
+   use contact_cases_own_keys, only : visit_own_heat, visit_own_iteration
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
@@ -38,6 +39,7 @@ contains
             call a%open_group("iteration")
             ! contact problems of their own may give a largest number of elements, which has no meaning for them
             if (spec%classical .and. is_classical(spec%solver)) call a%comment("the solver runs with --classical only")
+            call visit_own_iteration(a, spec%iteration)
             call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
             call a%close_group()
          end if
@@ -57,6 +59,7 @@ contains
          if (parts%heat == part_source%given .and. spec%has_heat) then
             call a%open_group("heat")
             if (spec%heat%source == heat_source%moving) call a%comment("temperatures as with --heat moving-source")
+            call visit_own_heat(a, spec%heat)
             call visit_heat(a, spec%heat, with_plastic_work=spec%material_model == material_model%interfacial_layer)
             call a%close_group()
          end if

@@ -16,8 +16,6 @@ module contact_control_words
 
    !> Length of keys and of names of groups
    integer, parameter, public :: key_length = 16
-   !> Order of the discretisation of rolling where no case of the readable format has said anything
-   integer, parameter, public :: usual_order = 2
    integer, parameter :: module_1 = 1, module_3 = 3, both = 0
    character(len=word_length), parameter :: no_word = ""
 

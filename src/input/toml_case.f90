@@ -5,6 +5,7 @@
 module contact_input_toml_case
    use contact_base_choices, only : motion, slip_source
    use contact_cases_continuation, only : frame_of
+   use contact_cases_own_keys, only : visit_own_case
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
@@ -15,7 +16,6 @@ module contact_input_toml_case
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
-   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order, take_permission, take_wear
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
@@ -36,7 +36,7 @@ module contact_input_toml_case
    character(len=8), parameter :: renewable(3) = [character(len=8) :: "grid", "geometry", "material"]
    !> Keys of a case that are no choices
    character(len=14), parameter :: plain_keys(*) = [character(len=14) :: "module", "result_element", "contact_patch", "title", &
-      & "solve", "errors", "gap_weight", "renew"]
+      & "solve", "gap_weight", "renew"]
 
 contains
 
@@ -88,12 +88,8 @@ contains
       if (is_good) then
          call check_digits(words, module_number, previous, has_previous, spec, problems)
          digits = words%digits
-         call take_heat_source(a, spec)
-         call take_order(a, has_previous, spec)
-         call take_errors(a, spec)
-         call take_accuracy(a, spec)
-         call take_permission(a, spec)
          call take_wear(a, spec)
+         call visit_own_case(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
@@ -391,6 +387,29 @@ contains
          k = a%document%nodes(k)%next
       end do
    end subroutine take_renew
+
+   !> Wear and fatigue are requested by a table of their numbers, until a case ends them
+   subroutine take_wear(a, spec)
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node, table
+
+      if (a%has_group("wear")) spec%has_wear = .true.
+      table = a%document%child(a%case_node, "wear")
+      if (table == 0) return
+      if (a%document%nodes(table)%kind /= toml_kind%table) return
+      call a%note_key("wear", "model")
+      node = a%document%child(table, "model")
+      if (node == 0) return
+      a%used(node) = .true.
+      if (a%document%nodes(node)%kind /= toml_kind%string .or. all(a%document%text_of(node) /= ["archard", "none   "])) then
+         call a%add_problem(severity%error, node, 'model must be "archard" or "none"')
+      else
+         spec%has_wear = a%document%text_of(node) == "archard"
+         ! the table of a case that ends them is visited by nobody
+         a%used(table) = .true.
+      end if
+   end subroutine take_wear
 
    !> solve, gap_weight, and names for people
    subroutine take_plain_keys(a, module_number, words)

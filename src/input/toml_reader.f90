@@ -5,7 +5,7 @@
 !> arrays, and their lengths need not be told. An element of an array "gg" of two values serves for gg1 and gg2.
 module contact_input_toml_reader
    use contact_base_kinds, only : wp
-   use contact_cases_archive, only : archive_item, item_kind, shown_length
+   use contact_cases_archive, only : archive_item, item_kind, own_word, shown_length
    use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, key_of_item, words_of
    use contact_input_problems, only : problem_list, severity
    use contact_input_toml_tables, only : find, is_tables, leaves_of, number_of, sets_of, told, toml_memory, toml_tables
@@ -13,7 +13,7 @@ module contact_input_toml_reader
    use contact_text_bounds, only : bounds_of, bounds_table
    use contact_text_lexer, only : printable
    use contact_text_nearest, only : nearest_word
-   use contact_text_words, only : integer_text, small
+   use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    implicit none (type, external)
    private
@@ -31,6 +31,8 @@ module contact_input_toml_reader
    contains
       procedure :: end_line => read_line
       procedure :: list => read_list
+      procedure :: own_choice => read_choice
+      procedure :: own_number => read_own_number
       procedure :: tell => tell_of_value
       procedure :: fail => stop_reading
       procedure :: check => check_value
@@ -268,6 +270,85 @@ contains
       ! what follows depends on it
       self%is_good = .false.
    end subroutine take_form
+
+   !> A choice of this format only
+   subroutine read_choice(self, name, title, words, chosen, usual, none)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, title, words(:)
+      integer, intent(inout) :: chosen
+      integer, intent(in) :: usual
+      integer, intent(in), optional :: none
+      character(len=:), allocatable :: known
+      integer :: node
+
+      associate (unused => title, no_none => present(none))
+      end associate
+      call find(self, name, node)
+      if (node <= 0) then
+         chosen = usual
+         return
+      end if
+      known = ""
+      do chosen = 1, size(words)
+         if (own_value(self%document, node) == own_word(words(chosen))) return
+         if (chosen > 1) known = known // " or "
+         known = known // trim(own_word(words(chosen)))
+      end do
+      chosen = usual
+      call refuse_own(self, name, node, known)
+   end subroutine read_choice
+
+   !> A value that cannot be one of an own key is told once: later cases do not find it
+   subroutine refuse_own(self, name, node, known)
+      class(toml_reader), intent(inout) :: self
+      !> The key, and what it may be
+      character(len=*), intent(in) :: name, known
+      !> Of the value
+      integer, intent(in) :: node
+
+      call self%memory%remember(trim(self%group) // "." // name, 0)
+      call self%add_problem(severity%error, node, name // " must be " // known)
+   end subroutine refuse_own
+
+   !> A value as own_word writes it; blank where no choice can be one
+   pure function own_value(document, index) result(text)
+      type(toml_document), intent(in) :: document
+      integer, intent(in) :: index
+      character(len=16) :: text
+
+      text = ""
+      associate (node => document%nodes(index))
+         select case (node%kind)
+         case (toml_kind%string); if (len(document%text_of(index)) < len(text) - 2) text = '"' // document%text_of(index) // '"'
+         case (toml_kind%integer); if (abs(node%i) < huge(1)) text = integer_text(int(node%i))
+         case (toml_kind%logical); text = merge("true ", "false", node%l)
+         end select
+      end associate
+   end function own_value
+
+   !> A number of this format only
+   subroutine read_own_number(self, name, title, value, lowest, highest)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, title
+      real(wp), intent(inout) :: value
+      real(wp), intent(in) :: lowest, highest
+      integer :: node
+
+      associate (unused => title)
+      end associate
+      call find(self, name, node)
+      value = 0.0_wp
+      if (node <= 0) return
+      associate (given => self%document%nodes(node))
+         if (any(given%kind == [toml_kind%real, toml_kind%integer]) .and. (abs(given%r) <= 0.0_wp .or. &
+            & (given%r >= lowest .and. given%r <= highest))) then
+            value = given%r
+         else
+            call refuse_own(self, name, node, "a number from " // trim(exact_text(lowest)) // " to " // &
+               & trim(exact_text(highest)) // ", or 0 for none")
+         end if
+      end associate
+   end subroutine read_own_number
 
    !> Read exactly n numbers of an array, or of arrays in it
    subroutine read_list(self, name, values, n, units, bounds)

@@ -200,6 +200,7 @@ contains
       call self%note_key(trim(self%group), key)
       node = 0
       table = merge(self%part_node, self%group_node, self%part_node > 0)
+      if (self%group == "") table = self%case_node
       figure = index("12", key(len(key):))
       if (figure > 0 .and. len(key) > 1) call self%note_key(trim(self%group), key(:len(key) - 1))
       if (table > 0) then

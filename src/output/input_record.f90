@@ -1,9 +1,9 @@
 !> The input of a case for programs: what was asked, kept groups included, by the groups, keys and words of the readable format
 module contact_output_input_record
-   use contact_base_choices, only : heat_source_name, motion
+   use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
-   use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths
-   use contact_cases_spec, only : case_spec, part_source
+   use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths, own_word
+   use contact_cases_spec, only : case_parts, case_spec, part_source
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_value
    use contact_control_translation, only : digits_of
@@ -36,14 +36,14 @@ module contact_output_input_record
       integer :: module_number = 3
       type(case_digits) :: digits
       logical :: is_shift = .false.
-      !> Order of the discretisation, and member of heat_source
-      integer :: order = 1, heat_source = 0
       !> What the group in hand has so far: 1...n_keys
       integer :: n_keys = 0
       type(key_values), allocatable :: keys(:)
    contains
       procedure :: end_line => take_line
       procedure :: list => take_list
+      procedure :: own_choice => record_choice
+      procedure :: own_number => record_number
       procedure :: open_group => begin_group
       procedure :: close_group => end_group
       procedure, private :: add
@@ -64,10 +64,10 @@ contains
       a%record => record
       a%module_number = merge(1, 3, allocated(spec%wheel_rail))
       a%is_shift = spec%motion == motion%shift
-      a%order = spec%iteration%order
-      a%heat_source = spec%heat%source
       whole = spec
-      call give_all(whole)
+      ! whatever the case uses; lists of all elements and points are in other places
+      whole%parts = case_parts(extra_slip=part_source%kept)
+      whole%has_stress = .false.
       a%digits = digits_of(whole)
       call record%open_group("choices")
       call describe_choices(a, "")
@@ -83,32 +83,6 @@ contains
       call record%close_group()
       call visit_case(a, whole)
    end subroutine describe_input
-
-   !> A case that gives whatever it uses; lists of all elements and points are in other places
-   subroutine give_all(spec)
-      type(case_spec), intent(inout) :: spec
-
-      associate (parts => spec%parts, given => part_source%given)
-         parts%iteration = given
-         parts%friction = given
-         parts%rolling = given
-         parts%material = given
-         parts%damping = given
-         parts%heat = given
-         parts%grid = given
-         parts%geometry = given
-         parts%search = given
-         parts%track = given
-         parts%rail_profile = given
-         parts%deviations = given
-         parts%wheel_profile = given
-         parts%position = given
-         parts%velocity = given
-         parts%flexibility = given
-         parts%extra_slip = part_source%kept
-      end associate
-      spec%has_stress = .false.
-   end subroutine give_all
 
    !> Choices of a group, "" for those of the case itself, by their words
    subroutine describe_choices(self, group)
@@ -137,12 +111,41 @@ contains
 
       call self%record%open_group(text)
       call describe_choices(self, text)
-      if (text == "iteration") call self%record%count("order", "order of the discretisation of rolling", self%order)
-      if (text == "heat") call self%record%text("source", "how the heat of an element acts on itself", &
-         & trim(heat_source_name(self%heat_source)))
       self%n_keys = 0
       if (.not. allocated(self%keys)) allocate(self%keys(16))
    end subroutine begin_group
+
+   !> A choice by its word, unless it requests nothing
+   subroutine record_choice(self, name, title, words, chosen, usual, none)
+      class(input_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name, title, words(:)
+      integer, intent(inout) :: chosen
+      integer, intent(in) :: usual
+      integer, intent(in), optional :: none
+
+      associate (unused => usual)
+      end associate
+      if (present(none)) then
+         if (chosen == none) return
+      end if
+      if (own_word(words(chosen)) == words(chosen)) then
+         call self%record%count(name, title, iachar(words(chosen)(1:1)) - iachar("0"))
+      else
+         call self%record%text(name, title, trim(words(chosen)))
+      end if
+   end subroutine record_choice
+
+   !> A number, unless none is requested
+   subroutine record_number(self, name, title, value, lowest, highest)
+      class(input_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name, title
+      real(wp), intent(inout) :: value
+      real(wp), intent(in) :: lowest, highest
+
+      associate (unused => [lowest, highest])
+      end associate
+      if (value > 0.0_wp) call self%record%number(name, "-", title, value)
+   end subroutine record_number
 
    !> Hand over what the group has
    subroutine end_group(self)

@@ -3,7 +3,8 @@
 !> A case says what differs from the one before. What the reader would conclude for itself is left out, see
 !> contact_input_toml_case.
 module contact_output_toml_case_writer
-   use contact_base_choices, only : heat_source, motion, slip_source, variation
+   use contact_base_choices, only : motion, slip_source, variation
+   use contact_cases_own_keys, only : visit_own_case
    use contact_cases_spec, only : case_spec, friction_set, part_source
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_text, digit_value
@@ -69,10 +70,6 @@ contains
          a%has_rows = spec%variation == variation%by_row
          a%module_number = module_number
          a%digits = digits_of(spec)
-         a%has_moving_heat = spec%heat%source == heat_source%moving
-         a%order = spec%iteration%order
-         a%accuracy = spec%iteration%accuracy
-         a%allows_approximate = spec%iteration%allows_approximate
          a%case_text = line_feed // remarks // "[[case]]" // line_feed
          if (self%text%length == 0) a%case_text = remarks // "[[case]]" // line_feed
          call put_element(self, a, before)
@@ -150,6 +147,7 @@ contains
       logical, intent(in) :: is_first
       type(case_spec), intent(in) :: old, spec
       type(case_digits) :: digits, usual
+      type(case_spec) :: written
       character(len=:), allocatable :: text
       integer :: digit, row
 
@@ -178,8 +176,8 @@ contains
          end associate
       end do
       if (.not. spec%solve) a%case_text = a%case_text // "solve = false" // line_feed
-      if (is_first .and. .not. spec%estimates_errors) call a%memory%keep(".errors", "false")
-      call a%put_choice("errors", trim(merge("true ", "false", spec%estimates_errors)), "")
+      written = spec
+      call visit_own_case(a, written)
       if (module_number == 1) then
          if (is_first .and. spec%wheel_rail%search%gap_weight == 0) call a%memory%keep(".gap_weight", "0")
          call a%put_choice("gap_weight", integer_text(spec%wheel_rail%search%gap_weight), "")

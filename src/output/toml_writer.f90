@@ -5,11 +5,10 @@
 module contact_output_toml_writer
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths
+   use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths, own_word
    use contact_control_digits, only : case_digits, digit_text, digit_value
-   use contact_cases_approximate_methods, only : allowances
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
-      & tell_in_words, usual_order, word_of_digit
+      & tell_in_words, word_of_digit
    use contact_text_bounds, only : bounds_table
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
@@ -44,16 +43,9 @@ module contact_output_toml_writer
       character(len=key_length) :: group = ""
       !> What cases before this one gave, and what numbers are before any case gives them
       type(remembered_texts), pointer :: memory => null(), presets => null()
-      !> Of the case: 1 or 3, digits, and how temperatures are computed
+      !> Of the case: 1 or 3, digits
       integer :: module_number = 3
       type(case_digits) :: digits
-      logical :: has_moving_heat = .false.
-      !> Order of the discretisation
-      integer :: order = 1
-      !> Accuracy that is asked for, 0 for none [-]
-      real(wp) :: accuracy = 0.0_wp
-      !> May simplified methods be chosen for it?
-      logical :: allows_approximate = .false.
       !> Are preset numbers being noted? Then nothing is written
       logical :: is_recording = .false.
       !> Has each row of the grid a friction of its own?
@@ -63,6 +55,8 @@ module contact_output_toml_writer
    contains
       procedure :: end_line => write_line
       procedure :: list => write_list
+      procedure :: own_choice => write_choice
+      procedure :: own_number => write_own_number
       procedure :: open_group => open_table
       procedure :: close_group => close_table
       !> Add a key with a value to the group in hand, unless it is what it was
@@ -114,15 +108,48 @@ contains
       self%in_part = .false.
       if (self%is_recording) return
       call put_group_choices(self)
-      if (text == "iteration" .and. (self%order /= usual_order .or. any(self%memory%names == "iteration.order"))) &
-         & call self%put("order", integer_text(self%order), remark="discretisation of rolling")
-      if (text == "iteration" .and. (self%accuracy > 0.0_wp .or. any(self%memory%names == "iteration.accuracy"))) &
-         & call self%put("accuracy", exact_text(self%accuracy), remark="largest relative error of the forces")
-      if (text == "iteration" .and. (self%allows_approximate .or. any(self%memory%names == "iteration.allow"))) &
-         & call self%put("allow", '"' // trim(allowances(merge(2, 1, self%allows_approximate))) // '"', &
-         & remark="what may take the place of the full theory")
-      if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))
    end subroutine open_table
+
+   !> A choice
+   subroutine write_choice(self, name, title, words, chosen, usual, none)
+      class(toml_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, title, words(:)
+      integer, intent(inout) :: chosen
+      integer, intent(in) :: usual
+      integer, intent(in), optional :: none
+
+      associate (unused => present(none))
+      end associate
+      call put_own(self, name, trim(own_word(words(chosen))), title, chosen == usual)
+   end subroutine write_choice
+
+   !> A number that is 0 where none is requested
+   subroutine write_own_number(self, name, title, value, lowest, highest)
+      class(toml_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, title
+      real(wp), intent(inout) :: value
+      real(wp), intent(in) :: lowest, highest
+
+      associate (unused => [lowest, highest])
+      end associate
+      call put_own(self, name, trim(exact_text(value)), title, .not. value > 0.0_wp)
+   end subroutine write_own_number
+
+   !> Write such a key, unless it is as it is anyway and no case has it
+   subroutine put_own(self, name, text, title, is_usual)
+      class(toml_writer), intent(inout) :: self
+      !> Key, its right-hand side, and meaning
+      character(len=*), intent(in) :: name, text, title
+      !> Would readers take the same without the key?
+      logical, intent(in) :: is_usual
+
+      if (self%is_recording .or. (is_usual .and. all(self%memory%names /= trim(self%group) // "." // name))) return
+      if (self%group == "") then
+         call self%put_choice(name, text, "")
+      else
+         call self%put(name, text, remark=title)
+      end if
+   end subroutine put_own
 
    !> Choices that stand in the group in hand
    subroutine put_group_choices(self)

@@ -517,7 +517,7 @@ class Temperatures(Program):
         for source, own in (("moving-source", 1.0), ("established", 2.0)):
             self.run_text(self.CASE.format(mx=79, dx=0.2, cksi=-0.002, veloc=30000.0), "--heat", source, "--hdf5")
             with h5py.File(os.path.join(self.folder, "run.h5")) as file:
-                self.assertEqual(file["case_0001/inputs/heat/source"][()].decode().strip(), source.replace("-", " "))
+                self.assertEqual(file["case_0001/inputs/heat/source"][()].decode().strip(), source.split("-")[0])
                 fields = {name: item[...] for name, item in file["case_0001/patch_1/fields"].items()}
             heat = 30000.0*np.hypot(fields["sx"], fields["sy"])*np.hypot(fields["px"], fields["py"])
             # rolling towards -x: particles enter at low x

@@ -277,6 +277,22 @@ class Hdf5(unittest.TestCase):
                             compared += self.same_input(inputs[group], key, value)
         self.assertGreater(compared, 600)
 
+    def test_keys_that_input_files_have_no_place_for(self):
+        """Accuracy and permission are told where they are requested; order and source always, by the words of the format"""
+        with open(os.path.join(EXAMPLES, "cattaneo.toml"), encoding="utf-8") as file:
+            first = "\n[[case]]".join(file.read().split("\n[[case]]")[:2])
+        requested = first.replace("[case.iteration]\n", '[case.iteration]\naccuracy = 0.05\nallow = "approximate"\n')
+        self.assertNotEqual(first, requested)
+        with open(self.path("own.toml"), "w", encoding="utf-8") as file:
+            file.write(requested + '\n[[case]]\n[case.iteration]\naccuracy = 0\nallow = "nothing"\norder = 2\n')
+        self.run_program("--hdf5", "2", "own")
+        with h5py.File(self.path("own.h5")) as file:
+            groups = [file[f"case_{case:04d}/inputs/iteration"] for case in (1, 2)]
+            self.assertEqual(groups[0]["accuracy"][()], 0.05)
+            self.assertEqual(groups[0]["allow"][()], b"approximate")
+            self.assertEqual([group["order"][()] for group in groups], [1, 2])
+            self.assertFalse({"accuracy", "allow"} & set(groups[1]))
+
     def same_input(self, group, key, value):
         """The value of a key, or the values of sets of friction; how many were compared"""
         if key == "set":

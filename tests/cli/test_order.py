@@ -242,8 +242,10 @@ iteration = { order = 2 }
         self.run_program("convert", "a.inp")
         for word in ("3", '"2"', "1.5"):
             text = re.sub(r"order = 1.*\n", "", (self.folder / "a.toml").read_text())
-            (self.folder / "d.toml").write_text(text.replace("[case.iteration]\n", f"[case.iteration]\norder = {word}\n"))
-            self.assertIn("order must be 1 or 2", self.run_program("3", "d.toml", status=1))
+            text = text.replace("[case.iteration]\n", f"[case.iteration]\norder = {word}\n")
+            (self.folder / "d.toml").write_text(text + "\n[[case]]\n[case.iteration]\n")
+            said = self.run_program("3", "d.toml", status=1)
+            self.assertEqual(said.count("order must be 1 or 2"), 1, "once, although the next case keeps it")
 
 
 if __name__ == "__main__":
