@@ -7,7 +7,7 @@ module contact_wheelrail_distance_motion
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_displacements, only : coordinate, displacement_at
-   use contact_wheelrail_flat_patch, only : start_places
+   use contact_wheelrail_flat_patch, only : distance_scratch, start_places
    use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
@@ -37,6 +37,7 @@ contains
       real(wp), intent(out) :: approach(:)
       type(profile_curve) :: section
       type(frame) :: seen
+      type(distance_scratch) :: scratch
       real(wp) :: x, s, rail, start(2), point(3), normal(3), lift, rise(4)
       integer :: ix, iy, k, lowest(2)
       logical :: found, rolls
@@ -47,8 +48,9 @@ contains
          rolls = placement%roller_radius > 0.0_wp
          lift = 0.0_wp
          if (rolls) lift = plane%origin(3) - track_rail%height(plane%origin(2))
+         call start_places(track_rail, slot%region, scratch)
          section = track_rail%seen_from(plane%origin(2:3) - [0.0_wp, lift], plane%roll(), &
-            & around=start_places(track_rail, slot%region))
+            & around=scratch%places(:scratch%n))
          seen = placement%wheel%seen_from_here(plane)
          lowest = minloc(h)
          do iy = 1, grid%my

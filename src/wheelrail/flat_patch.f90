@@ -7,19 +7,31 @@
 module contact_wheelrail_flat_patch
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_numeric_spline, only : piece_of
    use contact_profile_curve, only : profile_curve
+   use contact_profile_section, only : profile_section
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : wheel_rail_placement
-   use contact_wheelrail_region, only : contact_region, seeds_of
+   use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_wheel_rows, only : wheel_rows
    implicit none (type, external)
    private
 
-   public :: patch_frame, patch_grid, undeformed_distance, start_places, settle_distance
+   public :: distance_scratch, patch_frame, patch_grid, undeformed_distance, start_places, settle_distance
 
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter, public :: nothing_there = 999.0_wp
+
+   !> What is kept from one distance to the next, so that no memory is requested for it; its contents do not matter
+   type :: distance_scratch
+      !> See `start_places`; the first n are set
+      real(wp), allocatable :: places(:)
+      integer :: n = 0
+      type(profile_section), private :: section
+      type(wheel_rows), private :: rows
+   end type distance_scratch
+
+   !> Places that there is room for at first: one stretch, and its reference
+   integer, parameter :: few_places = 4
 
 contains
 
@@ -89,15 +101,30 @@ contains
 
    !> Arc lengths on the rail from which the section of a patch is followed [mm]: at its reference and in each of the stretches
    !> that it was joined of
-   function start_places(rail, region) result(places)
+   pure subroutine start_places(rail, region, scratch)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> Region with the stretches it was joined of
       type(contact_region), intent(in) :: region
-      real(wp), allocatable :: places(:)
+      !> Gets the places
+      type(distance_scratch), intent(inout) :: scratch
+      integer :: k
 
-      places = rail%s_at([region%y, seeds_of(region)])
-   end function start_places
+      scratch%n = 2
+      if (allocated(region%seeds)) scratch%n = 1 + size(region%seeds)
+      if (allocated(scratch%places)) then
+         if (size(scratch%places) < scratch%n) deallocate(scratch%places)
+      end if
+      if (.not. allocated(scratch%places)) allocate(scratch%places(max(few_places, scratch%n)))
+      scratch%places(1) = rail%s_at(region%y)
+      if (allocated(region%seeds)) then
+         do k = 1, size(region%seeds)
+            scratch%places(k + 1) = rail%s_at(region%seeds(k))
+         end do
+      else
+         scratch%places(2) = rail%s_at(region%seed)
+      end if
+   end subroutine start_places
 
    !> From the distance of the undeformed bodies to h, whose minimum is zero, and the approach
    !>
@@ -165,7 +192,7 @@ contains
    end function falls_slowly
 
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach
-   subroutine undeformed_distance(rail, wheel, placement, plane, places, grid, h, approach, strangers)
+   subroutine undeformed_distance(rail, wheel, placement, plane, scratch, grid, h, approach, strangers)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
@@ -174,9 +201,8 @@ contains
       type(wheel_rail_placement), intent(in) :: placement
       !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
-      !> See `start_places`. The section of the rail is followed from these on as long as s does not turn round; anything
-      !> else that stands above the plane, such as the far wall of a groove, is not part of it
-      real(wp), intent(in) :: places(:)
+      !> With the places of `start_places`, from which the section of the rail is followed
+      type(distance_scratch), intent(inout) :: scratch
       !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
@@ -185,100 +211,41 @@ contains
       real(wp), intent(out) :: approach
       !> Elements that are left out, as for `settle_distance`
       integer, intent(out) :: strangers
-      type(profile_curve) :: section
       type(frame) :: seen
-      type(wheel_rows) :: rows
-      real(wp) :: delta, s, n_rail
+      real(wp) :: s, n_rail
       integer :: ix, iy
+      logical :: found
 
       if (allocated(h)) then
          if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
       end if
       if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
-      delta = plane%roll()
-      associate (origin => plane%origin(2:3) - [0.0_wp, roller_lift()])
-         section = rail%seen_from(origin, delta, stretch_over(rail, origin, delta, places, grid), places)
-      end associate
+      if (.not. placement%roller_radius > 0.0_wp) then
+         call scratch%section%follow(rail, plane%origin(2:3), plane%roll(), scratch%places(:scratch%n), &
+            & [grid%yl - grid%dy, grid%yl + (grid%my + 1)*grid%dy])
+      end if
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
-      call rows%begin([grid%x(1), grid%x(grid%mx)], grid%mx, [wheel%s_at(seen%origin(2)), 0.0_wp])
+      call scratch%rows%begin([grid%x(1), grid%x(grid%mx)], grid%mx, [wheel%s_at(seen%origin(2)), 0.0_wp])
       do iy = 1, grid%my
          s = grid%y(iy)
-         call rows%find(wheel, placement%wheel_radius, seen, s, -nothing_there, h(:, iy))
+         call scratch%rows%find(wheel, placement%wheel_radius, seen, s, -nothing_there, h(:, iy))
          if (placement%roller_radius > 0.0_wp) then
             do ix = 1, grid%mx
-               h(ix, iy) = rail_height(grid%x(ix), s) - h(ix, iy)
+               n_rail = nothing_there
+               call roller_height(plane, rail, placement%roller_radius, grid%x(ix), s, n_rail)
+               h(ix, iy) = n_rail - h(ix, iy)
             end do
          else
-            n_rail = rail_height(0.0_wp, s)
-            h(:, iy) = n_rail - h(:, iy)
+            n_rail = nothing_there
+            call scratch%section%height(rail, s, n_rail, found)
+            do ix = 1, grid%mx
+               h(ix, iy) = n_rail - h(ix, iy)
+            end do
          end if
       end do
-      call settle_distance(grid, size(places) > 2, h, approach, strangers)
-
-   contains
-
-      !> Height of the roller's top above the section at the reference
-      pure real(wp) function roller_lift()
-         roller_lift = 0.0_wp
-         if (placement%roller_radius > 0.0_wp) roller_lift = plane%origin(3) - rail%height(plane%origin(2))
-      end function roller_lift
-
-      !> Height n of the rail's surface
-      real(wp) function rail_height(x, s) result(n)
-         real(wp), intent(in) :: x, s
-
-         n = nothing_there
-         if (placement%roller_radius > 0.0_wp) then
-            call roller_height(plane, rail, placement%roller_radius, x, s, n)
-         else if (section%has(s)) then
-            n = section%height(s)
-         end if
-      end function rail_height
+      call settle_distance(grid, scratch%n > 2, h, approach, strangers)
    end subroutine undeformed_distance
-
-   !> Part of the rail's profile that a patch is above: from its places on until the width of the grid is passed [mm]
-   pure function stretch_over(rail, origin, delta, places, grid) result(range)
-      !> The rail in track coordinates
-      type(profile_curve), intent(in) :: rail
-      !> Origin [mm] and roll angle [rad] of the section
-      real(wp), intent(in) :: origin(2), delta
-      !> See `undeformed_distance`
-      real(wp), intent(in) :: places(:)
-      !> Elements in the axes of the section
-      type(potential_contact), intent(in) :: grid
-      real(wp) :: range(2)
-      integer :: first, last
-
-      associate (nodes => rail%y%s)
-         range = [nodes(1), nodes(size(nodes))]
-         ! what was joined of several regions may have several stretches one above the other
-         if (size(places) > 2) return
-         first = piece_of(nodes, minval(places))
-         do while (first > 1)
-            if (is_beside(first)) exit
-            first = first - 1
-         end do
-         last = piece_of(nodes, maxval(places)) + 1
-         do while (last < size(nodes))
-            if (is_beside(last)) exit
-            last = last + 1
-         end do
-         range = [nodes(first), nodes(last)]
-      end associate
-
-   contains
-
-      !> Does a node lie beside the grid?
-      pure logical function is_beside(node)
-         integer, intent(in) :: node
-         real(wp) :: across
-
-         across = huge(across)
-         if (node < size(rail%y%s)) across = cos(delta)*(rail%y%c(0, node) - origin(1)) + sin(delta)*(rail%z%c(0, node) - origin(2))
-         is_beside = across < grid%yl - grid%dy .or. across > grid%yl + (grid%my + 1)*grid%dy
-      end function is_beside
-   end function stretch_over
 
    !> Height of a roller's surface over the plane: fixed point of n = distance to the surface below the track point
    subroutine roller_height(plane, rail, radius, x, s, n)

@@ -7,11 +7,13 @@
 module contact_wheelrail_gap
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_gap_survey, only : furthest, gap_survey
+   use contact_wheelrail_locus, only : locus_at, locus_in_piece, roller_drop
    use contact_wheelrail_placement, only : wheel_rail_placement
    implicit none (type, external)
    private
 
-   public :: gap_curve, measure_gap, rail_in_track, locus_point, roller_drop, smallest_in_row
+   public :: gap_curve, measure_gap, rail_in_track, smallest_in_row
 
    !> Gap where rail or wheel is missing [mm]
    real(wp), parameter, public :: no_surface = 999.0_wp
@@ -42,14 +44,15 @@ module contact_wheelrail_gap
       logical, allocatable, private :: on_rail(:)
       !> Lateral positions in the track of the nodes of the wheel's profile [mm]
       real(wp), allocatable, private :: lateral(:)
+      !> Estimates that stand for the gap where it is far from the smallest one, while `is_surveyed`
+      type(gap_survey), private :: survey
+      logical, private :: is_surveyed = .false.
    end type gap_curve
 
    !> Mesh width relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
    !> Smallest mesh width [mm]
    real(wp), parameter :: min_mesh = 1.0e-3_wp
-   !> The locus is at most this part of the radius away from the lowest point of the wheel
-   real(wp), parameter :: furthest = 0.5_wp
    !> A smallest gap by the parabola through three mesh points is right when the gap there differs by less than this part
    !> of what the gap rises by to the next points; parabolas of resolved contacts are right to 0.2 %
    real(wp), parameter :: right_share = 0.01_wp
@@ -62,9 +65,6 @@ module contact_wheelrail_gap
 
    !> Of the mesh width, so that no point is lost between two pieces
    real(wp), parameter :: tiny_part = 1.0e-9_wp
-
-   !> Heights above the axle of a roller are at least this part of its radius: points beside it would have none
-   real(wp), parameter :: lowest_on_roller = 0.01_wp
 
 contains
 
@@ -84,116 +84,8 @@ contains
       curve = rail%seen_from(origin, -angle)
    end function rail_in_track
 
-   !> Point of the locus at a place of the wheel's profile, in track coordinates [mm]
-   !>
-   !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
-   !> roller fall alike along it. See doc/theory/wheel_rail.md.
-   function locus_in_piece(wheel, placement, piece, place, rail) result(point)
-      !> Profile of a round wheel in its own coordinates
-      type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
-      type(wheel_rail_placement), intent(in) :: placement
-      !> Piece of the profile
-      integer, intent(in) :: piece
-      !> Place in the piece, from its beginning [mm]
-      real(wp), intent(in) :: place
-      !> The profile of a roller in track coordinates; not looked at on a track
-      type(profile_curve), intent(in) :: rail
-      real(wp) :: point(3)
-      real(wp) :: radius, lean, x, y, z, across, before, fall, drop
-      logical :: on_roller
-      integer :: step
-      !> A profile that is steeper than this counts as vertical [-]
-      real(wp), parameter :: steepest = -1.0e-6_wp
-      !> Of a step, relative to the radius; every step is smaller than the one before by the square of the yaw angle
-      real(wp), parameter :: tolerance = 1.0e-13_wp
-
-      on_roller = placement%roller_radius > 0.0_wp
-      call wheel%y%in_piece(piece, place, y, across)
-      call wheel%z%in_piece(piece, place, z, lean)
-      radius = placement%wheel_radius + z
-      lean = radius*(lean/min(steepest, across))
-      associate (axes => placement%wheel%axes)
-         x = 0.0_wp
-         do step = 1, 20
-            before = x
-            drop = depth(x)
-            fall = 0.0_wp
-            if (on_roller) then
-               point = placement%wheel%to_parent([x, y, drop - placement%wheel_radius])
-               fall = roller_slope(placement, point(1), rail%height(point(2)))
-            end if
-            ! the normal (x, -lean, depth) in the track has no part along (1, 0, fall)
-            x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*drop)/(axes(1, 1) + fall*axes(3, 1))
-            if (on_roller) x = before + (x - before)/(1.0_wp + drop/axle_depth(point))
-            x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
-            ! the depth does not matter to a wheel that stands upright on a track
-            if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
-            if (abs(x - before) <= tolerance*placement%wheel_radius) exit
-         end do
-      end associate
-      point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
-
-   contains
-
-      !> Depth below the axle of the point of this circle at a place along it [mm]
-      pure real(wp) function depth(x)
-         real(wp), intent(in) :: x
-         depth = sqrt(radius**2 - x**2)
-      end function depth
-
-      !> Height of a point of the track above the axle of the roller, at least `lowest_on_roller` of its radius [mm]
-      pure real(wp) function axle_depth(point)
-         real(wp), intent(in) :: point(3)
-         axle_depth = max(lowest_on_roller*placement%roller_radius, placement%roller_radius - point(3))
-      end function axle_depth
-   end function locus_in_piece
-
-   !> The same at any place of the profile
-   function locus_point(wheel, placement, s, rail) result(point)
-      !> Profile of a round wheel in its own coordinates
-      type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
-      type(wheel_rail_placement), intent(in) :: placement
-      !> Place on the profile [mm]
-      real(wp), intent(in) :: s
-      !> As for `locus_in_piece`
-      type(profile_curve), intent(in) :: rail
-      real(wp) :: point(3)
-      real(wp) :: place
-      integer :: piece
-
-      call wheel%y%place(s, piece, place)
-      point = locus_in_piece(wheel, placement, piece, place, rail)
-   end function locus_point
-
-   !> Slope of a roller's surface along the track: dz/dx at a distance from its top
-   pure real(wp) function roller_slope(placement, x, z) result(slope)
-      type(wheel_rail_placement), intent(in) :: placement
-      !> Longitudinal position and height of its profile there [mm]
-      real(wp), intent(in) :: x, z
-      real(wp) :: rho
-
-      rho = placement%roller_radius - z
-      slope = x/sqrt(max(tiny(rho), rho**2 - x**2))
-   end function roller_slope
-
-   !> How much lower a roller is at a distance from its top [mm]; 0 on a track
-   pure real(wp) function roller_drop(placement, x, z) result(drop)
-      !> Radius of the roller, 0 for a track, and its top
-      type(wheel_rail_placement), intent(in) :: placement
-      !> Longitudinal position and height of its profile there [mm]
-      real(wp), intent(in) :: x, z
-      real(wp) :: rho
-
-      drop = 0.0_wp
-      if (.not. placement%roller_radius > 0.0_wp) return
-      rho = placement%roller_radius - z
-      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
-   end function roller_drop
-
    !> Gap between a rail and a wheel in their present places
-   subroutine measure_gap(rail, wheel, placement, ds, gap, closer, keeps_rail)
+   subroutine measure_gap(rail, wheel, placement, ds, gap, closer, keeps_rail, reach)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
@@ -208,6 +100,8 @@ contains
       type(gap_curve), allocatable, intent(inout), optional :: closer(:)
       !> Are rail and elements those that `gap` was measured for last? Default no
       logical, intent(in), optional :: keeps_rail
+      !> Gaps that exceed the smallest one by more than this are estimates [mm]; default none, and none on a roller
+      real(wp), intent(in), optional :: reach
       logical :: keeps
       real(wp) :: range(2), dy
       integer :: n
@@ -221,11 +115,19 @@ contains
          if (size(gap%lateral) /= size(wheel%y%s)) deallocate(gap%lateral)
       end if
       if (.not. allocated(gap%lateral)) allocate(gap%lateral(size(wheel%y%s)))
-      call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], gap%lateral)
       keeps = .false.
       if (present(keeps_rail)) keeps = keeps_rail
       if (.not. keeps) call lay_mesh(rail, range(1), dy, n, gap)
+      gap%is_surveyed = .false.
+      if (present(reach)) gap%is_surveyed = .not. placement%roller_radius > 0.0_wp
+      if (gap%is_surveyed) then
+         call gap%survey%look(wheel, placement, gap%y, gap%z, gap%on_rail, no_surface, reach, looked_at)
+         call some_lateral_positions(wheel, placement, rail, gap%survey, gap%lateral)
+      else
+         call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], gap%lateral)
+      end if
       call fill_gap(rail, wheel, placement, gap%lateral, gap)
+      if (gap%is_surveyed) gap%depth = reach
       if (present(closer)) call look_closer(rail, wheel, placement, gap, closer)
    end subroutine measure_gap
 
@@ -234,8 +136,8 @@ contains
       !> As in `measure_gap`
       type(profile_curve), intent(in) :: rail, wheel
       type(wheel_rail_placement), intent(in) :: placement
-      !> Measured
-      type(gap_curve), intent(in) :: gap
+      !> Measured; gets lateral positions of all nodes where a finer mesh is needed
+      type(gap_curve), intent(inout) :: gap
       !> Meshes of the last gap on entry: their arrays are kept
       type(gap_curve), allocatable, intent(inout) :: closer(:)
       type(gap_curve), allocatable :: fewer(:)
@@ -251,6 +153,8 @@ contains
          if (abs(gap_at(rail, wheel, placement, gap, y) - lowest) &
             & <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
          n = n + 1
+         if (n == 1 .and. gap%is_surveyed) &
+            & call lateral_positions(wheel, placement, rail, [gap%y(1), gap%y(gap%n) + gap%dy], gap%lateral)
          if (n > size(closer)) closer = [closer, gap_curve()]
          first = max(1, i - shown)
          last = min(gap%n, i + shown)
@@ -332,14 +236,20 @@ contains
       !> Has the mesh, see `lay_mesh`; gets the gap and its place
       type(gap_curve), intent(inout) :: gap
       real(wp) :: start
-      integer :: k
+      integer :: i, k
 
       gap%far = no_surface
       gap%depth = huge(gap%depth)
       gap%kappa = 0.5_wp/placement%wheel_radius
       if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
-      gap%x = 0.0_wp
-      gap%gap = no_surface
+      do i = 1, gap%n
+         gap%x(i) = 0.0_wp
+         gap%gap(i) = no_surface
+         if (.not. gap%is_surveyed) cycle
+         if (gap%survey%is_near(i)) cycle
+         gap%x(i) = gap%survey%x(i)
+         gap%gap(i) = gap%survey%gap(i)
+      end do
       start = gap%y(1)
       associate (nodes => wheel%y%s)
          do k = 1, size(nodes) - 1
@@ -362,6 +272,9 @@ contains
          do i = max(1, ceiling((lateral(2) - start)/gap%dy - tiny_part) + 1), &
             & min(gap%n, floor((lateral(1) - start)/gap%dy + tiny_part) + 1)
             if (.not. gap%on_rail(i)) cycle
+            if (gap%is_surveyed) then
+               if (.not. gap%survey%is_near(i)) cycle
+            end if
             point = locus_at(wheel, placement, rail, gap%y(i), piece, lateral(1), lateral(2))
             vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
             if (vertical >= gap%gap(i)) cycle
@@ -391,6 +304,29 @@ contains
       place = place + shift*(x(2) - x(1))
       lowest = lowest - 0.5_wp*bend*shift**2
    end subroutine smallest_in_row
+
+   !> Lateral positions in the track of the locus at the ends of pieces that a survey found near the rail; estimates at the others [mm]
+   subroutine some_lateral_positions(wheel, placement, rail, survey, lateral)
+      !> As in `lateral_positions`
+      type(profile_curve), intent(in) :: wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      type(profile_curve), intent(in) :: rail
+      !> Of this wheel in this place
+      type(gap_survey), intent(in) :: survey
+      !> One per node
+      real(wp), intent(out) :: lateral(:)
+      real(wp) :: point(3), place
+      integer :: i, n
+
+      n = size(lateral)
+      do i = 1, n
+         lateral(i) = survey%node(2, i)
+         if (.not. (survey%needs_piece(i) .or. survey%needs_piece(max(1, i - 1)))) cycle
+         place = merge(wheel%y%s(n) - wheel%y%s(n - 1), 0.0_wp, i == n)
+         point = locus_in_piece(wheel, placement, min(i, n - 1), place, rail)
+         lateral(i) = point(2)
+      end do
+   end subroutine some_lateral_positions
 
    !> Lateral positions in the track of the locus at the nodes of the wheel's profile [mm]
    !>
@@ -450,48 +386,4 @@ contains
          start_of = merge(wheel%y%s(n) - wheel%y%s(n - 1), 0.0_wp, node == n)
       end function start_of
    end subroutine lateral_positions
-
-   !> Point of the locus with a given lateral position on a piece of the profile, by the Illinois method
-   function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
-      type(profile_curve), intent(in) :: wheel
-      type(wheel_rail_placement), intent(in) :: placement
-      !> See `locus_in_piece`
-      type(profile_curve), intent(in) :: rail
-      real(wp), intent(in) :: y
-      !> Number of the piece, and the lateral positions of its ends, y_low <= y <= y_high
-      integer, intent(in) :: piece
-      real(wp), intent(in) :: y_high, y_low
-      real(wp) :: point(3)
-      real(wp) :: a, b, fa, fb, s, f
-      integer :: step, side, here
-      real(wp), parameter :: tolerance = 1.0e-11_wp
-
-      a = wheel%y%s(piece)
-      b = wheel%y%s(piece + 1)
-      fa = y_high - y
-      fb = y_low - y
-      side = 0
-      s = a
-      if (abs(fb) < abs(fa)) s = b
-      do step = 1, 60
-         if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
-         ! the end of a piece belongs to the next one
-         here = piece
-         if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
-         point = locus_in_piece(wheel, placement, here, s - wheel%y%s(here), rail)
-         f = point(2) - y
-         if (abs(f) <= tolerance) exit
-         if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then
-            a = s
-            fa = f
-            if (side == 1) fb = 0.5_wp*fb
-            side = 1
-         else
-            b = s
-            fb = f
-            if (side == -1) fa = 0.5_wp*fa
-            side = -1
-         end if
-      end do
-   end function locus_at
 end module contact_wheelrail_gap

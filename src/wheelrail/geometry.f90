@@ -51,6 +51,8 @@ module contact_wheelrail_geometry
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
+      !> Gaps that exceed the smallest one by less than this are found exactly in a loop [mm]; it grows with the penetration
+      real(wp) :: reach = 0.2_wp
       !> Do trials of the height follow each other as in a loop over time, and does the first one follow the last case?
       logical :: follows = .false., follows_last = .false.
       !> Part of EPS that the pressures of the present trial are solved to
@@ -143,8 +145,15 @@ contains
          call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
-         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
-            & geometry%closer, keeps_rail)
+         if (problem%in_loop) then
+            if (present(depth)) geometry%reach = max(geometry%reach, depth)
+            call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
+               & geometry%closer, keeps_rail, geometry%reach + max(0.0_wp, problem%spec%search%g_miss))
+            if (geometry%gap%depth < huge(1.0_wp)) geometry%gap%depth = geometry%reach
+         else
+            call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
+               & geometry%closer, keeps_rail)
+         end if
          geometry%known_ds = problem%spec%search%ds
          geometry%known_place = geometry%placement%rail
       end if

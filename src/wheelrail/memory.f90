@@ -11,6 +11,7 @@ module contact_wheelrail_memory
    use contact_wheelrail_course, only : course_type, power
    use contact_wheelrail_creepage, only : contact_motion
    use contact_wheelrail_curved_patch, only : curved_reference
+   use contact_wheelrail_flat_patch, only : distance_scratch
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_region, only : contact_region
@@ -43,6 +44,8 @@ module contact_wheelrail_memory
       real(wp) :: reference(2) = 0.0_wp
       !> Window of the grid on the lattice, and that of the solution in `state`
       type(lattice_window) :: window, solved_window
+      !> What the undeformed distance keeps from trial to trial
+      type(distance_scratch) :: distance
       !> Elements left out because the gap jumps between them and the reference; see `settle_distance`
       integer :: strangers = 0
       !> Patches of the previous time step that this one continues

@@ -170,8 +170,9 @@ contains
             call variable_distance(geometry%bodies, slot%plane, allocated(slot%region%seeds), slot%problem%grid, h, approach, &
                & slot%strangers)
          else
-            call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, start_places(rail, slot%region), &
-               & slot%problem%grid, h, approach, slot%strangers)
+            call start_places(rail, slot%region, slot%distance)
+            call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, slot%distance, slot%problem%grid, h, &
+               & approach, slot%strangers)
          end if
          call grow(slot, h, approach, most, .true., grown)
          if (.not. grown) exit
@@ -277,8 +278,9 @@ contains
       allocate(slot%problem%parts)
       associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
          margin = part_margin*problem%spec%search%d_comb
+         call start_places(rail, slot%region, slot%distance)
          section = rail%seen_from([plane%origin(2), rail%height(plane%origin(2))], plane%roll(), &
-            & around=start_places(rail, slot%region))
+            & around=slot%distance%places(:slot%distance%n))
          allocate(parts%label(grid%mx, grid%my), source=0)
          parts%interaction = slot%region%interaction
          do iy = 1, grid%my

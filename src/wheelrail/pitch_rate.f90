@@ -8,8 +8,8 @@ module contact_wheelrail_pitch_rate
    use contact_grid_element_division, only : element
    use contact_numeric_root_search, only : root_search
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_gap, only : roller_drop
    use contact_wheelrail_geometry, only : measure
+   use contact_wheelrail_locus, only : roller_drop
    use contact_wheelrail_height, only : out_of_sight, settle, small_step
    use contact_wheelrail_memory, only : wheel_rail_memory, total_force
    use contact_wheelrail_problem, only : wheel_rail_problem, rate_of_pure_rolling

@@ -8,8 +8,9 @@ module contact_wheelrail_reference_motion
    use contact_wheelrail_displacements, only : coordinate, displaced
    use contact_wheelrail_flat_patch, only : patch_frame
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_gap, only : gap_curve, locus_point, no_surface, roller_drop
+   use contact_wheelrail_gap, only : gap_curve, no_surface
    use contact_wheelrail_geometry, only : wheel_rail_geometry
+   use contact_wheelrail_locus, only : locus_point, roller_drop
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_region, only : contact_region, parts_of

@@ -22,7 +22,7 @@ module contact_wheelrail_wheel_rows
    !> Rows that are remembered at most
    integer, parameter :: remembered = 3
 
-   !> Rows of a patch, one after the other at even distances
+   !> Rows of a patch, one after the other at even distances; its arrays serve patches that follow
    type :: wheel_rows
       private
       !> First and last point along a row [mm], and how many there are
@@ -39,8 +39,11 @@ module contact_wheelrail_wheel_rows
       !> Rows without a polynomial so far, one after the other
       integer :: failures = 0
       !> All points, their places on the profile, and the rows before: where no polynomials are looked for
+      !> There may be room for more than the points of this patch
       real(wp), allocatable :: x(:), place(:), all_rows(:, :, :)
       logical, allocatable :: found(:)
+      !> Do they belong to this patch?
+      logical :: has_all = .false.
    contains
       !> Begin with the first row
       procedure :: begin
@@ -67,10 +70,15 @@ contains
       self%points = points
       self%start = start
       self%few = min(points, terms)
+      self%known = 0
+      self%failures = 0
+      self%has_all = .false.
       if (points > terms) then
          self%nodes = 0.5_wp*(ends(1) + ends(2)) + 0.5_wp*(ends(2) - ends(1))*places
       else
-         self%nodes(:points) = [(point_at(self, i), i=1, points)]
+         do i = 1, points
+            self%nodes(i) = point_at(self, i)
+         end do
       end if
    end subroutine begin
 
@@ -111,7 +119,9 @@ contains
          associate (m => self%few)
             call find_nodes(self, wheel, radius, seen, s, some_places(:m), some_n(:m), some_found(:m))
             if (self%points == m) then
-               n = merge(some_n(:m), missing, some_found(:m))
+               do i = 1, m
+                  n(i) = merge(some_n(i), missing, some_found(i))
+               end do
                return
             end if
          end associate
@@ -126,17 +136,22 @@ contains
          call make_room(self)
          if (all(some_found)) then
             self%failures = self%failures + 1
-            call between(matmul(factors, some_places), self%place)
-            call row_from_estimates(wheel, radius, seen, self%x, s, self%place, n, self%found)
+            c = matmul(factors, some_places)
+            call between(c, self%place(:self%points))
+            call row_from_estimates(wheel, radius, seen, self%x(:self%points), s, self%place(:self%points), n, &
+               & self%found(:self%points))
          else
-            call wheel_row(wheel, radius, seen, self%x, s, self%start, self%place, n, self%found)
+            call wheel_row(wheel, radius, seen, self%x(:self%points), s, self%start, self%place(:self%points), n, &
+               & self%found(:self%points))
          end if
          if (self%failures == patience) then
             self%known = 0
-            call keep(self%place, n, all(self%found), self%all_rows, self%known)
+            call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
          end if
       end if
-      if (.not. all(self%found)) n = merge(n, missing, self%found)
+      do i = 1, self%points
+         if (.not. self%found(i)) n(i) = missing
+      end do
    end subroutine find
 
    !> Heights at the nodes, from the rows before where they are known
@@ -179,13 +194,15 @@ contains
       real(wp), intent(out) :: n(:)
 
       if (self%known > 0) then
-         call estimate(self%all_rows, self%known, self%place, n)
-         call row_from_estimates(wheel, radius, seen, self%x, s, self%place, n, self%found)
+         call estimate(self%all_rows(:self%points, :, :), self%known, self%place(:self%points), n)
+         call row_from_estimates(wheel, radius, seen, self%x(:self%points), s, self%place(:self%points), n, &
+            & self%found(:self%points))
       else
-         call wheel_row(wheel, radius, seen, self%x, s, self%start, self%place, n, self%found)
+         call wheel_row(wheel, radius, seen, self%x(:self%points), s, self%start, self%place(:self%points), n, &
+            & self%found(:self%points))
       end if
       if (self%found(1)) self%start = [self%place(1), n(1)]
-      call keep(self%place, n, all(self%found), self%all_rows, self%known)
+      call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
    end subroutine find_all
 
    !> Room for all points
@@ -193,10 +210,17 @@ contains
       type(wheel_rows), intent(inout) :: self
       integer :: i
 
-      if (allocated(self%x)) return
-      allocate(self%x(self%points), self%place(self%points), self%found(self%points), self%all_rows(self%points, 2, remembered))
-      self%x = [(point_at(self, i), i=1, self%points)]
-      self%all_rows = 0.0_wp
+      if (self%has_all) return
+      self%has_all = .true.
+      if (allocated(self%x)) then
+         if (size(self%x) < self%points) deallocate(self%x, self%place, self%found, self%all_rows)
+      end if
+      if (.not. allocated(self%x)) allocate(self%x(self%points), self%place(self%points), self%found(self%points), &
+         & self%all_rows(self%points, 2, remembered))
+      do i = 1, self%points
+         self%x(i) = point_at(self, i)
+      end do
+      self%all_rows(:self%points, :, :) = 0.0_wp
    end subroutine make_room
 
    !> Places and heights of the next row, from those before

@@ -1,0 +1,179 @@
+!> Where the gap between a wheel and a rail may be small, from estimates
+!>
+!> A search for the height of a wheel needs the gap where the bodies come near each other. Elsewhere an estimate is enough: the
+!> contact locus at the nodes of the wheel's profile by one step of its iteration, and straight lines between the nodes.
+module contact_wheelrail_gap_survey
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_placement, only : wheel_rail_placement
+   implicit none (type, external)
+   private
+
+   public :: gap_survey
+
+   !> Estimates on the nodes of a wheel's profile and on a mesh over the rail; its arrays are kept from one survey to the next
+   type :: gap_survey
+      !> Locus at the nodes, coordinates x, y, z in the track [mm], shape (3, nodes)
+      real(wp), allocatable :: node(:, :)
+      !> Gap at the mesh points and the longitudinal position of the locus there [mm], shape (n)
+      real(wp), allocatable :: gap(:), x(:)
+      !> Least gap that the estimate allows for [mm], shape (n)
+      real(wp), allocatable, private :: least(:)
+      !> Is the gap to be found exactly? Shape (n)
+      logical, allocatable :: is_near(:)
+      !> Are both ends of a piece of the wheel's profile to be found exactly? Shape (nodes)
+      logical, allocatable :: needs_piece(:)
+   contains
+      !> Make the estimates
+      procedure :: look
+      procedure, private :: make_room
+      procedure, private :: estimate_nodes
+      procedure, private :: estimate_gaps
+      procedure, private :: mark
+   end type gap_survey
+
+   !> The locus is at most this part of the radius away from the lowest point of the wheel
+   real(wp), parameter, public :: furthest = 0.5_wp
+   !> Slopes across of a profile that is steeper count as this one [-]
+   real(wp), parameter, public :: steepest = -1.0e-6_wp
+   !> Error of an estimate at most: this length [mm], and between nodes this part of the length of the piece
+   real(wp), parameter :: node_error = 0.02_wp, piece_error = 0.5_wp
+
+contains
+
+   !> Estimate the gap over a mesh, and mark where it has to be found exactly
+   pure subroutine look(self, wheel, placement, y, z, on_rail, no_surface, reach, looked_at)
+      class(gap_survey), intent(inout) :: self
+      !> Profile of a round wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are, on a track
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Mesh over the rail at even distances and heights of the rail, in the track [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      !> Is the rail there at a mesh point?
+      logical, intent(in) :: on_rail(:)
+      !> Gap where there is none [mm]
+      real(wp), intent(in) :: no_surface
+      !> Gaps that exceed the smallest one by less than this are found exactly, and those around a minimum that exceeds it by less
+      !> than that [mm]
+      real(wp), intent(in) :: reach, looked_at
+
+      call self%make_room(size(wheel%y%s), size(y))
+      call self%estimate_nodes(wheel, placement)
+      call self%estimate_gaps(wheel%y%s, y, z, on_rail, no_surface)
+      call self%mark(y, reach, looked_at, no_surface)
+   end subroutine look
+
+   !> Arrays of the right size
+   pure subroutine make_room(self, nodes, n)
+      class(gap_survey), intent(inout) :: self
+      !> Numbers of nodes and of mesh points
+      integer, intent(in) :: nodes, n
+
+      if (allocated(self%node)) then
+         if (size(self%node, 2) /= nodes) deallocate(self%node, self%needs_piece)
+      end if
+      if (.not. allocated(self%node)) allocate(self%node(3, nodes), self%needs_piece(nodes))
+      if (allocated(self%gap)) then
+         if (size(self%gap) /= n) deallocate(self%gap, self%x, self%least, self%is_near)
+      end if
+      if (.not. allocated(self%gap)) allocate(self%gap(n), self%x(n), self%least(n), self%is_near(n))
+   end subroutine make_room
+
+   !> The locus at the nodes, by the first step of the iteration for its longitudinal position
+   pure subroutine estimate_nodes(self, wheel, placement)
+      class(gap_survey), intent(inout) :: self
+      type(profile_curve), intent(in) :: wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      real(wp) :: radius, lean, local(3)
+      integer :: k, n
+
+      n = size(wheel%y%s)
+      associate (axes => placement%wheel%axes, origin => placement%wheel%origin, cy => wheel%y%c, cz => wheel%z%c)
+         do k = 1, n
+            if (k < n) then
+               local(2:3) = [cy(0, k), cz(0, k)]
+               lean = cz(1, k)/min(steepest, cy(1, k))
+            else
+               associate (h => wheel%y%s(n) - wheel%y%s(n - 1))
+                  local(2) = cy(0, n - 1) + h*(cy(1, n - 1) + h*(cy(2, n - 1) + h*cy(3, n - 1)))
+                  local(3) = cz(0, n - 1) + h*(cz(1, n - 1) + h*(cz(2, n - 1) + h*cz(3, n - 1)))
+                  lean = (cz(1, n - 1) + h*(2.0_wp*cz(2, n - 1) + h*3.0_wp*cz(3, n - 1))) &
+                     & /min(steepest, cy(1, n - 1) + h*(2.0_wp*cy(2, n - 1) + h*3.0_wp*cy(3, n - 1)))
+               end associate
+            end if
+            radius = placement%wheel_radius + local(3)
+            local(1) = radius*(axes(1, 2)*lean - axes(1, 3))/axes(1, 1)
+            local(1) = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, local(1)))
+            local(3) = sqrt(radius**2 - local(1)**2) - placement%wheel_radius
+            self%node(:, k) = origin + axes(:, 1)*local(1) + axes(:, 2)*local(2) + axes(:, 3)*local(3)
+         end do
+      end associate
+   end subroutine estimate_nodes
+
+   !> Gaps between the nodes on straight lines
+   pure subroutine estimate_gaps(self, nodes, y, z, on_rail, no_surface)
+      class(gap_survey), intent(inout) :: self
+      !> Arc lengths of the nodes [mm]
+      real(wp), intent(in) :: nodes(:)
+      !> See `look`
+      real(wp), intent(in) :: y(:), z(:)
+      logical, intent(in) :: on_rail(:)
+      real(wp), intent(in) :: no_surface
+      real(wp) :: dy, t, vertical, error
+      integer :: i, k
+
+      self%gap = no_surface
+      self%least = no_surface
+      self%x = 0.0_wp
+      if (size(y) < 2) return
+      dy = y(2) - y(1)
+      do k = 1, size(nodes) - 1
+         associate (a => self%node(:, k), b => self%node(:, k + 1))
+            ! the surface faces the rail where places run with falling y
+            if (.not. a(2) > b(2)) cycle
+            error = node_error + piece_error*(nodes(k + 1) - nodes(k))
+            do i = max(1, ceiling((b(2) - y(1))/dy) + 1), min(size(y), floor((a(2) - y(1))/dy) + 1)
+               if (.not. on_rail(i)) cycle
+               t = (y(i) - a(2))/(b(2) - a(2))
+               vertical = z(i) - (a(3) + t*(b(3) - a(3)))
+               self%least(i) = min(self%least(i), vertical - error)
+               if (vertical >= self%gap(i)) cycle
+               self%gap(i) = vertical
+               self%x(i) = a(1) + t*(b(1) - a(1))
+            end do
+         end associate
+      end do
+   end subroutine estimate_gaps
+
+   !> Mark the mesh points whose gap may be small, and the pieces of the wheel above them
+   pure subroutine mark(self, y, reach, looked_at, no_surface)
+      class(gap_survey), intent(inout) :: self
+      !> See `look`
+      real(wp), intent(in) :: y(:), reach, looked_at, no_surface
+      real(wp) :: most, lowest, dy
+      integer :: i, k, n
+      logical :: is_minimum
+
+      n = size(y)
+      most = minval(2.0_wp*self%gap - self%least) + reach
+      lowest = minval(self%gap)
+      self%is_near = .false.
+      do i = 1, n
+         if (.not. self%gap(i) < no_surface) cycle
+         is_minimum = self%gap(i) < lowest + looked_at
+         if (is_minimum) is_minimum = self%gap(i) <= min(self%gap(max(1, i - 1)), self%gap(min(n, i + 1)))
+         ! the neighbours tell where the gap vanishes between mesh points
+         if (self%least(i) <= most .or. is_minimum) self%is_near(max(1, i - 1):min(n, i + 1)) = .true.
+      end do
+      self%needs_piece = .false.
+      if (n < 2) return
+      dy = y(2) - y(1)
+      do k = 1, size(self%needs_piece) - 1
+         associate (low => min(self%node(2, k), self%node(2, k + 1)), high => max(self%node(2, k), self%node(2, k + 1)))
+            i = max(1, ceiling((low - y(1))/dy))
+            self%needs_piece(k) = any(self%is_near(i:min(n, floor((high - y(1))/dy) + 2)))
+         end associate
+      end do
+   end subroutine mark
+end module contact_wheelrail_gap_survey

@@ -1,0 +1,166 @@
+!> The contact locus: where the surface of a round wheel is level along the track, or as steep as a roller
+module contact_wheelrail_locus
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_gap_survey, only : furthest, steepest
+   use contact_wheelrail_placement, only : wheel_rail_placement
+   implicit none (type, external)
+   private
+
+   public :: locus_at, locus_in_piece, locus_point, roller_drop
+
+   !> Heights above the axle of a roller are at least this part of its radius: points beside it would have none
+   real(wp), parameter :: lowest_on_roller = 0.01_wp
+
+contains
+
+   !> Point of the locus at a place of the wheel's profile, in track coordinates [mm]
+   !>
+   !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
+   !> roller fall alike along it. See doc/theory/wheel_rail.md.
+   function locus_in_piece(wheel, placement, piece, place, rail) result(point)
+      !> Profile of a round wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Piece of the profile
+      integer, intent(in) :: piece
+      !> Place in the piece, from its beginning [mm]
+      real(wp), intent(in) :: place
+      !> The profile of a roller in track coordinates; not looked at on a track
+      type(profile_curve), intent(in) :: rail
+      real(wp) :: point(3)
+      real(wp) :: radius, lean, x, y, z, across, before, fall, drop
+      logical :: on_roller
+      integer :: step
+      !> Of a step, relative to the radius; every step is smaller than the one before by the square of the yaw angle
+      real(wp), parameter :: tolerance = 1.0e-13_wp
+
+      on_roller = placement%roller_radius > 0.0_wp
+      call wheel%y%in_piece(piece, place, y, across)
+      call wheel%z%in_piece(piece, place, z, lean)
+      radius = placement%wheel_radius + z
+      lean = radius*(lean/min(steepest, across))
+      associate (axes => placement%wheel%axes)
+         x = 0.0_wp
+         do step = 1, 20
+            before = x
+            drop = depth(x)
+            fall = 0.0_wp
+            if (on_roller) then
+               point = placement%wheel%to_parent([x, y, drop - placement%wheel_radius])
+               fall = roller_slope(placement, point(1), rail%height(point(2)))
+            end if
+            ! the normal (x, -lean, depth) in the track has no part along (1, 0, fall)
+            x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*drop)/(axes(1, 1) + fall*axes(3, 1))
+            if (on_roller) x = before + (x - before)/(1.0_wp + drop/axle_depth(point))
+            x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
+            ! the depth does not matter to a wheel that stands upright on a track
+            if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
+            if (abs(x - before) <= tolerance*placement%wheel_radius) exit
+         end do
+      end associate
+      point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
+
+   contains
+
+      !> Depth below the axle of the point of this circle at a place along it [mm]
+      pure real(wp) function depth(x)
+         real(wp), intent(in) :: x
+         depth = sqrt(radius**2 - x**2)
+      end function depth
+
+      !> Height of a point of the track above the axle of the roller, at least `lowest_on_roller` of its radius [mm]
+      pure real(wp) function axle_depth(point)
+         real(wp), intent(in) :: point(3)
+         axle_depth = max(lowest_on_roller*placement%roller_radius, placement%roller_radius - point(3))
+      end function axle_depth
+   end function locus_in_piece
+
+   !> The same at any place of the profile
+   function locus_point(wheel, placement, s, rail) result(point)
+      !> Profile of a round wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Place on the profile [mm]
+      real(wp), intent(in) :: s
+      !> As for `locus_in_piece`
+      type(profile_curve), intent(in) :: rail
+      real(wp) :: point(3)
+      real(wp) :: place
+      integer :: piece
+
+      call wheel%y%place(s, piece, place)
+      point = locus_in_piece(wheel, placement, piece, place, rail)
+   end function locus_point
+
+   !> Slope of a roller's surface along the track: dz/dx at a distance from its top
+   pure real(wp) function roller_slope(placement, x, z) result(slope)
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Longitudinal position and height of its profile there [mm]
+      real(wp), intent(in) :: x, z
+      real(wp) :: rho
+
+      rho = placement%roller_radius - z
+      slope = x/sqrt(max(tiny(rho), rho**2 - x**2))
+   end function roller_slope
+
+   !> How much lower a roller is at a distance from its top [mm]; 0 on a track
+   pure real(wp) function roller_drop(placement, x, z) result(drop)
+      !> Radius of the roller, 0 for a track, and its top
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Longitudinal position and height of its profile there [mm]
+      real(wp), intent(in) :: x, z
+      real(wp) :: rho
+
+      drop = 0.0_wp
+      if (.not. placement%roller_radius > 0.0_wp) return
+      rho = placement%roller_radius - z
+      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
+   end function roller_drop
+
+   !> Point of the locus with a given lateral position on a piece of the profile, by the Illinois method
+   function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
+      type(profile_curve), intent(in) :: wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> See `locus_in_piece`
+      type(profile_curve), intent(in) :: rail
+      real(wp), intent(in) :: y
+      !> Number of the piece, and the lateral positions of its ends, y_low <= y <= y_high
+      integer, intent(in) :: piece
+      real(wp), intent(in) :: y_high, y_low
+      real(wp) :: point(3)
+      real(wp) :: a, b, fa, fb, s, f
+      integer :: step, side, here
+      real(wp), parameter :: tolerance = 1.0e-11_wp
+
+      a = wheel%y%s(piece)
+      b = wheel%y%s(piece + 1)
+      fa = y_high - y
+      fb = y_low - y
+      side = 0
+      s = a
+      if (abs(fb) < abs(fa)) s = b
+      do step = 1, 60
+         if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
+         ! the end of a piece belongs to the next one
+         here = piece
+         if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
+         point = locus_in_piece(wheel, placement, here, s - wheel%y%s(here), rail)
+         f = point(2) - y
+         if (abs(f) <= tolerance) exit
+         if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then
+            a = s
+            fa = f
+            if (side == 1) fb = 0.5_wp*fb
+            side = 1
+         else
+            b = s
+            fb = f
+            if (side == -1) fa = 0.5_wp*fa
+            side = -1
+         end if
+      end do
+   end function locus_at
+end module contact_wheelrail_locus
