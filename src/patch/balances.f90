@@ -1,9 +1,9 @@
-!> Sums that the exact solution of a patch fulfils: what is left of them in a discrete one is an error with its sign
+!> Balance equations of the exact solution of a patch: their residual in a discrete solution is an error with its sign
 !>
-!> In steady rolling no energy stays behind: friction takes what creepages and spin do, as the compliance is symmetric. Pressures
-!> under a smooth surface fulfil a theorem of virial, from lengths that grow: their elastic energy is the sum of pressures times
-!> the distance from a centre times the slope of the surface. Both need one level only, and see where edges of contact lie within
-!> elements. See doc/theory/errors.md.
+!> In steady rolling the elastic energy does not change and the compliance is symmetric, so frictional power equals the power of the
+!> tractions with creepages and spin. Pressures under a smooth surface satisfy a virial theorem, from a change of scale: their
+!> elastic energy is the sum of pressure times distance from a centre times slope of the surface. Both balances need a single level
+!> only, and depend on the position of the edges of contact within elements. See doc/theory/errors.md.
 module contact_patch_balances
    use contact_base_choices, only : motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule
@@ -15,16 +15,16 @@ module contact_patch_balances
 
    public :: balances_power, error_of_normal_energy, motion_power, normal_energy
 
-   !> What the potential energy of pressures on elements three times as long differs by, over its error: 3^2 - 1 if the order were
-   !> clean; median of the random contacts of tests/accuracy on 15 to 40 elements
+   !> Difference of the potential energy to that of pressures on elements three times as long, over its error: 3^2 - 1 for a clean
+   !> second order; median of the random contacts of tests/accuracy with 15 to 40 elements
    real(wp), parameter :: potential_ratio = 6.0_wp
-   !> Surfaces count as quadratic whose virial over their energy of distances differs from 2 by less; chosen
+   !> A surface is regarded as quadratic if the ratio of virial to energy of distances differs from 2 by less than this; chosen
    real(wp), parameter :: quadratic = 0.1_wp
 
 contains
 
-   !> Does friction take all the power that the motion gives? Not where bodies relax or layers yield, and where given pressures
-   !> drive tractions that do not drive them
+   !> Does frictional power equal the power of the motion? Not with viscoelastic bodies or a plastic layer, and not with given
+   !> pressures that act on the tractions but do not depend on them
    pure logical function balances_power(problem) result(balances)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
@@ -34,11 +34,12 @@ contains
          & .or. allocated(problem%parts) .or. (problem%model%coupled() .and. .not. problem%couples()))
    end function balances_power
 
-   !> Power of the tractions with creepages, spin and extra slip, dissipation negative [W]; huge where it is not known
+   !> Power of the tractions with creepages, spin and extra slip, dissipation negative [W]; huge if it is not known
    !>
-   !> Tractions of unlike bodies push pressures to one side of the contact, where the surfaces climb: that takes power, too.
+   !> With bodies of different materials, tractions shift the pressures to one side of the contact, where the surface rises: the
+   !> power of pressures with this slope is included.
    pure real(wp) function motion_power(problem, result) result(power)
-      !> In steady rolling
+      !> The problem that was solved, steady rolling
       type(patch_problem), intent(in) :: problem
       !> Solved
       type(patch_result), intent(in) :: result
@@ -55,37 +56,37 @@ contains
             power = power + result%px(ix, iy)*slip(1) + result%py(ix, iy)*slip(2)
          end do
       end do
-      if (problem%couples()) power = power + climbing(problem, result)
+      if (problem%couples()) power = power + pressure_times_slope(problem, result)
       if (power < huge(power)) power = power*result%grid%dx*result%grid%dy*result%dq/(nmm_per_joule*result%dt)
    end function motion_power
 
-   !> Sum of pressures times the slope of the surface along rolling [N/mm2], huge where a slope is not known
-   pure real(wp) function climbing(problem, result)
-      !> Of coupled bodies
+   !> Sum of pressure times slope of the surface along the rolling direction [N/mm2]; huge if a slope is not known
+   pure real(wp) function pressure_times_slope(problem, result)
+      !> A problem of bodies with different materials
       type(patch_problem), intent(in) :: problem
       !> Solved
       type(patch_result), intent(in) :: result
       real(wp) :: change
       integer :: ix, iy
 
-      climbing = huge(climbing)
+      pressure_times_slope = huge(pressure_times_slope)
       if (.not. problem%solves_for_pressure() .or. problem%general_step) return
-      climbing = 0.0_wp
+      pressure_times_slope = 0.0_wp
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
             if (.not. result%pn(ix, iy) > 0.0_wp) cycle
             change = slope(result%h(:, iy), ix)
             if (abs(change) > excluded_threshold) then
-               climbing = huge(climbing)
+               pressure_times_slope = huge(pressure_times_slope)
                return
             end if
-            climbing = climbing + result%pn(ix, iy)*change
+            pressure_times_slope = pressure_times_slope + result%pn(ix, iy)*change
          end do
       end do
-      climbing = -rolling_direction(problem)*climbing/result%grid%dx
-   end function climbing
+      pressure_times_slope = -rolling_direction(problem)*pressure_times_slope/result%grid%dx
+   end function pressure_times_slope
 
-   !> Part of the elastic energy that pressures have [J]
+   !> Elastic energy of the pressures [J]
    pure real(wp) function normal_energy(result) result(energy)
       !> Solved
       type(patch_result), intent(in) :: result
@@ -93,15 +94,16 @@ contains
       energy = result%grid%dx*result%grid%dy/(2.0_wp*nmm_per_joule)*sum(result%pn*result%un)
    end function normal_energy
 
-   !> Error of that part, with its sign [J]; not known where the surface is not quadratic, or bodies are coupled or relax
+   !> Error of the elastic energy of the pressures [J]; not known if the surface is not quadratic, or bodies are coupled or
+   !> viscoelastic
    pure subroutine error_of_normal_energy(problem, result, coarse, e, is_known)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
-      !> Solved, on both levels
+      !> Solutions on the fine and the coarse level
       type(patch_result), intent(in) :: result, coarse
-      !> With its sign [J]
+      !> Error with its sign [J]
       real(wp), intent(out) :: e
-      !> Does the theorem hold?
+      !> Is the error known?
       logical, intent(out) :: is_known
       real(wp) :: virial, distances, potential, ratio
 
@@ -112,21 +114,21 @@ contains
       if (.not. is_known) return
       ratio = virial/max(distances, tiny(ratio))
       is_known = abs(ratio - 2.0_wp) < quadratic
-      ! with the approach given, the elastic energy is the potential energy itself, with the other sign
+      ! with prescribed approach, the elastic energy equals the potential energy with opposite sign
       e = (normal_energy(coarse) - normal_energy(result))/potential_ratio
       if (.not. problem%force_prescribed) return
       potential = (coarse%pen - result%pen)*result%fn/nmm_per_joule - (normal_energy(coarse) - normal_energy(result))
       e = (ratio*potential/potential_ratio + normal_energy(result) - virial)/(1.0_wp + ratio)
    end subroutine error_of_normal_energy
 
-   !> Sums of pressures times the slope of the surface along the way from their centre, and times the distance of the surface above
-   !> its lowest element
+   !> Sum of pressure times slope of the surface times position relative to the centre of pressure, and sum of pressure times
+   !> distance of the surface above its lowest element
    pure subroutine distance_sums(result, virial, distances, is_known)
       !> Solved
       type(patch_result), intent(in) :: result
-      !> [J]
+      !> Virial and energy of distances [J]
       real(wp), intent(out) :: virial, distances
-      !> Are the slopes known wherever there is pressure?
+      !> Are the slopes known in all elements with pressure?
       logical, intent(out) :: is_known
       real(wp) :: centre(2), slopes(2), lowest, load
       integer :: ix, iy
@@ -159,10 +161,10 @@ contains
       distances = distances*result%grid%dx*result%grid%dy/nmm_per_joule
    end subroutine distance_sums
 
-   !> Change per element at a place of a line: exact for polynomials of degree four, next to the ends of degree two; huge where
+   !> Difference per element at an element of a line: exact for polynomials of degree four, of degree two next to the ends; huge if
    !> it is not known
    pure real(wp) function slope(line, i)
-      !> Values, huge where there is none
+      !> Values along the line, huge where there is none
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
       integer :: n

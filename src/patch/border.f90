@@ -1,6 +1,6 @@
 !> Contact that reaches the border of the potential contact
 !>
-!> What lies beyond the border takes no load: contact that is cut off there has too high pressures and a wrong force.
+!> Elements beyond the border carry no pressure: if contact is cut off there, pressures are too high and the force is wrong.
 module contact_patch_border
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -16,10 +16,11 @@ module contact_patch_border
 
 contains
 
-   !> Which sides of the potential contact cut contact off
+   !> Sides of the potential contact that cut off contact
    !>
-   !> A side whose gap is the same in the element next to it is the end of a body, a cylinder of finite length or
-   !> a punch, and no cut. Directions of less than 3 elements have no border: they stand for plane strain.
+   !> A side where the undeformed distance equals that of the neighbouring line of elements is the end of a body, such as a cylinder
+   !> of finite length or a punch, and does not count. Directions with less than 3 elements have no border: they represent plane
+   !> strain.
    pure subroutine find_border(problem, result)
       !> Grid and undeformed distance
       type(patch_problem), intent(in) :: problem
@@ -46,18 +47,18 @@ contains
       end associate
    end subroutine find_border
 
-   !> Is there contact in a line of elements at the border, in which the gap differs from that of the next line?
+   !> Is there contact in a line of elements at the border where the undeformed distance differs from that of the next line?
    pure logical function is_cut(division, h, inside)
-      !> Element states, undeformed distance there and in the next line [mm]
+      !> Element states; undeformed distance in this line and in the next one [mm]
       integer, intent(in) :: division(:)
       real(wp), intent(in) :: h(:), inside(:)
-      !> Differences that are rounding [-]
+      !> Relative differences up to this value are round-off [-]
       real(wp), parameter :: same = 1.0e-10_wp
 
       is_cut = any(division > element%exterior .and. abs(h - inside) > same*max(abs(h), abs(inside)))
    end function is_cut
 
-   !> Elements in contact in the outer columns and rows; directions of less than 3 elements have no border
+   !> Number of elements in contact in the outer columns and rows; directions with less than 3 elements have no border
    pure integer function border_elements(division) result(n)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
@@ -76,12 +77,12 @@ contains
       if (my >= 3) n = n + count(division(first:last, [1, my]) > element%exterior)
    end function border_elements
 
-   !> Sides and ends as one number: 1 x low, 2 x high, 4 y low, 8 y high, 16 and 32 the low and high end of body 1, 64 and
-   !> 128 those of body 2, 256 a surface that is hidden
+   !> Sides and ends as a bit code: 1 x low, 2 x high, 4 y low, 8 y high, 16 and 32 low and high end of body 1, 64 and 128 those of
+   !> body 2, 256 a hidden surface
    pure integer function border_code(border, mirrored) result(code)
       !> Sides of the grid, ends of bodies and hidden surfaces that contact reaches
       type(border_contact), intent(in) :: border
-      !> Is y of the other sign for the caller? Default: no
+      !> Is the sign of y reversed for the caller? Default: no
       logical, intent(in), optional :: mirrored
       logical :: side(4), reached(9)
       integer :: k

@@ -1,8 +1,8 @@
-!> The same contact with elements three times as long: the coarse level that errors are estimated from
+!> The same contact on elements three times as long: the coarse level for error estimates
 !>
-!> With a factor of three the centre of a coarse element is the centre of a fine one. Undeformed distance, given pressures,
-!> friction per row and all other data per element are therefore taken from the fine problem without interpolation, and the
-!> coarse problem costs about a ninth of the fine one.
+!> With a factor of three, the centre of a coarse element is the centre of a fine one. Undeformed distance, given pressures,
+!> friction per row and all other data per element are therefore taken from the fine problem without interpolation. The coarse
+!> problem costs about a ninth of the fine one.
 module contact_patch_coarse_level
    use contact_base_choices, only : estimate_choice, motion, sensitivity_choice, solver_choice, time_link
    use contact_base_constants, only : excluded_distance, excluded_threshold
@@ -17,20 +17,20 @@ module contact_patch_coarse_level
 
    public :: coarsen_patch, coarsening
 
-   !> Fine elements on each side of the one at the centre, and ratio of the sides of coarse and fine elements
+   !> Number of fine elements on each side of the centre one, and ratio of the sides of coarse and fine elements
    integer, parameter :: beside = 1, coarsening = 2*beside + 1
-   !> Contact of fewer elements across is not coarsened in that direction: fewer than two coarse elements would be left; chosen
+   !> A contact of fewer elements across is not coarsened in that direction: fewer than two coarse elements would be left; chosen
    integer, parameter :: fewest_across = 6
-   !> Tolerance of the coarse solution; its discretisation error is above 1e-4 on any grid of less than a million elements
+   !> Tolerance of the coarse solution; its discretisation error exceeds 1e-4 on grids of less than a million elements
    real(wp), parameter :: coarse_eps = 3.0e-5_wp
-   !> Steps that differ from the length of an element by less than this part are one element
+   !> Steps whose relative difference to the length of an element is below this value are one element
    real(wp), parameter :: step_slack = 0.01_wp
 
-   !> Coarse elements along one direction
+   !> Coarse elements in one direction
    type :: coarse_axis
       !> Ratio of the sides: `coarsening`, or 1 where that is not possible
       integer :: factor = 1
-      !> Fine element at the centre of the first coarse one, which may lie outside the fine window, and number of coarse elements
+      !> Fine element at the centre of the first coarse one, possibly outside the fine grid; number of coarse elements
       integer :: first = 1, count = 0
    contains
       !> Fine element at the centre of a coarse one
@@ -41,7 +41,7 @@ contains
 
    elemental integer function centre(self, k) result(i)
       class(coarse_axis), intent(in) :: self
-      !> Number of the coarse element
+      !> Index of the coarse element
       integer, intent(in) :: k
 
       i = self%first + (k - 1)*self%factor
@@ -53,16 +53,16 @@ contains
       type(patch_problem), intent(in) :: fine
       !> Its solution, and the previous time step
       type(patch_state), intent(in) :: state
-      !> How the case continues the one before, member of time_link
+      !> Relation to the previous case, member of time_link
       integer, intent(in) :: link
-      !> Division and creepages of the solution
+      !> Element states and creepages of the solution
       type(patch_result), intent(in) :: result
-      !> The same with fewer elements
+      !> The problem on coarse elements
       type(patch_problem), intent(inout) :: coarse
-      !> On entry as the case before left it; on exit with the mean tractions of the fine solution, and the previous time step of
-      !> the coarse level
+      !> On entry the state after the previous case; on exit the estimate from the mean tractions of the fine solution, and the
+      !> previous time step of the coarse level
       type(patch_state), intent(inout) :: coarse_state
-      !> Why there is no such level, with blanks behind; blank when there is one
+      !> Reason why there is no coarse level, blank-padded; blank if there is one
       character(len=reason_length), intent(out) :: reason
       type(bounding_box) :: box
       type(coarse_axis) :: x, y
@@ -86,12 +86,12 @@ contains
       continues = has_history(fine) .and. link /= time_link%initiate
       if (continues .and. coarse_state%started) then
          if (link == time_link%repeat_step .and. coarse_state%before%grid%mx > 0) then
-            call keep_former(fine, coarse_state%before, x, y)
+            call align_with_previous(fine, coarse_state%before, x, y)
          else
-            call keep_former(fine, coarse_state%now, x, y)
+            call align_with_previous(fine, coarse_state%now, x, y)
          end if
       end if
-      ! rows of one element width each: the side of elements along the rolling direction is the step
+      ! general steps need square coarsening: the step is the side of elements along the rolling direction
       if (fine%general_step .and. x%factor /= y%factor) then
          x = coarse_axis(1, 1, fine%grid%mx)
          y = coarse_axis(1, 1, fine%grid%my)
@@ -119,38 +119,38 @@ contains
       coarse_state%creep = [result%cksi, result%ceta]
    end subroutine coarsen_patch
 
-   !> Does what is solved depend on the case before?
+   !> Does the solution depend on the previous case?
    pure logical function has_history(problem)
       type(patch_problem), intent(in) :: problem
 
       has_history = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
    end function has_history
 
-   !> Put coarse elements on the lattice of the case before, and over the contact that it had
-   pure subroutine keep_former(fine, former, x, y)
-      !> The present problem
+   !> Align coarse elements with those of the previous case, and include the contact area of that case
+   pure subroutine align_with_previous(fine, former, x, y)
+      !> The problem of the present case
       type(patch_problem), intent(in) :: fine
-      !> Coarse level of the case before
+      !> Solution of the previous case on the coarse level
       type(traction_fields), intent(in) :: former
       type(coarse_axis), intent(inout) :: x, y
       type(bounding_box) :: box
 
       box = contact_box(former%division)
-      call keep_lattice(nint((fine%grid%xl - former%grid%xl)/fine%grid%dx), box%ix0, box%ix1, x)
-      call keep_lattice(nint((fine%grid%yl - former%grid%yl)/fine%grid%dy), box%iy0, box%iy1, y)
-   end subroutine keep_former
+      call align_axis(nint((fine%grid%xl - former%grid%xl)/fine%grid%dx), box%ix0, box%ix1, x)
+      call align_axis(nint((fine%grid%yl - former%grid%yl)/fine%grid%dy), box%iy0, box%iy1, y)
+   end subroutine align_with_previous
 
-   !> The same in one direction
-   pure subroutine keep_lattice(shift, low, high, axis)
-      !> Number of fine elements that the first one of this window lies behind the beginning of the former coarse window
+   !> Alignment in one direction
+   pure subroutine align_axis(shift, low, high, axis)
+      !> Position of the first fine element relative to the start of the previous coarse grid, in fine elements
       integer, intent(in) :: shift
-      !> First and last one of the former coarse elements in contact; high < low for none
+      !> First and last coarse element in contact in the previous case; high < low for none
       integer, intent(in) :: low, high
       type(coarse_axis), intent(inout) :: axis
       integer :: start, missing
 
       if (axis%factor == 1) return
-      ! fine element at the centre of the first one of the former coarse elements
+      ! fine element at the centre of the first coarse element of the previous case
       start = 1 + beside - shift
       missing = modulo(axis%first - start, axis%factor)
       if (missing > 0) then
@@ -162,11 +162,11 @@ contains
       axis%first = axis%first - missing*axis%factor
       axis%count = axis%count + missing
       axis%count = max(axis%count, high - (axis%first - start)/axis%factor)
-   end subroutine keep_lattice
+   end subroutine align_axis
 
-   !> Coarse elements over the contact, and one more at each end where the window goes on
+   !> Coarse elements that cover the contact area, and one more at each end unless contact reaches the border
    pure subroutine choose_axis(n, low, high, axis)
-      !> Number of fine elements, the first and the last one in contact
+      !> Number of fine elements; the first and the last one in contact
       integer, intent(in) :: n, low, high
       type(coarse_axis), intent(out) :: axis
       integer :: covered, across
@@ -177,7 +177,7 @@ contains
       cut_high = high == n
       axis = coarse_axis(1, 1, n)
       if (across < fewest_across) return
-      ! a window that cuts contact off at both ends has to keep its length
+      ! a grid that cuts off contact at both ends must keep its length
       if (cut_low .and. cut_high .and. mod(n, coarsening) /= 0) return
       axis%factor = coarsening
       axis%count = (across + coarsening - 1)/coarsening
@@ -197,7 +197,7 @@ contains
       if (.not. cut_high) axis%count = axis%count + 1
    end subroutine choose_axis
 
-   !> Everything that defines the problem, on the coarse elements
+   !> The problem on the coarse elements
    subroutine coarsen_problem(fine, x, y, coarse)
       type(patch_problem), intent(in) :: fine
       type(coarse_axis), intent(in) :: x, y
@@ -231,7 +231,7 @@ contains
       if (allocated(fine%friction)) then
          if (fine%friction%varies_by_row()) coarse%friction%sets = fine%friction%sets(row)
       end if
-      ! the mean pressures of the fine solution are a better estimate, and need no room of their own
+      ! the mean pressures of the fine solution are a better estimate
       if (allocated(coarse%pressure_estimate)) deallocate(coarse%pressure_estimate)
       if (allocated(coarse%damping)) deallocate(coarse%damping)
       coarse%estimate = estimate_choice%unchanged
@@ -240,7 +240,7 @@ contains
       coarse%pressure_eps = 1.0_wp
       coarse%settings%eps = max(fine%settings%eps, coarse_eps)
       if (.not. fine%general_step) coarse%solver = solver_choice%default
-      ! steady rolling advances by elements, a step in time stays what it is
+      ! in steady rolling the step is one element; a time step is not changed
       if (fine%motion == motion%steady_rolling) then
          coarse%dq = x%factor*fine%dq
       else if (fine%corrects_leading_edge) then
@@ -248,11 +248,11 @@ contains
       end if
    end subroutine coarsen_problem
 
-   !> Undeformed distance at the centres of coarse elements; continued by parabolas outside the fine window
+   !> Undeformed distance at the centres of coarse elements; extrapolated by parabolas outside the fine grid
    pure subroutine coarsen_distance(fine, x, y, h)
       type(patch_problem), intent(in) :: fine
       type(coarse_axis), intent(in) :: x, y
-      !> [mm], shape (x%count, y%count)
+      !> Undeformed distance [mm], shape (x%count, y%count)
       real(wp), allocatable, intent(inout) :: h(:, :)
       real(wp), allocatable :: lines(:, :)
       integer :: i, k
@@ -272,7 +272,7 @@ contains
       end do
    end subroutine coarsen_distance
 
-   !> Value at a place of a line, or beyond its ends by the parabola through the last three
+   !> Value at a position of a line; beyond its ends extrapolated by the parabola through the last three values
    pure real(wp) function value_at(line, i) result(value)
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
@@ -297,7 +297,7 @@ contains
       value = last(1) + distance*(last(1) - last(2)) + 0.5_wp*distance*(distance + 1)*(last(1) - 2.0_wp*last(2) + last(3))
    end function value_at
 
-   !> One time step: forces of an element are spread over the coarse one that contains it
+   !> One time step: the force of a fine element is distributed over the coarse element that contains it
    subroutine coarsen_step(fine, step, x, y, coarse, mean)
       type(patch_problem), intent(in) :: fine
       type(traction_fields), intent(in) :: step

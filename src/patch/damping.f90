@@ -1,8 +1,8 @@
 !> Damping forces proportional to the rate of the contact forces
 !>
-!> Between two moments the elastic forces change; a force in proportion to their rate, of limited size, is
-!> meant for time integration of vehicles. It has no influence on the contact problem itself, and
-!> the elastic forces are what is reported elsewhere.
+!> The damping force is proportional to the change of the elastic contact forces between two time steps, with limited rate. It
+!> serves the time integration of vehicle models. It does not influence the contact problem; all other outputs give the elastic
+!> forces.
 module contact_patch_damping
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -10,26 +10,26 @@ module contact_patch_damping
 
    public :: damping_law, damping_forces
 
-   !> Proportional damping; first the normal force, then both tangential ones
+   !> Proportional damping; first value for the normal force, second value for both tangential forces
    type :: damping_law
-      !> Damping force per rate [s]
+      !> Damping coefficient [s]
       real(wp) :: coefficient(2) = 0.0_wp
-      !> Largest rate that counts [N/s], positive or zero
+      !> Upper bound of the rate [N/s], not negative
       real(wp) :: largest_rate(2) = 0.0_wp
    end type damping_law
 
-   !> Time steps below this one count as this one [s]
+   !> Lower bound of the time step [s]
    real(wp), parameter :: min_step = 1.0e-20_wp
 
 contains
 
-   !> Forces that come on top of the elastic ones [N]
+   !> Damping forces, in addition to the elastic forces [N]
    pure function damping_forces(law, before, now, dt) result(force)
-      !> Coefficients and the largest forces
+      !> Coefficients and bounds of the rates
       type(damping_law), intent(in) :: law
       !> Elastic forces Fn, Fx, Fy of the previous and the present time step [N]
       real(wp), intent(in) :: before(3), now(3)
-      !> Time between both [s]
+      !> Time step [s]
       real(wp), intent(in) :: dt
       real(wp) :: force(3)
       integer, parameter :: kind_of(3) = [1, 2, 2]

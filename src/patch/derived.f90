@@ -1,4 +1,4 @@
-!> Totals and fields that follow from the tractions of a patch
+!> Totals and fields derived from the tractions of a patch
 module contact_patch_derived
    use contact_base_choices, only : estimate_choice, motion
    use contact_base_constants, only : nmm_per_joule
@@ -16,18 +16,18 @@ module contact_patch_derived
 
    public :: complete, derive, remember_friction, reset_result
 
-   !> Velocities below this value give the time step of this one [mm/s]
+   !> Lower bound of the velocity in the computation of the time step [mm/s]
    real(wp), parameter :: min_velocity = 1.0e-10_wp
 
 contains
 
-   !> Start values of a result
+   !> Initial values of a result
    subroutine reset_result(problem, state, result)
-      !> Size of the grid; which fields are wanted
+      !> Size of the grid, and quantities known in advance
       type(patch_problem), intent(in) :: problem
-      !> Present tractions, the estimate of the solution
+      !> Estimate of the creepages
       type(patch_state), intent(in) :: state
-      !> Gets its arrays, zero, and what is known before anything is solved
+      !> Its arrays get the size of the grid and initial values
       type(patch_result), intent(inout) :: result
       integer :: mx, my
 
@@ -90,15 +90,15 @@ contains
       result%division = element%exterior
    end subroutine reset_result
 
-   !> Totals and fields that follow from the tractions
+   !> Totals and fields derived from the tractions
    subroutine derive(problem, state, workspace, result)
-      !> Elasticity, motion, and what the case wants to know
+      !> Elasticity, motion, and requested outputs
       type(patch_problem), intent(in) :: problem
-      !> Solved tractions; gets approach and creepages for later cases
+      !> Solved tractions; approach and creepages are stored for later cases
       type(patch_state), intent(inout) :: state
       !> Compliances, and the displacements of the last solutions
       type(patch_workspace), intent(inout) :: workspace
-      !> Slip and coefficients of friction on entry; gets totals and fields
+      !> Slip and coefficients of friction on entry; totals and fields are set
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
       real(wp) :: area, scale
@@ -176,22 +176,22 @@ contains
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
 
-   !> Are displacements wanted later, if at all? What is left of coupled conditions is judged by them
+   !> Are displacements deferred to `complete`? Not for moving coupled bodies, whose residual needs them
    pure logical function is_deferred(problem)
       type(patch_problem), intent(in) :: problem
       is_deferred = problem%defers_displacements .and. (problem%motion == motion%none .or. allocated(problem%simplified) &
          & .or. .not. problem%model%coupled())
    end function is_deferred
 
-   !> Displacements and elastic energy that were left out
+   !> Compute displacements and elastic energy that were deferred
    subroutine complete(problem, state, workspace, result)
-      !> As in `derive`
+      !> See `derive`
       type(patch_problem), intent(in) :: problem
       !> Solved tractions
       type(patch_state), intent(in) :: state
       !> Compliances
       type(patch_workspace), intent(inout) :: workspace
-      !> Derived from the same tractions; gets displacements and energy
+      !> Derived from the same tractions; displacements and energy are set
       type(patch_result), intent(inout) :: result
 
       if (result%ncon == 0 .or. .not. is_deferred(problem)) return
@@ -199,7 +199,7 @@ contains
       call derive_energy(problem, result)
    end subroutine complete
 
-   !> Elastic energy, where displacements are known
+   !> Elastic energy, if displacements are known
    pure subroutine derive_energy(problem, result)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
@@ -212,7 +212,7 @@ contains
       end if
    end subroutine derive_energy
 
-   !> Displacement differences in simplified theory: tangential ones by springs, normal ones by half-spaces
+   !> Displacement differences in simplified theory: tangential ones of the springs, normal ones of half-spaces
    subroutine spring_displacements(problem, state, workspace, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -228,13 +228,13 @@ contains
       end if
    end subroutine spring_displacements
 
-   !> What particles carry along of friction, where it matters
+   !> Store friction data that particles carry along, if later time steps depend on them
    subroutine remember_friction(problem, result, state)
-      !> Does anything depend on the past of friction?
+      !> The case; `remembers_friction` says whether they are needed
       type(patch_problem), intent(in) :: problem
       !> Coefficients of friction and slip of the solution
       type(patch_result), intent(in) :: result
-      !> Gets them as those of the present time step
+      !> Its present time step is set
       type(patch_state), intent(inout) :: state
 
       if (.not. problem%remembers_friction) return
@@ -243,7 +243,7 @@ contains
       state%now%memory(carried%sy)%value = result%sy
    end subroutine remember_friction
 
-   !> Displacement differences: on the contact area, or on the whole window when wanted
+   !> Displacement differences, on the contact area or, if requested, on the whole grid
    subroutine displacements(problem, state, box, workspace, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -284,7 +284,7 @@ contains
       workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
       call workspace%box%normal(workspace%box_pn, workspace%box_un)
       result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
-      ! the last step of a height may have been to first order
+      ! the last step of a height search may have been a linear extrapolation
       workspace%solution%p(:, :, 1) = state%now%px(box%ix0:box%ix1, box%iy0:box%iy1)
       workspace%solution%p(:, :, 2) = state%now%py(box%ix0:box%ix1, box%iy0:box%iy1)
       call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
@@ -310,9 +310,9 @@ contains
       end do
    end subroutine displacements
 
-   !> Residual of the coupled conditions: normal gaps with the final tangential tractions
+   !> Residual of the coupled conditions: deformed distance with the final tangential tractions
    !>
-   !> The tangential problem was solved last, with the final pressures; its own residual counts.
+   !> The tangential problem was solved last, with the final pressures, so that its own residual is valid.
    subroutine coupled_residual(problem, box, result)
       type(patch_problem), intent(in) :: problem
       type(bounding_box), intent(in) :: box
@@ -328,7 +328,7 @@ contains
             worst = max(worst, abs(gap))
          end do
       end do
-      ! the displacements are those without the factors between parts
+      ! the displacements do not include the factors between parts
       if (.not. problem%solves_for_pressure() .or. allocated(problem%parts)) return
       result%residual = max(result%tangential%residual, worst/approach_scale(result%pen, minval(result%h), worst))
    end subroutine coupled_residual

@@ -1,9 +1,9 @@
-!> Estimated errors of the totals of a solved patch: of the elements, of the solvers, and of the window
+!> Estimated errors of the totals of a solved patch: discretisation, solvers, and contact cut off at the border
 !>
-!> The same contact is solved with elements three times as long (contact_patch_coarse_level), from the mean tractions of the
-!> solution. What the totals of both differ by, divided by 3^p - 1, is the error of the elements where its order p is clean. It
-!> is not where edges of contact lie anywhere within elements: the difference of two levels may be small by accident. The
-!> estimate is therefore not less than a part of the error that contacts of so many elements have in general; see
+!> The same contact is solved on elements three times as long (contact_patch_coarse_level), starting from the mean tractions of the
+!> solution. The difference of the totals on both levels, divided by 3^p - 1, estimates the discretisation error where its order p
+!> is clean. It is not clean because edges of contact have arbitrary positions within elements: the difference of two levels may be
+!> small by accident. The estimate is therefore bounded below by a fraction of the typical error with this number of elements; see
 !> doc/theory/errors.md.
 module contact_patch_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
@@ -34,38 +34,38 @@ module contact_patch_error_estimate
       type(patch_state) :: state
       type(patch_workspace) :: workspace
       type(patch_result) :: result
-      !> Without screen and file: the coarse solution has nothing to tell
+      !> Log without screen and file: nothing is reported about the coarse solution
       type(log_type) :: log
    end type coarse_level
 
-   !> Why there is no estimate after a failure of the coarse level
+   !> Reason why there is no estimate when the coarse level failed
    character(len=*), parameter :: no_solution = "the coarser level has no solution"
 
 contains
 
-   !> Free what the level holds outside Fortran's memory
+   !> Free the memory that the level holds outside Fortran
    subroutine release_coarse_level(level)
-      !> Its plans are freed; may be used again
+      !> Its plans are freed; it may be used again
       type(coarse_level), intent(inout) :: level
 
       call release_workspace(level%workspace)
    end subroutine release_coarse_level
 
-   !> Estimate the errors of all totals of a patch that stands for itself
+   !> Estimate the errors of all totals of a single patch
    subroutine estimate_errors(problem, state, link, order, level, result, error)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
       !> Its solution, and the previous time step
       type(patch_state), intent(in) :: state
-      !> How the case continues the one before, member of time_link
+      !> Relation to the previous case, member of time_link
       integer, intent(in) :: link
       !> Order of the scheme of the tangential problem, 1 or 2
       integer, intent(in) :: order
-      !> Scratch
+      !> Work space
       type(coarse_level), intent(inout) :: level
-      !> Solved; gets `errors`
+      !> Solution; `errors` is set
       type(patch_result), intent(inout) :: result
-      !> Allocated when time is up
+      !> Allocated if the time limit is exceeded
       type(error_type), allocatable, intent(out) :: error
 
       call solve_coarse_level(problem, state, link, level, result, error)
@@ -78,13 +78,13 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Its solution, and the previous time step
       type(patch_state), intent(in) :: state
-      !> How the case continues the one before, member of time_link
+      !> Relation to the previous case, member of time_link
       integer, intent(in) :: link
-      !> Gets the coarse problem and its result
+      !> The coarse problem and its result are stored
       type(coarse_level), intent(inout) :: level
-      !> Solved; gets `errors`, without values, and with a reason where there is no coarse level
+      !> Solution; `errors` is set, without values, and with a reason if there is no coarse level
       type(patch_result), intent(inout) :: result
-      !> Allocated when time is up
+      !> Allocated if the time limit is exceeded
       type(error_type), allocatable, intent(out) :: error
       type(total_list) :: list
 
@@ -113,16 +113,16 @@ contains
       end associate
    end subroutine solve_coarse_level
 
-   !> Errors from the totals of both levels
+   !> Errors from the totals on both levels
    subroutine compare_levels(problem, order, level, result, approach_change)
       type(patch_problem), intent(in) :: problem
       !> See estimate_errors
       integer, intent(in) :: order
-      !> Solved
+      !> Solved coarse level
       type(coarse_level), intent(in) :: level
-      !> Gets values in `errors`, where there is no reason against them
+      !> Values in `errors` are set, unless there is a reason against it
       type(patch_result), intent(inout) :: result
-      !> Change of the approach of the coarse level that keeps a prescribed total force [mm]; absent: the problem is complete
+      !> Change of the approach of the coarse level that keeps a prescribed total force [mm]; absent for a single patch
       real(wp), intent(in), optional :: approach_change
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
@@ -176,16 +176,16 @@ contains
       end do
    end subroutine compare_levels
 
-   !> Power of the motion on both levels beside that of friction, in steady rolling
+   !> Power of the motion on both levels, compared with frictional power, in steady rolling
    pure subroutine compare_powers(problem, result, level, load, scale)
       type(patch_problem), intent(in) :: problem
       !> Solved
       type(patch_result), intent(in) :: result
       !> Solved
       type(coarse_level), intent(in) :: level
-      !> Normal force over that of the coarse level [-]
+      !> Ratio of the normal force to that of the coarse level [-]
       real(wp), intent(in) :: load
-      !> Gets what belongs to power
+      !> The components that concern power are set
       type(scale_type), intent(inout) :: scale
       real(wp) :: power(2)
 
@@ -199,18 +199,18 @@ contains
       scale%coarse_surplus = load*level%result%friction_power - power(2)
    end subroutine compare_powers
 
-   !> Change of the normal force with the approach: computed, or by Hertz's theory [N/mm]
+   !> Derivative of the normal force with respect to the approach: computed, or by Hertz's theory [N/mm]
    pure real(wp) function normal_stiffness(result) result(stiffness)
       !> Solved
       type(patch_result), intent(in) :: result
-      !> FN is in proportion to the approach to this power
+      !> FN is proportional to this power of the approach
       real(wp), parameter :: hertz_power = 1.5_wp
 
       stiffness = result%sensitivity(1, 1)
       if (.not. stiffness > 0.0_wp) stiffness = hertz_power*result%fn/max(result%pen - minval(result%h), tiny(stiffness))
    end function normal_stiffness
 
-   !> Power of the normal force that a total is in proportion to, by Hertz's theory with fixed creepages
+   !> Exponent of the normal force to which a total is proportional, by Hertz's theory with fixed creepages [-]
    pure real(wp) function power_of_load(row) result(power)
       type(total), intent(in) :: row
 
@@ -236,7 +236,7 @@ contains
    pure logical function is_given(problem, name, in_pair) result(given)
       type(patch_problem), intent(in) :: problem
       character(len=*), intent(in) :: name
-      !> Is it a patch of wheel and rail whose height follows from a force?
+      !> Is it a patch of wheel and rail whose height is determined by a force?
       logical, intent(in) :: in_pair
 
       select case (name)
@@ -259,12 +259,12 @@ contains
       end select
    end function is_given
 
-   !> Largest estimated error of the normal force or the approach, of the tangential forces, their moment, and creepages that are
-   !> found, each relative to its scale [-]; negative where there is no estimate
+   !> Largest estimated error of the normal force or the approach, the tangential forces, their moment, and creepages that are
+   !> found, each relative to its scale [-]; negative without estimate
    pure real(wp) function error_of_forces(problem, result) result(e)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
-      !> Solved, with errors
+      !> Solution with estimated errors
       type(patch_result), intent(in) :: result
       type(total_list) :: list
       type(scale_type) :: scale
@@ -277,14 +277,14 @@ contains
       scale = scales(problem, max(1, result%tangential%order), result)
       do k = 1, list%length
          if (all(list%rows(k)%law /= [error_law%normal, error_law%friction, error_law%creepage])) cycle
-         ! NaN, where there is no estimate of one of them, is no maximum
+         ! NaN, without estimate for one of them, is skipped
          if (.not. (result%errors%value(k) >= 0.0_wp .and. scale_of(list%rows(k), scale) > 0.0_wp)) cycle
-         ! relative forces are forces a second time, with a scale of 1
+         ! relative forces repeat the forces, with a scale of 1
          e = max(e, result%errors%value(k)/scale_of(list%rows(k), scale))
       end do
    end function error_of_forces
 
-   !> Part of the load that contact beyond the window would carry
+   !> Fraction of the normal force that contact beyond the border would carry [-]
    pure real(wp) function cut_off(problem, result) result(part)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(in) :: result

@@ -1,4 +1,4 @@
-!> What the errors of the totals of a patch are relative to, and what decides about their size, see contact_patch_level_errors
+!> Scales of the errors of the totals of a patch, and quantities that determine their size, see contact_patch_level_errors
 module contact_patch_error_scales
    use contact_base_choices, only : heat_source, motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
@@ -15,98 +15,100 @@ module contact_patch_error_scales
 
    !> Order of the normal problem
    real(wp), parameter :: normal_order = 2.0_wp
-   !> Of forces in steady rolling by both schemes; the second one shows this order from 15 to 45 elements on, with its jitter
+   !> Orders of forces in steady rolling for both schemes; the order of the second one is observed from 15 to 45 elements, with
+   !> scatter
    real(wp), parameter :: first_order = 1.0_wp, second_order = 1.6_wp
-   !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
-   !> centre: its share falls with the root of the element
+   !> Order of the maximum of a field whose peak is resolved; order of temperatures that count the heat of an element twice at its
+   !> centre: its contribution decreases with the square root of the element length
    real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp
-   !> Few rows of elements stand for plane strain where they are longer than the contact by this factor; chosen
+   !> A grid of few rows represents plane strain if their width exceeds the length of contact by this factor; chosen
    real(wp), parameter :: plane = 4.0_wp
-   !> Part of the alternation of a rough surface that peaks between centres of elements have; that of noise is the root of 15 of its
-   !> standard deviation; chosen with tests/stability/hard_wheels.py
+   !> Fraction of the alternation of a rough surface by which peaks between centres of elements may rise; for noise the alternation
+   !> is sqrt(15) times the standard deviation; chosen with tests/stability/hard_wheels.py
    real(wp), parameter :: roughness_share = 0.25_wp
-   !> Of unlike bodies, pressures decide where slip turns round: what an error of stopping of pressures becomes in forces then, also
-   !> with adhesion over this part of the contact in between. Measured with rollers of aluminium and steel, EPS from 1e-2 to 1e-5
+   !> For bodies of different materials, pressures determine where slip reverses: amplification of the solver error of pressures in
+   !> the forces, also if an adhesion area of at most this fraction of the contact lies in between. Measured with rollers of
+   !> aluminium and steel, EPS from 1e-2 to 1e-5
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
-   !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors,
-   !> too; of shifts, whose errors in full sliding are half as large as others (seed 8102)
+   !> Lower bounds of the fraction of elements in adhesion: in full sliding the directions of slip have errors, too; for shifts,
+   !> whose errors in full sliding are half as large as others (seed 8102)
    real(wp), parameter :: least_adhesion = 0.02_wp, least_in_shifts = 0.25_wp
 
-   !> What is common to all totals of a patch
+   !> Quantities common to all totals of a patch
    type :: scale_type
-      !> Elements across the contact in the direction that has fewest
+      !> Number of elements across the contact in the direction with fewest elements
       real(wp) :: across = 1.0_wp
-      !> Force and moment that friction bears at most [N, N mm]
+      !> Maximum frictional force and moment [N, N mm]
       real(wp) :: force = 0.0_wp, moment = 0.0_wp
-      !> Larger one of the two creepages; power, or work, if all of the contact slid with it and with the spin [W, J]
+      !> The larger one of the two creepages; power, or work, if the whole contact slid with the creepages or with the spin [W, J]
       real(wp) :: creep = 0.0_wp, power = 0.0_wp
-      !> Part of the elements in contact that does not slip [-]
+      !> Fraction of the elements in contact without slip, with a lower bound [-]
       real(wp) :: adhesion = 0.0_wp
-      !> The same, where it may be zero [-]
+      !> The same without lower bound [-]
       real(wp) :: sticking = 0.0_wp
-      !> Part of the friction bound that elements carry where slip turns round from one to the next [-]
+      !> Fraction of the traction bound carried by neighbouring elements between which slip reverses [-]
       real(wp) :: reversal = 0.0_wp
-      !> What an error of stopping of pressures becomes in tangential forces, at least
+      !> Lower bound of the tangential forces' solver error, relative to that of the pressures [-]
       real(wp) :: gain = 0.0_wp
-      !> Differences of the levels in tangential forces, relative to the largest one [-]
+      !> Maximum difference of the levels in tangential forces, relative to their scale [-]
       real(wp) :: friction = 0.0_wp
-      !> Are both forces prescribed, so that the moment alone has an error?
+      !> Are both tangential forces prescribed, so that only the moment has an error?
       logical :: is_moment_alone = .false.
-      !> Tangential tractions over what friction bears [-]
+      !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
-      !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Does it go in steps of transient rolling?
+      !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
-      !> Length of a step of transient rolling [elements]
+      !> Length of a step of transient rolling, in elements [-]
       real(wp) :: step = 0.0_wp
-      !> Relative error of the normal problem by the levels, over that of so many elements in general, at least 1
+      !> Ratio of the relative error of the normal problem by the levels to the typical one with this number of elements, at least 1
       real(wp) :: irregular = 1.0_wp
-      !> May what the levels tell be a rare sample of an error that jumps with the offset of the grid?
+      !> May the difference of the levels be an unlikely sample of an error that varies with the offset of the grid?
       logical :: jumps = .false.
-      !> Length of an element over that of relaxation of viscoelastic bodies, at most 1; 0: elastic
+      !> Ratio of element length to relaxation length of viscoelastic bodies, at most 1; 0: elastic
       real(wp) :: relaxation = 0.0_wp
-      !> Of the highest temperatures
+      !> Order of the highest temperatures
       real(wp) :: heat_order = peak_order
-      !> Difference of the levels in the mean coefficient of friction, relative to it, where it follows temperatures [-]
+      !> Relative difference of the levels in the mean coefficient of friction, if it depends on temperature [-]
       real(wp) :: warmed = 0.0_wp
-      !> How far a rough surface may rise between centres of elements, over the approach [-]
+      !> Possible rise of a rough surface between centres of elements, relative to the approach [-]
       real(wp) :: roughness = 0.0_wp
-      !> Difference parameter K of unlike bodies [-]
+      !> Magnitude of the difference parameter K of the materials [-]
       real(wp) :: coupling = 0.0_wp
-      !> The same over the coefficient of friction, at most 1 [-]
+      !> Ratio of `coupling` to the coefficient of friction, at most 1 [-]
       real(wp) :: driven = 0.0_wp
-      !> Elements along each side of a square of as many as in the box around the contact
+      !> Geometric mean of the number of elements across the contact in both directions
       real(wp) :: mean_across = 1.0_wp
-      !> Root of the mean square of the deviations of the coefficient of friction, over its mean, where it follows slip [-]
+      !> Root mean square deviation of the coefficient of friction, relative to its mean, if it depends on slip velocity [-]
       real(wp) :: falling = 0.0_wp
-      !> How far slip turns across the contact, by the second order of steady rolling, at most half a turn [rad]
+      !> Turning of the slip direction across the contact, for the second order in steady rolling, at most half a turn [rad]
       real(wp) :: turning = 0.0_wp
-      !> Power that the motion gives and friction does not take, and what the levels differ by in that of the motion [W]
+      !> Frictional power minus power of the motion; difference of the levels in the power of the motion [W]
       real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
-      !> The first of these of the coarser level [W]
+      !> Frictional power minus power of the motion on the coarse level [W]
       real(wp) :: coarse_surplus = 0.0_wp
-      !> Is the power of the motion known? Does friction take all of it in the exact solution?
+      !> Is the power of the motion known? Does frictional power equal it in the exact solution?
       logical :: has_motion_power = .false., balances = .false.
-      !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
+      !> Elastic energy of pressures and of tractions, and differences of the levels in them [J]
       real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
-      !> Error of the part of pressures with its sign [J]; is it known?
+      !> Error of the elastic energy of pressures with its sign [J]; is it known?
       real(wp) :: normal_energy = 0.0_wp
       logical :: has_normal_energy = .false.
    end type scale_type
 
 contains
 
-   !> Mean coefficient of friction, weighted with pressures [-]
+   !> Mean coefficient of friction, weighted with pressure [-]
    pure real(wp) function mean_friction(result) result(mu)
-      !> Solved, in contact
+      !> Solution, with contact
       type(patch_result), intent(in) :: result
 
       mu = sum(result%mu*result%pn)/max(sum(result%pn), tiny(mu))
    end function mean_friction
 
-   !> Root of the mean square of its deviations, weighted with pressures, over the mean [-]
+   !> Root mean square deviation of the coefficient of friction, weighted with pressure, relative to its mean [-]
    pure real(wp) function deviation_of_friction(result) result(deviation)
-      !> Solved, in contact
+      !> Solution, with contact
       type(patch_result), intent(in) :: result
       real(wp) :: mean
 
@@ -114,10 +116,10 @@ contains
       deviation = sqrt(sum((result%mu - mean)**2*result%pn)/max(sum(result%pn), tiny(mean)))/max(mean, tiny(mean))
    end function deviation_of_friction
 
-   !> What totals are compared with
+   !> Compute the scales of a solution
    pure function scales(problem, order, result) result(scale)
       type(patch_problem), intent(in) :: problem
-      !> Of the scheme of the tangential problem, 1 or 2
+      !> Order of the scheme of the tangential problem, 1 or 2
       integer, intent(in) :: order
       type(patch_result), intent(in) :: result
       type(scale_type) :: scale
@@ -164,9 +166,9 @@ contains
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx
-      ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
+      ! a time step is longer than some elements and shorter than others; a layer adds a length scale
       scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
-      ! tractions are singular at edges that are given
+      ! tractions are singular at prescribed edges
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then
          if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
@@ -183,14 +185,14 @@ contains
       end if
    end function scales
 
-   !> Noise of the undeformed distance along x, where contact has a part [mm]: root of the mean product of third differences of
-   !> neighbours, whose signs alternate; zero for what is smooth, as these have the same sign, and for waves of a few elements, as
-   !> those of next neighbours do not
+   !> Noise of the undeformed distance along x, in and next to the contact area [mm]: root mean product of third differences of
+   !> neighbours, whose signs alternate; zero for smooth surfaces, where these have equal sign, and for waves of a few elements,
+   !> where those of next-nearest neighbours have opposite sign
    pure real(wp) function alternation(h, division) result(noise)
-      !> [mm], and states of the elements; shape (mx, my)
+      !> Undeformed distance [mm] and element states, shape (mx, my)
       real(wp), intent(in) :: h(:, :)
       integer, intent(in) :: division(:, :)
-      !> Product of third differences of next neighbours over that of neighbours, for white noise
+      !> Ratio of the products of third differences of next-nearest and nearest neighbours, for white noise
       real(wp), parameter :: ratio = 0.4_wp
       real(wp) :: third(3), alike(2)
       integer :: ix, iy, n

@@ -1,10 +1,10 @@
 !> Friction that depends on slip velocity or temperature: iteration around the tangential problem
 !>
-!> Coefficients give slip, slip gives coefficients. The caller solves with given coefficients, hands
-!> over the slip and gets new coefficients, until the slip velocities (or temperatures) no longer
-!> change. Falling friction may have several solutions. More slip makes less friction, which makes
-!> more slip: started without slip, the iteration climbs to the solution with the least slip; started with
-!> the velocity of rolling, it descends to the one with the most. Hence nothing here may overshoot.
+!> Coefficients of friction determine slip, and slip determines coefficients. The caller solves the tangential problem with given
+!> coefficients, passes the slip, and receives new coefficients, until slip velocities (or temperatures) no longer change. Falling
+!> friction may have several solutions: more slip reduces friction, which increases slip. Started without slip, the iteration
+!> increases to the solution with least slip; started with the rolling velocity, it decreases to the one with most slip. Hence it
+!> must not overshoot.
 module contact_patch_friction_iteration
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -24,24 +24,24 @@ module contact_patch_friction_iteration
 
    !> State of the iteration
    type :: friction_iteration
-      !> Member of ending; not_started while the iteration goes on
+      !> Member of ending; not_started while the iteration continues
       integer :: ended = 0
-      !> Solutions handed over so far, and how many of them in a row had not converged
+      !> Number of solutions so far, and number of successive solutions that did not converge
       integer :: passes = 0, failures = 0
-      !> Last change of slip velocity [mm/s] or temperature [degC], and its size; root mean squares
+      !> Last change of slip velocity [mm/s] or temperature [degC], and its magnitude; root mean squares
       real(wp) :: change = 0.0_wp, size = 0.0_wp
       !> Slip velocity of the present coefficients [mm/s], shape (mx, my)
       real(wp), allocatable, private :: speed(:, :)
-      !> Temperature of body 1 with the present coefficients [degC], shape (mx, my)
+      !> Temperature of body 1 for the present coefficients [degC], shape (mx, my)
       real(wp), allocatable, private :: temperature(:, :)
-      !> Scratch: velocities or temperatures of the new solution and of the last one, and coefficients of the last
-      !> one, shape (mx, my)
+      !> Work space: velocities or temperatures of the new solution and of the last one, and coefficients of the last one, shape
+      !> (mx, my)
       real(wp), allocatable, private :: new(:, :), last(:, :), last_mu(:, :)
       !> Time step [s]
       real(wp), private :: dt = 1.0_wp
-      !> Factor of the changes where friction has risen, see problem%slip_relaxation
+      !> Relaxation factor where friction has increased, see problem%slip_relaxation [-]
       real(wp), private :: omega = 1.0_wp
-      !> Number of slip elements of the last solution, -1 before
+      !> Number of slip elements of the last solution, -1 before the first one
       integer, private :: slipping = -1
    contains
       procedure :: start
@@ -50,20 +50,20 @@ module contact_patch_friction_iteration
       procedure, private :: set_coefficients
    end type friction_iteration
 
-   !> Relative change of slip velocities or temperatures at which the iteration ends
+   !> Relative change of slip velocities or temperatures at which the iteration has converged
    real(wp), parameter :: speed_tolerance = 1.0e-3_wp, temperature_tolerance = 1.0e-4_wp
-   !> The relaxation is reduced by this factor every so many passes in which elements still change state
+   !> The relaxation factor is multiplied by `reduction` after every so many passes, while the number of slip elements still changes
    real(wp), parameter :: reduction = 0.8_wp
    integer, parameter :: speed_patience = 20, temperature_patience = 15
-   !> Passes that MAXIN allows in excess of those of the friction iteration
+   !> Passes that are deducted from MAXIN to get the limit of the friction iteration
    integer, parameter :: spare_passes = 10
 
-   !> After that many solutions in a row that did not converge, more of them will not either
+   !> Number of successive solutions without convergence after which the iteration is given up
    integer, parameter :: max_failures = 10
 
 contains
 
-   !> First coefficients of a case, or those on a contact area that has changed
+   !> Initial coefficients of a case, or coefficients on a changed contact area
    subroutine start(self, problem, state, dt, is_first, mu)
       class(friction_iteration), intent(inout) :: self
       !> Friction law with its memory, pressures, motion
@@ -72,7 +72,7 @@ contains
       type(patch_state), intent(in) :: state
       !> Time step [s]
       real(wp), intent(in) :: dt
-      !> First outer iteration of a case? Later ones continue
+      !> First outer iteration of a case? Later ones continue from the last coefficients
       logical, intent(in) :: is_first
       !> Coefficients of friction [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -96,20 +96,20 @@ contains
       call self%set_coefficients(problem, state, mu)
    end subroutine start
 
-   !> Take a solution; choose the next coefficients or end
+   !> Process a solution: choose the next coefficients, or end the iteration
    subroutine advance(self, problem, state, box, solution, converged, log, mu)
       class(friction_iteration), intent(inout) :: self
       !> Friction law with its memory, tolerance and limit of the iteration
       type(patch_problem), intent(in) :: problem
       !> Coefficients and slip of the same particles at the previous time step
       type(patch_state), intent(in) :: state
-      !> Part of the grid on which the solution is
+      !> Part of the grid that the solution covers
       type(bounding_box), intent(in) :: box
       !> Tractions and slip with the coefficients on entry
       type(tangential_solution), intent(in) :: solution
       !> Did the tangential problem reach its tolerance?
       logical, intent(in) :: converged
-      !> Takes a line per iteration from flow-trace level 2 on
+      !> Gets a line per iteration from flow-trace level 2 on
       type(log_type), intent(inout) :: log
       !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -123,7 +123,7 @@ contains
       slipping = count(solution%division == element%slip)
       self%last = self%speed
       self%last_mu = mu
-      ! of the shape of the grid
+      ! allocation with the shape of the grid
       self%new = mu
       self%new = 0.0_wp
       do iy = box%iy0, box%iy1
@@ -155,7 +155,7 @@ contains
          self%ended = ending%stagnated
       end if
       if (by_temperature) then
-         ! the tractions are those of the coefficients that they were computed with
+         ! the result has the coefficients with which the tractions were computed
          if (self%ended /= ending%not_started .and. slipping > 0) mu = self%last_mu
          return
       end if
@@ -165,7 +165,7 @@ contains
          return
       end if
       if (self%passes > 1) then
-         call bring_along(problem, state, mu, self%last_mu)
+         call previous_coefficients(problem, state, mu, self%last_mu)
          where (self%new > 0.0_wp .and. mu > self%last_mu) &
             & self%new = max(0.0_wp, self%new + (self%omega - 1.0_wp)*(self%new - self%last))
       end if
@@ -193,13 +193,13 @@ contains
       end if
    end subroutine set_coefficients
 
-   !> Coefficients that particles bring along: of the previous time, in steady rolling of the previous element
-   subroutine bring_along(problem, state, mu, before)
+   !> Previous coefficients of the particles: of the previous time step, in steady rolling of the neighbouring element upstream
+   subroutine previous_coefficients(problem, state, mu, before)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       !> Present coefficients [-], shape (mx, my)
       real(wp), contiguous, intent(in) :: mu(:, :)
-      !> Shape (mx, my)
+      !> Coefficients of friction of the particles one step before [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: before(:, :)
       integer :: mx
 
@@ -213,9 +213,9 @@ contains
          before(2:, :) = mu(:mx - 1, :)
          before(1, :) = problem%static_mu
       end if
-   end subroutine bring_along
+   end subroutine previous_coefficients
 
-   !> Coefficients and temperatures that belong together, for the present slip velocities
+   !> Consistent coefficients and temperatures for the present slip velocities
    subroutine heat_up(self, problem, state, mu)
       class(friction_iteration), intent(inout) :: self
       type(patch_problem), intent(in) :: problem
@@ -234,7 +234,7 @@ contains
       end select
    end subroutine heat_up
 
-   !> Root mean squares over the contact area of a change and of the new values
+   !> Root mean squares over the contact area of the change and of the new values
    pure subroutine measure(new, old, division, change, size_)
       real(wp), intent(in) :: new(:, :), old(:, :)
       integer, intent(in) :: division(:, :)
@@ -263,7 +263,7 @@ contains
          & problem%friction%driver() == friction_driver%temperature)
    end subroutine report_iteration
 
-   !> Line of the flow trace about a pass
+   !> Line of the flow trace for one pass
    subroutine trace_pass(log, iteration, by_temperature, adhering, slipping, tolerance)
       type(log_type), intent(inout) :: log
       type(friction_iteration), intent(in) :: iteration

@@ -14,7 +14,7 @@ module contact_patch_heat
 
 contains
 
-   !> The way of the surfaces through the contact area
+   !> Motion of the surfaces through the contact area
    pure function new_heat_passage(problem, division) result(passage)
       !> Must have thermal constants
       type(patch_problem), intent(in) :: problem
@@ -30,13 +30,13 @@ contains
       passage%contact = division > element%exterior
    end function new_heat_passage
 
-   !> Temperatures of both surfaces from slip and tractions; bulk temperatures where nothing moves
+   !> Temperatures of both surfaces from slip and tractions; bulk temperatures without motion
    subroutine derive_temperatures(problem, log, result)
       !> Thermal constants, friction law, motion and step
       type(patch_problem), intent(in) :: problem
-      !> Told when the steps are too long for the model
+      !> Gets a warning if the steps are too long for the model
       type(log_type), intent(inout) :: log
-      !> Solved, with element states, slip and tractions
+      !> Solution with element states, slip and tractions
       type(patch_result), intent(inout) :: result
       type(heat_passage) :: passage
       real(wp), allocatable :: heat(:, :), way(:, :)
@@ -50,7 +50,7 @@ contains
       passage = new_heat_passage(problem, result%division)
       way = hypot(result%sx, result%sy)
       if (allocated(result%uplx)) then
-         ! plastic displacement of the step: what the next element upstream does not have yet
+         ! plastic displacement of the step: the difference to the next element upstream
          ahead = rolling_direction(problem)
          way = way + problem%thermal%plastic_share*hypot(result%uplx - eoshift(result%uplx, ahead), &
             & result%uply - eoshift(result%uply, ahead))
@@ -60,7 +60,7 @@ contains
       if (any(heat > 0.0_wp)) call warn_of_slow_motion(problem, log, result)
    end subroutine derive_temperatures
 
-   !> Temperatures are those of fast motion: warn where heat spreads along the surface as fast as it is carried along
+   !> The temperatures hold for fast motion: warn if conduction along the surface is as fast as convection
    subroutine warn_of_slow_motion(problem, log, result)
       !> With thermal constants
       type(patch_problem), intent(in) :: problem

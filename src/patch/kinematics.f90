@@ -1,4 +1,4 @@
-!> Relative motion of the bodies in a patch, and where its particles were one time step ago
+!> Relative motion of the bodies in a patch, and positions of the particles one time step before
 module contact_patch_kinematics
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -12,21 +12,21 @@ module contact_patch_kinematics
 
    public :: rigid_slip, previous_displacement
 
-   !> Parts of a step along one axis below this one are the rounding of sine and cosine of a direction along the other
+   !> Components of a step relative to its length below this value are round-off of sine and cosine
    real(wp), parameter :: no_shift = 1.0e-10_wp
 
 contains
 
    !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
    !>
-   !> An offset of a sixth of the step makes up for part of the error of the first order; the second order takes the middle of the
+   !> An offset of a sixth of the step compensates part of the error of the first order; the second order uses the middle of the
    !> step.
    pure subroutine rigid_slip(problem, result, spin_weight)
       !> Creepages, spin with its centre, extra slip, distance per step
       type(patch_problem), intent(in) :: problem
-      !> Gets the rigid slip `wx`, `wy` per step [mm]
+      !> The rigid slip `wx`, `wy` per step is set [mm]
       type(patch_result), intent(inout) :: result
-      !> Weight of the spin in x and y, for simplified theory [-]; default 1
+      !> Weights of the spin term in x and y, for simplified theory [-]; default 1
       real(wp), intent(in), optional :: spin_weight(2)
       real(wp) :: x0, y0, cx, cy, spin(2), offset
       integer :: ix, iy
@@ -55,11 +55,11 @@ contains
       result%wy = result%wy + problem%dq*problem%extra_slip(:, :, 2)
    end subroutine rigid_slip
 
-   !> A field half an element ahead: the mean with the next element; at the end of the grid the straight line goes on
+   !> A field half an element ahead: mean with the next element, linear extrapolation at the end of the grid
    pure function half_ahead(field, direction) result(ahead)
-      !> Shape (mx, my)
+      !> Field, shape (mx, my)
       real(wp), intent(in) :: field(:, :)
-      !> Towards increasing (+1) or decreasing (-1) x
+      !> Rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
       real(wp) :: ahead(size(field, 1), size(field, 2))
       integer :: ix, mx
@@ -74,13 +74,13 @@ contains
       end do
    end function half_ahead
 
-   !> Displacements at the previous time of the particles that are in the elements now
+   !> Displacements at the previous time of the particles that are now in the elements
    subroutine previous_displacement(problem, state, workspace)
       !> Motion, grid and elasticity
       type(patch_problem), intent(in) :: problem
-      !> Tractions of the previous time step on the window of this one
+      !> Tractions of the previous time step on the present grid
       type(patch_state), intent(in) :: state
-      !> Gets the displacements `old_displacement` [mm]
+      !> `old_displacement` is set [mm]
       type(patch_workspace), intent(inout) :: workspace
       real(wp), allocatable :: edge(:, :, :)
       real(wp) :: shift_x, shift_y
@@ -109,7 +109,7 @@ contains
          & workspace%old_displacement(:, :, 1), workspace%old_displacement(:, :, 2))
    end subroutine previous_displacement
 
-   !> The same on a surface whose rows differ: at the same places, or one element further ahead
+   !> The same for surfaces whose curvature differs between rows: at the same positions, or one element further ahead
    subroutine curved_displacement(problem, before, workspace, moved)
       type(patch_problem), intent(in) :: problem
       !> The previous time step
@@ -128,12 +128,12 @@ contains
       workspace%old_displacement = workspace%old_displacement - workspace%ut
    end subroutine curved_displacement
 
-   !> Tangential displacements by the tractions of a time step, at the places of the elements
+   !> Tangential displacements at the elements by the tractions of a time step
    subroutine displacement_of(problem, fields, workspace, displacement)
       type(patch_problem), intent(in) :: problem
       type(traction_fields), intent(in) :: fields
       type(patch_workspace), intent(inout) :: workspace
-      !> [mm], shape (mx, my, 2)
+      !> Displacements [mm], shape (mx, my, 2)
       real(wp), allocatable, intent(out) :: displacement(:, :, :)
       real(wp), allocatable :: by_normal(:, :, :)
 

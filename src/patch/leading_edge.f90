@@ -1,10 +1,9 @@
-!> Elements that entered the contact area during the step
+!> Correction of slip for elements that entered the contact area during the step
 !>
-!> When the step of rolling is longer than an element, particles next to the leading edge were still outside the
-!> contact a step ago. They slip during the part of the step since they passed the edge, and what
-!> they have been displaced by is counted from there: S = share (W + dq c) + u - u_edge. The edge is at the centre of
-!> the first exterior element, where u_edge is the displacement by the previous tractions in transient rolling, by
-!> the present ones in steady rolling.
+!> If the step of rolling is longer than an element, particles next to the leading edge were outside the contact area at the
+!> previous time. They slip during the fraction of the step after they passed the edge, and their displacement is relative to that
+!> at the edge: S = share (W + dq c) + u - u_edge. The edge is at the centre of the first exterior element, where u_edge is the
+!> displacement by the previous tractions in transient rolling, by the present ones in steady rolling.
 module contact_patch_leading_edge
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -17,24 +16,24 @@ module contact_patch_leading_edge
 
    public :: correct_leading_edge
 
-   !> Shares above this count as 1
+   !> Shares from this value on are regarded as 1
    real(wp), parameter :: whole_step = 0.9999_wp
 
 contains
 
-   !> Change the fixed part of the slip where elements entered late
+   !> Correct the fixed part of the slip in elements that entered the contact area during the step
    subroutine correct_leading_edge(problem, state, box, result, workspace, log)
       !> Motion, steps and grid
       type(patch_problem), intent(in) :: problem
-      !> now: the present contact area
+      !> Its present time step has the contact area
       type(patch_state), intent(in) :: state
-      !> Part of the grid of the tangential problem
+      !> Part of the grid that the tangential problem covers
       type(bounding_box), intent(in) :: box
       !> Rigid slip per step
       type(patch_result), intent(in) :: result
-      !> Tangential problem with its shift; displacements at the edge by previous tractions are known. Gets shares and edges
+      !> Tangential problem with its rigid slip, and displacements by previous tractions at the edge; shares and edges are set
       type(patch_workspace), intent(inout) :: workspace
-      !> Told from flow-trace level 3 on which rows are left out
+      !> Gets a message from flow-trace level 3 on if rows are left out
       type(log_type), intent(inout) :: log
       real(wp) :: share
       integer :: iy, k, ix, edge, hidden
@@ -55,7 +54,7 @@ contains
                edge = ix
                cycle
             end if
-            ! contact up to the border of the grid: nothing is known about the edge
+            ! contact reaches the border of the grid: the edge is not known
             if (edge == 0) cycle
             share = abs(ix - edge)*problem%grid%dx/problem%dq
             if (share >= whole_step) cycle

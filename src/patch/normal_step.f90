@@ -1,4 +1,4 @@
-!> The normal problem of a patch: pressures, contact area, approach or force
+!> The normal problem of a patch: pressures, contact area, approach or normal force
 module contact_patch_normal_step
    use contact_base_choices, only : motion, pressure_model
    use contact_base_constants, only : excluded_threshold
@@ -22,17 +22,17 @@ module contact_patch_normal_step
 
 contains
 
-   !> Pressures, approach or force, and the contact area
+   !> Solve for pressures, approach or normal force, and the contact area
    subroutine normal_step(problem, state, workspace, log, result)
       !> Undeformed distance, prescribed force or approach, method
       type(patch_problem), intent(in) :: problem
       !> Estimate of pressures and approach on entry; solution with element states on exit
       type(patch_state), intent(inout) :: state
-      !> Compliance of the window, and scratch
+      !> Compliance on the grid, and work space
       type(patch_workspace), intent(inout) :: workspace
-      !> Takes the trace of the solver, and warnings of approximate methods
+      !> Gets the trace of the solver, and warnings of approximate methods
       type(log_type), intent(inout) :: log
-      !> Gets the report of the normal problem and the contact area
+      !> The report of the normal problem and the contact area are set
       type(patch_result), intent(inout) :: result
       logical :: first, scales
       character(len=80) :: line
@@ -77,11 +77,11 @@ contains
             if (problem%pressure == pressure_model%full) then
                call log%trace(4, " NORM")
                call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
-               ! what is asked for is EPS
+               ! the requested tolerance is EPS
                result%normal%tolerance = problem%settings%eps
                if (result%normal%residual <= problem%settings%eps .and. any(result%normal%ended == [ending%stagnated, &
                   & ending%iteration_limit])) result%normal%ended = ending%converged
-               ! conjugate gradients count on symmetry, which bodies with a memory have not
+               ! conjugate gradients require symmetry, which viscoelastic bodies do not have
                if (result%normal%ended == ending%stagnated .and. allocated(problem%model%memory)) &
                   & call solve_by_active_sets(normal, workspace%window, state%now%pn, result%pen, result%normal)
             else
@@ -104,17 +104,17 @@ contains
          end if
          call trace_picture(log, state%now%division)
       end if
-      ! the total is that of the pressures; a prescribed force that they carry keeps its last figure
+      ! the total force is that of the pressures; a prescribed force that agrees to round-off is kept exactly
       result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
       if (problem%force_prescribed .and. abs(result%fn - problem%fn) <= force_round_off*problem%fn) result%fn = problem%fn
       if (problem%motion == motion%none) call all_adhere(state%now%division)
    end subroutine normal_step
 
-   !> Overlap of the surfaces instead of their distance; excluded elements stay excluded
+   !> Subtract the approach from the undeformed distance, except in excluded elements
    pure subroutine subtract_approach(h, pen)
       !> Distance of the surfaces [mm]; negative on exit where they overlap
       real(wp), intent(inout) :: h(:, :)
-      !> [mm]
+      !> Approach [mm]
       real(wp), intent(in) :: pen
       integer :: ix, iy
 
@@ -125,7 +125,7 @@ contains
       end do
    end subroutine subtract_approach
 
-   !> Without motion all elements in contact adhere
+   !> Without motion all elements in contact are in adhesion
    pure subroutine all_adhere(division)
       integer, intent(inout) :: division(:, :)
       integer :: ix, iy
@@ -137,7 +137,7 @@ contains
       end do
    end subroutine all_adhere
 
-   !> Can displacements that approximate pressures need be summed directly?
+   !> Can the displacements for approximate pressures be computed by direct sums?
    pure logical function suits_sums(problem)
       type(patch_problem), intent(in) :: problem
       type(pressure_sums) :: sums
@@ -145,7 +145,7 @@ contains
       suits_sums = sums%suits(problem%model)
    end function suits_sums
 
-   !> Coefficients for the sums, where they suit
+   !> Prepare the coefficients of direct sums, if these are possible
    subroutine prepare_sums(problem, workspace)
       type(patch_problem), intent(in) :: problem
       type(patch_workspace), intent(inout) :: workspace
@@ -159,13 +159,13 @@ contains
          & problem%grid%mx, problem%grid%my)
    end subroutine prepare_sums
 
-   !> Elements with pressure are in contact; the others have no tractions
+   !> Set element states by the pressures; tractions of exterior elements are set to zero
    pure subroutine mark_contact(state, scales, ncon)
-      !> With the pressures; gets element states
+      !> Pressures on entry; element states are set
       type(patch_state), intent(inout) :: state
       !> Are the tangential tractions relative to the pressures?
       logical, intent(in) :: scales
-      !> Elements in contact
+      !> Number of elements in contact
       integer, intent(out) :: ncon
       integer :: ix, iy
 
@@ -188,13 +188,13 @@ contains
       end do
    end subroutine mark_contact
 
-   !> Estimates at this approach: pressures from those at the last one and their derivative, tractions relative to them
+   !> Estimates for the present approach: pressures by their derivative in the last solution, tractions relative to the pressures
    pure subroutine follow_approach(problem, state)
-      !> With the approach that is asked for
+      !> Its approach is the present one
       type(patch_problem), intent(in) :: problem
-      !> Pressures, approach and derivative of the last solution on entry
+      !> Pressures, approach and derivative of the last solution on entry; estimates on exit
       type(patch_state), intent(inout) :: state
-      !> Largest change, relative to the approach: pressures are nearly linear over it
+      !> Maximum change relative to the approach, over which pressures are nearly linear [-]
       real(wp), parameter :: largest_change = 0.3_wp
       real(wp) :: change
       integer :: ix, iy
@@ -229,7 +229,7 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Present tangential tractions
       type(patch_state), intent(in) :: state
-      !> Gets the displacements `lift` [mm], positive where the surfaces move apart
+      !> `lift` is set: displacements [mm], positive where the surfaces move apart
       type(patch_workspace), intent(inout) :: workspace
 
       call prepare_window(problem, workspace)

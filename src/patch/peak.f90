@@ -1,7 +1,7 @@
-!> Largest value of a field between the centres of its elements
+!> Maximum of a field between the centres of its elements
 !>
-!> Elements have one value each, and the largest of them is below the peak of the field by what the field bends from the peak to the
-!> nearest centre: up to 1/n^2 of it with n elements across a contact, and another part of that for each position of the grid.
+!> The largest value at the centres of elements is below the peak of the field, by up to 1/n^2 of it with n elements across a
+!> contact, varying with the position of the grid.
 module contact_patch_peak
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -11,11 +11,11 @@ module contact_patch_peak
 
 contains
 
-   !> Largest pressure of a patch: with order 2 that between centres of elements [N/mm2]
+   !> Maximum pressure of a patch [N/mm2]; with order 2 that between centres of elements
    pure real(wp) function largest_pressure(pn, order)
       !> Pressures of elements [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: pn(:, :)
-      !> Order that the tangential problem was solved with, 1 or 2
+      !> Order of the solution of the tangential problem, 1 or 2
       integer, intent(in) :: order
 
       if (order == 2) then
@@ -25,12 +25,12 @@ contains
       end if
    end function largest_pressure
 
-   !> Peak of the parabolas through the squares of the largest value and of its neighbours, zero outside of the field
+   !> Peak of the parabolas through the squares of the largest value and its neighbours; the field is zero outside the grid
    !>
-   !> Squares, because those of Hertzian pressures are a paraboloid. The peak lies within half an element, and is above the largest
-   !> value by an eighth at most, in its square and in each direction.
+   !> Squares are used because those of Hertzian pressures form a paraboloid. The peak is limited to half an element from the
+   !> centre, and its square to an eighth above that of the largest value, in each direction.
    pure real(wp) function peak_of(field) result(peak)
-      !> Shape (mx, my), without negative values
+      !> Field without negative values, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
       integer :: at(2)
 
@@ -40,15 +40,15 @@ contains
       peak = peak*sqrt(1.0_wp + rise(field(:, at(2)), at(1)) + rise(field(at(1), :), at(2)))
    end function peak_of
 
-   !> How far the parabola through the squares of three values rises above that of the one in the middle, over it [-]
+   !> Relative rise above the middle one of the parabola through the squares of three values [-]
    pure real(wp) function rise(line, i)
-      !> A line of elements with the largest value at i
+      !> Values along a line of elements with the largest value at i
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
       real(wp) :: beside(2), bend
 
       rise = 0.0_wp
-      ! fewer than three elements stand for something that does not change in this direction
+      ! fewer than three elements represent a field that is constant in this direction
       if (size(line) < 3) return
       beside = 0.0_wp
       if (i > 1) beside(1) = (line(i - 1)/line(i))**2

@@ -1,4 +1,4 @@
-!> One contact patch: what is asked, what is remembered from case to case
+!> One contact patch: the problem of a time step, and the state that is kept from case to case
 module contact_patch_problem
    use contact_base_choices, only : motion, pressure_model
    use contact_base_kinds, only : wp
@@ -18,31 +18,31 @@ module contact_patch_problem
 
    public :: carried, patch_problem, patch_state, traction_fields, memory_field, rolling_direction
 
-   !> Everything that defines the problem of one step; constant from here on
+   !> Complete description of the problem of one time step; constant during the solution
    type :: patch_problem
       type(potential_contact) :: grid
       type(elastic_model) :: model
       !> Simplified theory for the tangential problem; unallocated: half-spaces
       type(simplified_model), allocatable :: simplified
-      !> Grid and undeformed distance may be reused while input of both stays what it is
+      !> Are grid and undeformed distance reused while their input does not change?
       logical :: has_geometry = .false.
-      !> Hertz solution of a Hertzian geometry; unallocated: another geometry
+      !> Hertz solution of a Hertzian geometry; unallocated for other geometries
       type(hertz_result), allocatable :: hertz
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable :: h(:, :)
-      !> Parts of the patch that act on each other with less than full strength; unallocated: one part
+      !> Parts of the patch whose interaction is reduced; unallocated: one part
       type(contact_parts), allocatable :: parts
       !> Given pressures [N/mm2], shape (mx, my); unallocated for the full solution
       real(wp), allocatable :: given_pressure(:, :)
-      !> Estimate of the pressures [N/mm2] where the previous ones are not to be used; unallocated: none
+      !> Estimate of the pressures [N/mm2] that replaces the previous ones; unallocated: none
       real(wp), allocatable :: pressure_estimate(:, :)
-      !> Where pressures come from, member of pressure_model: solver or approximate method
+      !> Source of the pressures, member of pressure_model: solver or approximate method
       integer :: pressure = 0
-      !> Named choices, see contact_base_choices
+      !> Members of motion, of estimate_choice and of solver_choice
       integer :: motion = 0, estimate = 0, solver = 0
-      !> Are displacements and elastic energy left out where nothing needs them, for `complete` of contact_patch_derived?
+      !> Are displacements and elastic energy left to `complete` of contact_patch_derived where the solution does not need them?
       logical :: defers_displacements = .false.
-      !> Does the solver run that is named, where the default one could?
+      !> Is the classical solver named in the input used even where the default solver is possible?
       logical :: classical = .false.
       !> Is the normal force prescribed, or the approach?
       logical :: force_prescribed = .true.
@@ -53,70 +53,68 @@ module contact_patch_problem
       real(wp) :: force(2) = 0.0_wp
       !> Creepages [-] or shifts [mm]; spin [rad/mm] or rotation [rad]; spin centre [mm]
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp
-      !> Parts of the spin that act along x and y [-]: 1, or 0 for what an extra term cancels
+      !> Weights of the spin term in x and y [-]: 1, or 0 for a component that an extra term cancels
       real(wp) :: spin_weight(2) = 1.0_wp
-      !> Offset of the spin contribution in steps [-]
+      !> Offset of the spin term in steps [-]
       real(wp) :: spin_offset = 0.0_wp
       !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
       real(wp), allocatable :: extra_slip(:, :, :)
-      !> Rolling direction [rad], step [mm], velocity [mm/s]
+      !> Rolling direction [rad], distance travelled per step [mm], rolling velocity [mm/s]
       real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
-      !> Coefficient of friction [-]: the static one, 1 when it differs between rows; scales forces
+      !> Static coefficient of friction [-]; 1 if it differs between rows; scales relative forces
       real(wp) :: mu = 0.3_wp
       !> Friction law; unallocated: Coulomb friction with the coefficient above
       class(friction_law), allocatable :: friction
       type(friction_memory) :: friction_memory
-      !> Slip velocity that the friction iteration starts from: the one of the previous case (0), none (1),
-      !> the velocity of rolling (-1)
+      !> Initial slip velocity of the friction iteration: that of the previous case (0), zero (1), rolling velocity (-1)
       integer :: slip_start = 0
-      !> Factor of changes of the slip velocity where the coefficient is above the one that particles
-      !> bring along [-]
+      !> Relaxation factor of the slip velocity where the coefficient is above the previous one of the particles [-]
       real(wp) :: slip_relaxation = 1.0_wp
       !> Thermal constants; unallocated: no temperatures
       type(body_pair), allocatable :: thermal
-      !> Do friction coefficients and slip, or yield limits and plastic displacements, matter for
-      !> the next time step? Only then are they carried along
+      !> Does the next time step depend on coefficients of friction and slip, or on yield limits and plastic displacements? Only
+      !> then are they stored with the particles
       logical :: remembers_friction = .false., remembers_yield = .false.
-      !> Static coefficient of friction per row, shape (my) [-], and initial yield limit [N/mm2]: what
-      !> particles bring along that were not in the window before; set when remembered
+      !> Static coefficient of friction per row [-], shape (my), and initial yield limit [N/mm2]: values of particles that enter the
+      !> grid; set if the quantity is remembered
       real(wp), allocatable :: static_mu(:)
       real(wp) :: initial_yield_limit = 0.0_wp
-      !> Slope of the yield limit with the plastic displacement [N/mm3]
+      !> Derivative of the yield limit with respect to the plastic displacement [N/mm3]
       real(wp) :: yield_slope = 0.0_wp
       !> Tolerance, limits and parameters of the solvers
       type(solver_settings) :: settings
-      !> Part of the tolerance that pressures are solved to. Below 1 in a search that asks how they change by less than that
+      !> Factor of the tolerance for pressures [-]. Below 1 in a search that needs differences smaller than the tolerance
       real(wp) :: pressure_eps = 1.0_wp
-      !> The same for tangential tractions
+      !> Factor of the tolerance for tangential tractions [-]
       real(wp) :: traction_eps = 1.0_wp
-      !> Does the estimate of the pressures follow the approach, by their derivative in the last solution?
+      !> Is the estimate of the pressures extrapolated in the approach, with their derivative in the last solution?
       logical :: follows_approach = .false.
-      !> When the time is up
+      !> Time limit
       type(deadline_type) :: deadline
-      !> Is the relaxation that of the input? Otherwise the shape of the elements decides
+      !> Is the relaxation factor given in the input? Otherwise it depends on the shape of the elements
       logical :: relaxation_given = .false.
-      !> Are elements that entered the contact during the step treated as such? Only with steps longer than an
-      !> element, along x
+      !> Is the slip of elements that entered the contact area during the step corrected? Only for steps longer than an element,
+      !> along x
       logical :: corrects_leading_edge = .false.
-      !> Steady rolling in any direction, with steps of any length (ConvexGS)? Otherwise one element per step along x
+      !> Steady rolling in any direction with steps of any length (ConvexGS)? Otherwise one element per step along x
       logical :: general_step = .false.
-      !> Member of sensitivity_choice; tolerance and largest number of iterations for them
+      !> Member of sensitivity_choice; maximum number of iterations, and tolerance of the relative residual [-], for sensitivities
       integer :: sensitivity = 0, mxsens = 30
-      !> Are they results? A search for the height has its own use of them, and does without accuracy
+      !> Are sensitivities an output? Otherwise they serve a height search, with lower accuracy
       logical :: reports_sensitivity = .true.
       real(wp) :: epsens = 1.0e-4_wp
-      !> Damping in proportion to the rate of forces; unallocated: none
+      !> Damping proportional to the rate of forces; unallocated: none
       type(damping_law), allocatable :: damping
-      !> Are displacements of exterior elements wanted?
+      !> Are displacements of exterior elements requested?
       logical :: want_exterior = .false.
    contains
-      !> Do the pressures fulfil the contact conditions, or are they given or approximate?
+      !> Do the pressures satisfy the contact conditions? Otherwise they are given or approximate
       procedure :: solves_for_pressure
-      !> Are pressures or tractions found step by step from an estimate? Otherwise all follows from formulas
+      !> Are pressures or tractions found by iteration from an estimate? Otherwise all follow from formulas
       procedure :: iterates
       !> Do pressures depend on the tangential tractions?
       procedure :: couples
-      !> Do particles carry a quantity along, and which value have those without history?
+      !> Is a quantity stored with the particles, and which value do particles without history have?
       procedure :: carries
       procedure :: fill_fresh
    end type patch_problem
@@ -126,49 +124,49 @@ module contact_patch_problem
       integer :: mu = 1, sx = 2, sy = 3
       !> Yield limit [N/mm2] and plastic displacement difference [mm] of the interfacial layer
       integer :: tau_c = 4, uplx = 5, uply = 6
-      !> Their number
+      !> Number of quantities
       integer :: count = 6
    end type carried_list
-   !> Quantities that particles may carry along from time step to time step
+   !> Quantities that particles carry from time step to time step
    type(carried_list), parameter :: carried = carried_list()
 
-   !> One of them
+   !> One of these quantities
    type :: memory_field
-      !> One value per element, shape (mx, my); unallocated when no effect of the case asks for it
+      !> One value per element, shape (mx, my); unallocated if no effect of the case needs it
       real(wp), allocatable :: value(:, :)
    end type memory_field
 
-   !> Tractions and element states of one time step, on a window
+   !> Tractions and element states of one time step, on its grid
    type :: traction_fields
       type(potential_contact) :: grid
       integer, allocatable :: division(:, :)
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Approach [mm]
       real(wp) :: pen = 0.0_wp
-      !> Derivative of the pressures to the approach [N/mm3]; unallocated where nobody asks for it
+      !> Derivative of the pressures with respect to the approach [N/mm3]; unallocated if not needed
       real(wp), allocatable :: rate(:, :)
       !> Does the time step belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
       logical :: is_solved = .false.
       real(wp) :: force(3) = 0.0_wp
-      !> What particles carry along, by the members of carried
+      !> Quantities of the particles, indexed by the members of carried
       type(memory_field) :: memory(carried%count)
    end type traction_fields
 
-   !> What the physics remembers from case to case
+   !> State of the physics that is kept from case to case
    type :: patch_state
       !> Has a case been solved?
       logical :: started = .false.
       !> Present and previous time step
       type(traction_fields) :: now, before
-      !> Creepages found last [-]
+      !> Last creepages [-]
       real(wp) :: creep(2) = 0.0_wp
    end type patch_state
 
 contains
 
-   !> Rolling towards increasing or decreasing x
+   !> Rolling towards increasing (+1) or decreasing (-1) x
    pure integer function rolling_direction(problem)
-      !> Motion and the angle chi
+      !> Motion and rolling direction
       type(patch_problem), intent(in) :: problem
       rolling_direction = merge(-1, 1, problem%motion >= motion%transient_rolling .and. cos(problem%chi) < 0.0_wp)
    end function rolling_direction
@@ -197,7 +195,7 @@ contains
       carries = merge(self%remembers_friction, self%remembers_yield, kind <= carried%sy)
    end function carries
 
-   !> Per row of elements
+   !> Values of particles without history, per row of elements
    pure subroutine fill_fresh(self, kind, value)
       class(patch_problem), intent(in) :: self
       !> Member of carried

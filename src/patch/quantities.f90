@@ -1,4 +1,4 @@
-!> Totals and element fields with name, unit, meaning and sign: the lists that all outputs walk
+!> Totals and element fields with name, unit, meaning and sign: the lists that all outputs use
 !>
 !> Each list is written once, beside the values: totals of a patch and fields in contact_patch_result, totals of wheel and rail in
 !> contact_wheelrail_result.
@@ -11,57 +11,57 @@ module contact_patch_quantities
    public :: element_field, error_law, is_lateral, orientation, total, total_list
 
    type :: orientation_list
-      !> The same for both bodies and both sides of the track
+      !> Independent of the body and of the side of the track
       integer :: none = 0
-      !> Along the track: changes with the body that is looked at
+      !> Along the track: the sign depends on the body
       integer :: along = 1
-      !> Across the track, and turning about x and z: changes with body and side
+      !> Across the track, and rotation about x and z: the sign depends on body and side
       integer :: across = 2
-      !> Changes with the side of the track only
+      !> The sign depends on the side of the track only
       integer :: side = 3
    end type orientation_list
-   !> Which sign a quantity has; inside it is that on body 1 of a pair on the right side
+   !> Sign convention of a quantity; internal values refer to body 1 of a pair on the right side
    type(orientation_list), parameter :: orientation = orientation_list()
 
    type :: error_law_list
-      !> No estimate: given, a number of elements, or not studied
+      !> No estimate: prescribed, a number of elements, or not investigated
       integer :: none = 0
-      !> Follows from the pressures; relative to its own value
+      !> Determined by the pressures; relative to its own value
       integer :: normal = 1
-      !> Force, moment or ratio that follows from the tangential tractions; relative to what friction can bear at most
+      !> Force, moment or ratio determined by the tangential tractions; relative to the maximum frictional force
       integer :: friction = 2
-      !> Creepage or shift that prescribed forces bring about; relative to the larger one of both
+      !> Creepage or shift determined by prescribed forces; relative to the larger one of both
       integer :: creepage = 3
-      !> Power of friction; relative to its own value
+      !> Frictional power; relative to its own value
       integer :: power = 4
-      !> Largest value of a field, taken at centres of elements; relative to its own value
+      !> Maximum of a field at centres of elements; relative to its own value
       integer :: peak = 5
-      !> Area of whole elements; relative to its own value
+      !> Area, a number of whole elements; relative to its own value
       integer :: area = 6
-      !> Energy of all tractions; relative to its own value
+      !> Elastic energy of all tractions; relative to its own value
       integer :: energy = 7
-      !> Largest stress below the surface, see contact_cases_stress_errors; relative to its own value
+      !> Maximum stress below the surface, see contact_cases_stress_errors; relative to its own value
       integer :: stress = 8
    end type error_law_list
-   !> How the error of a total comes about, see contact_patch_error_estimate
+   !> Law of the error of a total, see contact_patch_error_estimate
    type(error_law_list), parameter :: error_law = error_law_list()
 
    !> One total
    type :: total
       !> Name in JSON and HDF5
       character(len=16) :: name = ""
-      !> Unit, "-" for a ratio, "" for a number of elements or trials
+      !> Unit; "-" for a ratio, "" for a number of elements or trials
       character(len=8) :: unit = ""
-      !> What it is
+      !> Meaning
       character(len=104) :: meaning = ""
       real(wp) :: value = 0.0_wp
       !> Member of orientation
       integer :: along = orientation%none
       !> Is it an integer?
       logical :: is_count = .false.
-      !> Column behind the largest pressure in the .out file; blank: none
+      !> Heading of its column in the .out file, after the maximum pressure; blank: none
       character(len=12) :: heading = ""
-      !> Does it go to JSON and HDF5?
+      !> Is it written to JSON and HDF5?
       logical :: in_files = .true.
       !> Member of error_law
       integer :: law = error_law%none
@@ -69,14 +69,14 @@ module contact_patch_quantities
 
    !> Totals in the order in which they are written
    type :: total_list
-      !> The first `length` of them count
+      !> Rows; the first `length` of them are in use
       type(total), allocatable :: rows(:)
       integer :: length = 0
-      !> Shall nothing be kept but whether all are finite numbers? It costs no memory then
+      !> Only check that all values are finite, without storing rows? Then no memory is allocated
       logical :: only_judges = .false.
-      !> Are all of them finite numbers?
+      !> Are all values finite?
       logical :: is_finite = .true.
-      !> Are values those of the left side of the track?
+      !> Do the values refer to the left side of the track?
       logical, private :: left = .false.
    contains
       !> Make the list empty
@@ -84,45 +84,45 @@ module contact_patch_quantities
       !> Add a real number, an integer
       procedure :: add
       procedure :: count
-      !> Number of the row with a name, and values by their names
+      !> Index of the row with a given name, and values by name
       procedure :: place_of
       procedure :: of
    end type total_list
 
-   !> One element field
+   !> Description of an element field
    type :: element_field
-      !> Name in HDF5; in capitals in the .mat and .out file
+      !> Name in HDF5; in upper case in the .mat and .out files
       character(len=8) :: name = ""
       !> Unit, "-" for a ratio
       character(len=8) :: unit = ""
-      !> What it is
+      !> Meaning
       character(len=48) :: meaning = ""
-      !> Number by which callers of the library ask for it, CNTC_fld_NAME
+      !> Number of the field in the library, CNTC_fld_NAME
       integer :: code = 0
       !> Member of orientation
       integer :: along = orientation%none
-      !> Values times `divisor`, shape (mx, my); null: the case has no such field
+      !> Values times `divisor`, shape (mx, my); null: the case does not have this field
       real(wp), pointer :: values(:, :) => null()
       real(wp) :: divisor = 1.0_wp
-      !> Is it zero because the bodies do not move?
+      !> Is it identically zero because the bodies do not move?
       logical :: is_zero = .false.
-      !> Does it go to files?
+      !> Is it written to files?
       logical :: in_files = .true.
-      !> Name in VTK files; blank: not there
+      !> Name in VTK files; blank: not written
       character(len=24) :: label = ""
-      !> Figures in the table of the .out file; 0: not there
+      !> Significant digits in the table of the .out file; 0: not written
       integer :: figures = 0
    contains
-      !> Does a file have it that leaves out what is zero?
+      !> Is it written to a file that omits fields that are zero?
       procedure :: is_written
    end type element_field
 
-   !> Rows for which there is room at first
+   !> Initial capacity of the list
    integer, parameter :: usual_rows = 40
 
 contains
 
-   !> Does the sign change with the side of the track?
+   !> Does the sign depend on the side of the track?
    elemental logical function is_lateral(along)
       !> Member of orientation
       integer, intent(in) :: along
@@ -139,7 +139,7 @@ contains
    !> Make the list empty
    pure subroutine start(self, left)
       class(total_list), intent(inout) :: self
-      !> Shall values be those of the left side of the track? Otherwise, and by default, those of its mirror image
+      !> Shall values refer to the left side of the track? Otherwise, and by default, to its mirror image
       logical, intent(in), optional :: left
 
       if (.not. (allocated(self%rows) .or. self%only_judges)) allocate(self%rows(usual_rows))
@@ -154,13 +154,13 @@ contains
       class(total_list), intent(inout) :: self
       !> See total
       character(len=*), intent(in) :: name, unit, meaning
-      !> On body 1 of a pair on the right side
+      !> Value on body 1 of a pair on the right side
       real(wp), intent(in) :: value
       !> Member of orientation; default none
       integer, intent(in), optional :: along
       !> See total
       character(len=*), intent(in), optional :: heading
-      !> Does it go to files? Default yes
+      !> Is it written to files? Default yes
       logical, intent(in), optional :: in_files
       !> Member of error_law; default none
       integer, intent(in), optional :: law
@@ -189,17 +189,17 @@ contains
       class(total_list), intent(inout) :: self
       !> See total
       character(len=*), intent(in) :: name, meaning
-      !> Number of things, without unit
+      !> Number of elements, trials or the like
       integer, intent(in) :: value
 
       call self%add(name, "", meaning, real(value, wp))
       if (.not. self%only_judges) self%rows(self%length)%is_count = .true.
    end subroutine count
 
-   !> Number of the row with a name, which must be there
+   !> Index of the row with a given name, which must exist
    pure integer function place_of(self, name) result(k)
       class(total_list), intent(in) :: self
-      !> Name of a row, as in total
+      !> Name of a row, see total
       character(len=*), intent(in) :: name
 
       do k = 1, self%length - 1
@@ -207,10 +207,10 @@ contains
       end do
    end function place_of
 
-   !> Values by their names
+   !> Values by name
    pure function of(self, names) result(values)
       class(total_list), intent(in) :: self
-      !> Names of rows, as in total; they may come in any order
+      !> Names of rows, see total, in any order
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       integer :: k

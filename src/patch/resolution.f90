@@ -1,7 +1,7 @@
-!> How many elements contact is wide
+!> Number of elements across the contact area
 !>
-!> The border of contact follows elements. A contact of a few of them has an uncertain area, force and pressure, however well
-!> its equations are solved.
+!> The contact area consists of whole elements. If it has few of them, area, force and pressure are uncertain, however accurately
+!> the equations are solved.
 module contact_patch_resolution
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -11,16 +11,18 @@ module contact_patch_resolution
 
    public :: enough_elements, elements_across, min_across, is_coarse, enough_sides
 
-   !> Contact that is narrower than so many elements is coarse: by Hertz's theory force and area are off by some ten per cent
+   !> Contact with fewer elements across is regarded as coarse: compared with Hertz's theory, force and area deviate by some ten per
+   !> cent
    integer, parameter :: enough_elements = 5
-   !> Elements across of a grid that is recommended
+   !> Recommended number of elements across
    integer, parameter :: advised = 10
-   !> Directions of a grid with fewer elements stand for plane strain
+   !> Directions of a grid with fewer elements represent plane strain
    integer, parameter :: has_direction = 3
 
 contains
 
-   !> Most elements in contact in a row along x, and in a column along y; 0 without contact and where the grid has no direction
+   !> Maximum number of elements in contact in a row along x, and in a column along y; 0 without contact, and where the grid
+   !> represents plane strain
    pure function elements_across(division) result(across)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
@@ -43,7 +45,7 @@ contains
       where (shape(division) < has_direction) across = 0
    end function elements_across
 
-   !> The same in the narrower direction
+   !> Number of elements across in the narrower direction
    pure integer function min_across(division) result(least)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
@@ -54,7 +56,7 @@ contains
       if (all(across == 0)) least = 0
    end function min_across
 
-   !> Is contact narrower than enough elements?
+   !> Is contact narrower than `enough_elements`?
    pure logical function is_coarse(result)
       !> Solved
       type(patch_result), intent(in) :: result
@@ -62,17 +64,18 @@ contains
 
       is_coarse = .false.
       if (result%ncon == 0) return
-      ! so many elements do not fit into narrow contact
+      ! contact with so many elements cannot be narrow
       if (result%ncon >= enough_elements*max(result%grid%mx, result%grid%my)) return
       least = min_across(result%division)
       is_coarse = least > 0 .and. least < enough_elements
    end function is_coarse
 
-   !> Sides of elements of which about ten would be as wide as the contact, with two digits; those of the grid where these do
+   !> Sides of elements that give about ten elements across, with two digits; the present side in a direction that has enough of
+   !> them
    pure function enough_sides(result) result(sides)
       !> Extent of the contact area, and the grid
       type(patch_result), intent(in) :: result
-      !> [mm]
+      !> Sides [mm]
       real(wp) :: sides(2)
       integer :: across(2), k
       real(wp) :: unit

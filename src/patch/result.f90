@@ -1,4 +1,4 @@
-!> What is known of one contact patch after the solution
+!> Result of the solution of one contact patch
 module contact_patch_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_accuracy_report, only : accuracy_report
@@ -15,26 +15,26 @@ module contact_patch_result
    public :: border_contact, copy_result, error_estimate, mirrored, patch_result, hertz_result, reason_length, &
       & subsurface_result, wear_result
 
-   !> Room for the reason why there is no estimate
+   !> Length of the text that says why there is no estimate
    integer, parameter :: reason_length = 96
 
-   !> Where contact reaches the end of what is known of the surfaces
+   !> Contact that reaches the end of the known part of the surfaces
    type :: border_contact
-      !> Elements in contact in the outer columns and rows of the potential contact
+      !> Number of elements in contact in the outer columns and rows of the potential contact
       integer :: elements = 0
-      !> Would contact go on beyond a side of the potential contact? x low, x high, y low, y high
+      !> Would contact continue beyond a side of the potential contact? x low, x high, y low, y high
       logical :: side(4) = .false.
-      !> Does contact end where the surface of a body ends along y? (low and high end, body)
+      !> Does contact reach the end of the surface of a body along y? (low and high end, body)
       logical :: surface_end(2, 2) = .false.
-      !> Does it end where a surface is hidden by another part of the same body, or turns away from the reference?
+      !> Does contact end where a surface is hidden by another part of the same body, or where it faces away from the contact plane?
       logical :: hidden = .false.
-      !> Largest pressure in the elements at those sides and ends [N/mm2]
+      !> Maximum pressure in the elements at those sides and ends [N/mm2]
       real(wp) :: pressure = 0.0_wp
    end type border_contact
 
-   !> Hertz solution that belongs to a Hertzian geometry
+   !> Hertz solution of a Hertzian geometry
    type :: hertz_result
-      !> Curvatures [1/mm], semi-axes [mm] and their ratio [-]
+      !> Coefficients of h = a1 x**2 + b1 y**2 [1/mm], semi-axes [mm] and their ratio [-]
       real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp, aa = 0.0_wp, bb = 0.0_wp, aob = 1.0_wp
       !> Effective radius of curvature [mm], effective semi-axis sqrt(aa bb) [mm]
       real(wp) :: rho = 0.0_wp, cp = 0.0_wp
@@ -42,7 +42,7 @@ module contact_patch_result
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp
    end type hertz_result
 
-   !> Displacements and stresses in one block of points, x fastest, then y, then z
+   !> Displacements and stresses in a block of points, x fastest, then y, then z
    type :: subsurface_result
       integer :: nx = 0, ny = 0, nz = 0
       !> Coordinates of the points [mm], shape (3, nx*ny*nz)
@@ -53,109 +53,112 @@ module contact_patch_result
       real(wp), allocatable :: stress(:, :)
       !> Mean stress, von Mises, Tresca, principal stresses in descending order [N/mm2], shape (n)
       real(wp), allocatable :: sighyd(:), sigvm(:), sigtr(:), sigma1(:), sigma2(:), sigma3(:)
-      !> Points near the surface and off the centres of elements: there the stresses are those of constant tractions
+      !> Number of points near the surface and off the centres of elements, whose stresses are affected by the piecewise constant
+      !> tractions
       integer :: stepped = 0
    end type subsurface_result
 
    !> Estimated errors of the totals of a patch, see contact_patch_error_estimate
    type :: error_estimate
-      !> Estimated error of each row of `totals`, not negative, in its unit; NaN: there is no estimate. Shape (rows of totals)
+      !> Estimated error of each row of `totals`, not negative, in its unit; NaN: no estimate. Shape (rows of totals)
       real(wp), allocatable :: value(:)
-      !> Why totals have no estimate; blank: they have one, as far as their law is known
+      !> Reason why there is no estimate; blank if there is one, for totals whose error law is known
       character(len=reason_length) :: reason = ""
-      !> Parts of the estimate, relative: of the solvers (normal, tangential problem) and of contact that the window cuts off [-]
+      !> Relative contributions of the solvers (normal, tangential problem) and of contact that is cut off at the border [-]
       real(wp) :: stopping(2) = 0.0_wp, window = 0.0_wp
-      !> Relative error of tangential tractions, where levels tell little of it at a point, see contact_patch_level_errors [-]
+      !> Relative error of tangential tractions where the levels indicate little of the error at a point, see
+      !> contact_patch_level_errors [-]
       real(wp) :: traction = 0.0_wp
-      !> Elements in contact of the coarse level
+      !> Number of elements in contact on the coarse level
       integer :: ncon = 0
    end type error_estimate
 
    !> Wear and fatigue of a patch, see contact_patch_wear
    type :: wear_result
-      !> Was Archard's coefficient given, and the yield stress?
+      !> Were Archard's coefficient and the yield stress given?
       logical :: has_archard = .false., has_yield = .false.
-      !> Dissipation per distance rolled [N], that over the contact area [N/mm2], largest density of frictional power [W/mm2]
+      !> T-gamma: dissipation per distance rolled [N]; T-gamma per contact area [N/mm2]; maximum density of frictional power [W/mm2]
       real(wp) :: t_gamma = 0.0_wp, wear_index = 0.0_wp, max_power = 0.0_wp
-      !> Largest depth that a passage, or a shift, wears off [mm]; section that a passage wears off [mm2]
+      !> Maximum wear depth of a passage, or a shift [mm]; cross-section worn off by a passage [mm2]
       real(wp) :: depth = 0.0_wp, section = 0.0_wp
-      !> Tangential over normal force, largest pressure over yield stress, the same over its limit, surface fatigue index [-]
+      !> Ratios of tangential to normal force and of maximum pressure to yield stress, the latter relative to its shakedown limit,
+      !> surface fatigue index [-]
       real(wp) :: traction = 0.0_wp, load = 0.0_wp, shakedown = 0.0_wp, fatigue = 0.0_wp
    end type wear_result
 
-   !> Totals, fields and reports of a solved patch; what of them goes to outputs is listed in `totals` and `fields`
+   !> Totals, fields and reports of a solved patch; those for outputs are listed in `totals` and `fields`
    type :: patch_result
-      !> How the solution ended, from the reports below and the prescribed forces
+      !> Status of the solution, from the reports below and the prescribed forces
       type(case_status) :: status
       type(potential_contact) :: grid
       !> Relative motion of the bodies, member of motion
       integer :: motion = motion_choice%none
       !> Hertz data; unallocated for other geometries
       type(hertz_result), allocatable :: hertz
-      !> Combined constants: modulus [N/mm2], Poisson ratio [-], difference parameter K [-]
+      !> Combined elastic constants: modulus of rigidity [N/mm2], Poisson ratio [-], difference parameter K [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
-      !> Rolling direction [rad], step [mm], velocity [mm/s], time step [s] as used
+      !> Rolling direction [rad], distance travelled per step [mm], rolling velocity [mm/s], time step [s]
       real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp, dt = 1.0_wp
-      !> Friction coefficient that scales tangential forces [-]
+      !> Coefficient of friction that scales tangential forces [-]
       real(wp) :: mu_scal = 0.3_wp
-      !> Normal force [N], approach [mm], largest pressure [N/mm2]
+      !> Normal force [N], approach [mm], maximum pressure [N/mm2]
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp, pmax = 0.0_wp
-      !> Relative tangential forces Fx/(mu_scal Fn) [-] and tangential forces on body 1 [N]
+      !> Relative tangential forces F/(mu_scal Fn) [-], and tangential forces on body 1 [N]
       real(wp) :: fx_rel = 0.0_wp, fy_rel = 0.0_wp, fx = 0.0_wp, fy = 0.0_wp
-      !> Damping forces Fn, Fx, Fy on body 1 [N], not part of the forces above; unallocated without damping
+      !> Damping forces Fn, Fx, Fy on body 1 [N], not included in the forces above; unallocated without damping
       real(wp), allocatable :: damping(:)
-      !> Moments [N mm]
+      !> Moments on body 1 about the origin of the contact coordinates [N mm]
       real(wp) :: mx = 0.0_wp, my = 0.0_wp, mz = 0.0_wp
-      !> Creepages [-] or shifts [mm] as used, prescribed or found; spin [rad/mm]
+      !> Creepages [-] or shifts [mm], prescribed or found; spin [rad/mm] or rotation [rad]
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
       !> Elastic energy [J], frictional power [W] or work [J], dissipation negative
       real(wp) :: elastic_energy = 0.0_wp, friction_power = 0.0_wp
-      !> Simplified theory: flexibilities [mm3/N] and the factor of slope reduction [-]; 0 without it
+      !> Simplified theory: flexibilities [mm3/N] and slope reduction factor [-]; 0 otherwise
       real(wp) :: flx(3) = 0.0_wp, k_eff = 0.0_wp
-      !> Sensitivities, rows FN, FX/(mu_scal FN), FY/(mu_scal FN), MZ, columns PEN KSI ETA PHI, in N, mm, rad;
-      !> 0 when not computed
+      !> Sensitivities of FN, FX/(mu_scal FN), FY/(mu_scal FN), MZ (rows) to PEN, CKSI, CETA, CPHI (columns), in N, mm, rad; 0 if
+      !> not computed
       real(wp) :: sensitivity(4, 4) = 0.0_wp
-      !> Numbers of elements: contact, adhesion, slip, plastic
+      !> Numbers of elements: contact, adhesion, slip and plastic area
       integer :: ncon = 0, nadh = 0, nslip = 0, nplast = 0
-      !> Passes of NORM and TANG, added up over the outer iterations, -1 for failure
+      !> Number of passes of NORM and TANG, summed over the outer iterations; -1 after failure
       integer :: inorm = 0, itang = 0
-      !> Outer (Panagiotopoulos) iterations
+      !> Number of outer (Panagiotopoulos) iterations
       integer :: outer_iterations = 0
       !> Contact at the border of the potential contact and at the ends of the surfaces
       type(border_contact) :: border
       type(solve_report) :: normal, tangential
-      !> Iteration of friction with slip velocity or temperature; unallocated: none
+      !> Iteration of the coefficient of friction with slip velocity or temperature; unallocated without it
       type(solve_report), allocatable :: friction
-      !> True residual of the coupled contact conditions after the outer iteration, relative
+      !> Relative true residual of the coupled contact conditions after the outer iteration [-]
       real(wp) :: residual = 0.0_wp
-      !> Names of the effects that acted, separated by ", "
+      !> Names of the effects that were applied, separated by ", "
       character(len=:), allocatable :: effects
       !> Element states, shape (mx, my), see contact_grid_element_division
       integer, allocatable :: division(:, :)
-      !> Undeformed distance [mm], friction coefficient [-], shape (mx, my)
+      !> Undeformed distance [mm], coefficient of friction [-], shape (mx, my)
       real(wp), allocatable :: h(:, :), mu(:, :)
       !> Tractions on body 1 [N/mm2], shape (mx, my)
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Displacement differences [mm], shape (mx, my)
       real(wp), allocatable :: un(:, :), ux(:, :), uy(:, :)
-      !> Slip components per step [mm], zero outside the slip area, shape (mx, my)
+      !> Slip per step [mm], zero outside the slip area, shape (mx, my)
       real(wp), allocatable :: sx(:, :), sy(:, :)
-      !> Rigid slip per step [mm], computed creepages included, shape (mx, my)
+      !> Rigid slip per step [mm], including creepages that were found, shape (mx, my)
       real(wp), allocatable :: wx(:, :), wy(:, :)
-      !> Yield limit [N/mm2] and plastic displacement [mm], shape (mx, my); unallocated where nothing yields
+      !> Yield limit [N/mm2] and plastic displacement [mm], shape (mx, my); unallocated if nothing yields
       real(wp), allocatable :: tau_c(:, :), uplx(:, :), uply(:, :)
-      !> Surface temperatures of bodies 1 and 2 [degC], shape (mx, my); unallocated when not asked for
+      !> Surface temperatures of bodies 1 and 2 [degC], shape (mx, my); unallocated if not requested
       real(wp), allocatable :: temp1(:, :), temp2(:, :)
-      !> Density of frictional power, dissipation positive [W/mm2], and depth that a passage or shift wears off in each element
-      !> [mm], shape (mx, my); unallocated when not asked for
+      !> Density of frictional power, dissipation positive [W/mm2], and wear depth of a passage or shift in each element [mm], shape
+      !> (mx, my); unallocated if not requested
       real(wp), allocatable :: power(:, :), wear_depth(:, :)
-      !> Their totals; unallocated when not asked for
+      !> Totals of wear and fatigue; unallocated if not requested
       type(wear_result), allocatable :: wear
-      !> Subsurface blocks; unallocated when not asked for
+      !> Subsurface blocks; unallocated if not requested
       type(subsurface_result), allocatable :: subsurface(:)
-      !> Estimated errors of the totals; unallocated when not asked for
+      !> Estimated errors of the totals; unallocated if not requested
       type(error_estimate), allocatable :: errors
-      !> What became of the accuracy that was asked for; unallocated when none was
+      !> Report on the requested accuracy; unallocated if none was requested
       type(accuracy_report), allocatable :: accuracy
    contains
       !> Area of the elements in contact [mm2]
@@ -169,21 +172,21 @@ module contact_patch_result
 
 contains
 
-   !> Copy a result, into the arrays that are there where their shapes are the same
+   !> Copy a result; arrays of equal shape are reused
    subroutine copy_result(from, to)
-      !> As before on exit
+      !> Unchanged on exit
       type(patch_result), intent(inout) :: from
-      !> Names of effects stay what they were: who describes a case names them anew
+      !> Names of effects are not copied: the caller sets them for the case
       type(patch_result), intent(inout) :: to
       type(patch_result) :: kept, lent
 
       call move_alloc(to%effects, kept%effects)
       call hand_over(to, kept, .false.)
       call hand_over(from, lent, .false.)
-      ! numbers, and what is there only when it is asked for
+      ! scalars and optional components
       to = from
       call move_alloc(kept%effects, to%effects)
-      ! a case that is only searched for contact has no fields
+      ! a case with contact search only has no fields
       if (allocated(lent%division)) then
          call hand_over(kept, to, .false.)
          call hand_over(lent, to, .true.)
@@ -191,10 +194,10 @@ contains
       call hand_over(lent, from, .false.)
    end subroutine copy_result
 
-   !> Move the fields that every solution has, or copy them into arrays that are kept where shapes are the same
+   !> Move the fields of a solution, or copy them into arrays that are reused if their shapes are equal
    pure subroutine hand_over(from, to, copies)
       type(patch_result), intent(inout) :: from, to
-      !> Do they stay where they were, too?
+      !> Shall the fields be copied? Otherwise they are moved
       logical, intent(in) :: copies
 
       if (copies) then
@@ -217,7 +220,7 @@ contains
 
    contains
 
-      !> The same for one field
+      !> Move or copy one field
       pure subroutine one(here, there)
          real(wp), allocatable, intent(inout) :: here(:, :), there(:, :)
 
@@ -235,12 +238,12 @@ contains
       area = self%ncon*self%grid%dx*self%grid%dy
    end function contact_area
 
-   !> All totals, in the order in which they are written: names, units and meanings for all outputs
+   !> All totals, in the order in which they are written, with name, unit and meaning for all outputs
    pure subroutine totals(self, list, left)
       class(patch_result), intent(in) :: self
-      !> Emptied, then filled with the rows of a patch
+      !> List to fill with the rows of a patch; previous rows are removed
       type(total_list), intent(inout) :: list
-      !> Is this a wheel on the left side, of which the result is the mirror image? Default: no
+      !> Is this a wheel on the left side, with the result for its mirror image? Default: no
       logical, intent(in), optional :: left
 
       call list%start(left)
@@ -291,7 +294,7 @@ contains
 
    !> Totals of wear and fatigue
    pure subroutine add_wear(contact, wear, list)
-      !> Solved
+      !> Solution
       type(patch_result), intent(in) :: contact
       type(wear_result), intent(in) :: wear
       type(total_list), intent(inout) :: list
@@ -317,9 +320,9 @@ contains
       end if
    end subroutine add_wear
 
-   !> Largest stresses at the points below the surface, of all blocks
+   !> Maximum stresses at the points of all subsurface blocks
    pure subroutine add_stresses(contact, list)
-      !> Solved, with stresses
+      !> Solution with stresses
       type(patch_result), intent(in) :: contact
       type(total_list), intent(inout) :: list
       real(wp) :: highest(2)
@@ -335,22 +338,22 @@ contains
          & law=error_law%stress)
    end subroutine add_stresses
 
-   !> Highest temperature in contact; anywhere without contact [degC]
+   !> Maximum temperature in the contact area, or anywhere if there is no contact [degC]
    pure real(wp) function highest_in_contact(contact, temperature) result(highest)
       class(patch_result), intent(in) :: contact
-      !> Shape (mx, my)
+      !> Surface temperature [degC], shape (mx, my)
       real(wp), intent(in) :: temperature(:, :)
 
       highest = maxval(temperature)
       if (contact%ncon > 0) highest = maxval(temperature, contact%division > element%exterior)
    end function highest_in_contact
 
-   !> All element fields, in the order of the columns of the .mat file: names, units and meanings for all outputs
+   !> All element fields, in the order of the columns of the .mat file, with name, unit and meaning for all outputs
    !>
-   !> Displacements do not follow the body that is looked at, contrary to tractions and slip.
+   !> The signs of displacements do not depend on the body that is viewed, contrary to those of tractions and slip.
    subroutine fields(self, rows)
       class(patch_result), target, intent(in) :: self
-      !> Their values are those of `self`, of which the caller has the attribute target
+      !> Rows whose values point to those of `self`; the actual argument must have the target attribute
       type(element_field), allocatable, intent(out) :: rows(:)
       logical :: still
 
@@ -390,7 +393,7 @@ contains
       subroutine add(code, name, unit, meaning, values, along, divisor, zero, label, figures, in_files)
          integer, intent(in) :: code
          character(len=*), intent(in) :: name, unit, meaning
-         !> Unallocated: the case has no such field
+         !> Values, shape (mx, my); unallocated if the case does not have this field
          real(wp), allocatable, target, intent(in) :: values(:, :)
          integer, intent(in), optional :: along, figures
          real(wp), intent(in), optional :: divisor
@@ -410,8 +413,8 @@ contains
       end subroutine add
    end subroutine fields
 
-   !> The mirror image: rows of elements in reversed order, lateral components with the other sign. Totals and stresses below the
-   !> surface stay
+   !> The mirror image: rows of elements in reversed order, lateral components with opposite sign. Totals and stresses below the
+   !> surface are not changed
    function mirrored(right) result(left)
       !> Solution for the right side of the track
       type(patch_result), intent(in) :: right
@@ -424,7 +427,7 @@ contains
 
    contains
 
-      !> Turn over all fields
+      !> Reverse the rows of all fields
       subroutine turn_over(contact)
          type(patch_result), target, intent(inout) :: contact
          type(element_field), allocatable :: rows(:)
@@ -440,7 +443,7 @@ contains
       end subroutine turn_over
    end function mirrored
 
-   !> Sums over all elements of tractions, displacements and slip are among the totals, so that no element escapes
+   !> Are all totals finite? They include sums over all elements of tractions, displacements and slip
    pure logical function has_finite_totals(self) result(finite)
       class(patch_result), intent(in) :: self
       type(total_list) :: list
@@ -448,7 +451,7 @@ contains
       list%only_judges = .true.
       call self%totals(list)
       finite = list%is_finite .and. all(ieee_is_finite([self%mx, self%my, self%cksi, self%ceta, self%cphi, self%friction_power]))
-      ! the highest temperature passes over what is no number
+      ! the maximum temperature would ignore NaN
       if (finite .and. allocated(self%temp1)) finite = ieee_is_finite(sum(self%temp1) + sum(self%temp2))
    end function has_finite_totals
 end module contact_patch_result

@@ -1,9 +1,8 @@
-!> Sensitivities of the forces to approach, creepages and spin at the solution of a patch
+!> Sensitivities of the forces of a patch to approach, creepages and spin
 !>
-!> Exact derivatives of the discrete solution: one linear system per input, with the operator of the normal
-!> problem on the contact area, and with the Jacobian of the tangential one. What the program
-!> solves one after the other stays so: the contact area is kept, normal displacements by tangential tractions
-!> are kept, and so is the coefficient of friction in each element.
+!> Exact derivatives of the discrete solution: one linear system per input, with the operator of the normal problem on the contact
+!> area, and with the Jacobian of the tangential problem. Quantities that the solution freezes stay frozen: the contact area, normal
+!> displacements by tangential tractions, and the coefficient of friction in each element.
 module contact_patch_sensitivities
    use contact_base_choices, only : motion, sensitivity_choice
    use contact_base_kinds, only : wp
@@ -26,22 +25,22 @@ module contact_patch_sensitivities
    integer, parameter :: row_fn = 1, row_fx = 2, row_fy = 3, row_mz = 4
    integer, parameter :: to_pen = 1, to_ksi = 2, to_eta = 3, to_phi = 4
 
-   !> Residuals up to this many times EPSENS are not worth a message
+   !> Relative residuals up to this multiple of EPSENS give no warning
    real(wp), parameter :: accepted = 10.0_wp
 
 contains
 
-   !> Fill the table of sensitivities as far as the problem asks for it
+   !> Compute the sensitivities that the problem requests
    subroutine find_sensitivities(problem, workspace, state, result, log)
-      !> Which sensitivities, with what tolerance; prescribed forces
+      !> Requested sensitivities and their tolerance; prescribed forces
       type(patch_problem), intent(in) :: problem
       !> Compliances, and the tangential problem with its solution
       type(patch_workspace), intent(inout) :: workspace
-      !> The derivative of its pressures is kept where estimates follow the approach
+      !> The derivative of the pressures is stored if estimates are extrapolated in the approach
       type(patch_state), intent(inout) :: state
-      !> Totals are known
+      !> Totals on entry; `sensitivity` is set
       type(patch_result), intent(inout) :: result
-      !> Hears of linear systems that were not solved accurately enough
+      !> Gets a warning if a linear system was not solved accurately enough
       type(log_type), intent(inout) :: log
       real(wp), allocatable :: q(:, :)
       real(wp) :: reached
@@ -52,7 +51,7 @@ contains
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
       if (problem%sensitivity >= sensitivity_choice%normal .and. problem%solves_for_pressure()) &
          & call normal_stiffness(problem, workspace%window, workspace%normal_work%factor, state, result, q, reached)
-      ! the linearised problem of any other step than one element is not at hand
+      ! there is no linearised problem for steps of other length than one element
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified) .and. .not. problem%general_step) &
          & call tangential_part()
       if (reached <= accepted*problem%epsens .or. .not. problem%reports_sensitivity) return
@@ -69,17 +68,17 @@ contains
       end subroutine tangential_part
    end subroutine find_sensitivities
 
-   !> dFn/dpen [N/mm] and the derivative of the pressures
+   !> dFn/dpen [N/mm], and the derivative of the pressures with respect to the approach
    subroutine normal_stiffness(problem, operator, factor, state, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> May be that of the contact area
+      !> Factorisation, possibly that of the contact area
       type(area_factor), intent(inout) :: factor
       type(patch_state), intent(inout) :: state
       type(patch_result), intent(inout) :: result
-      !> [N/mm3], shape (mx, my); unallocated where it is kept in the state and nobody else asks for it
+      !> Derivative of the pressures [N/mm3], shape (mx, my); unallocated if it is stored in the state and not needed elsewhere
       real(wp), allocatable, intent(out) :: q(:, :)
-      !> Relative residual
+      !> Relative residual [-]
       real(wp), intent(out) :: reached
       logical :: has_estimate
 
@@ -94,20 +93,20 @@ contains
       end if
    end subroutine normal_stiffness
 
-   !> Derivative of the pressures, and dFn/dpen by it
+   !> Derivative of the pressures, and dFn/dpen as its sum
    subroutine find_rate(problem, operator, factor, has_estimate, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(area_factor), intent(inout) :: factor
-      !> Is q one on entry?
+      !> Is q an estimate on entry?
       logical, intent(in) :: has_estimate
       type(patch_result), intent(inout) :: result
-      !> [N/mm3], shape (mx, my)
+      !> Derivative of the pressures with respect to the approach [N/mm3], shape (mx, my)
       real(wp), contiguous, intent(inout) :: q(:, :)
-      !> Relative residual
+      !> Relative residual [-]
       real(wp), intent(out) :: reached
       logical :: is_found
-      !> Where an estimate is improved: the error of the stiffness is the square of it
+      !> Tolerance with an estimate; the error of the stiffness is of the order of its square
       real(wp), parameter :: rough = 5.0e-3_wp
       real(wp) :: tolerance
 
@@ -122,16 +121,16 @@ contains
       result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
    end subroutine find_rate
 
-   !> Changes of the tangential forces by the wanted inputs
+   !> Derivatives of the tangential forces with respect to the requested inputs
    subroutine force_changes(problem, wanted, q, workspace, result, worst)
       type(patch_problem), intent(in) :: problem
       !> Columns of the table to fill
       logical, intent(in) :: wanted(4)
-      !> Derivative of the pressures to the approach [N/mm3] on the window; unallocated: unknown
+      !> Derivative of the pressures with respect to the approach [N/mm3], shape (mx, my); unallocated if not known
       real(wp), allocatable, intent(in) :: q(:, :)
       type(patch_workspace), intent(inout) :: workspace
       type(patch_result), intent(inout) :: result
-      !> Largest relative residual so far
+      !> Maximum relative residual so far [-]
       real(wp), intent(inout) :: worst
       type(bounding_box) :: box
       real(wp), allocatable :: shift(:, :, :), bound(:, :), change(:, :, :), box_q(:, :)
@@ -191,7 +190,7 @@ contains
          end do
       end associate
       if (.not. wanted(to_pen)) return
-      ! of forces relative to the normal force, which changes too
+      ! forces relative to the normal force, which changes with the approach
       result%sensitivity([row_fx, row_fy], to_pen) = result%sensitivity([row_fx, row_fy], to_pen) &
          & - [result%fx_rel, result%fy_rel]*result%sensitivity(row_fn, to_pen)/result%fn
    end subroutine force_changes

@@ -1,4 +1,4 @@
-!> The tangential problem of a patch in simplified theory, instead of half-spaces
+!> The tangential problem of a patch in simplified theory
 module contact_patch_simplified_step
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -18,17 +18,17 @@ module contact_patch_simplified_step
 
 contains
 
-   !> Tangential tractions and slip on the given contact area
+   !> Tangential tractions and slip on a given contact area
    subroutine simplified_step(problem, state, workspace, log, result)
       !> Flexibilities, creepages or forces, friction
       type(patch_problem), intent(in) :: problem
       !> Pressures on entry; tangential tractions on exit
       type(patch_state), intent(inout) :: state
-      !> The simplified problem and its solution
+      !> The simplified problem and its solution, as work space
       type(patch_workspace), intent(inout) :: workspace
-      !> Takes the trace, and warnings
+      !> Gets the trace, and warnings
       type(log_type), intent(inout) :: log
-      !> Gets slip, element states, creepages and the report
+      !> Slip, element states, creepages and the report are set
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
       integer :: iy
@@ -61,7 +61,7 @@ contains
       end associate
    end subroutine simplified_step
 
-   !> The problem on the bounding box of the contact area
+   !> Define the problem on the bounding box of the contact area
    subroutine set_window(problem, state, box, result, window)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -117,9 +117,9 @@ contains
       end if
    end subroutine set_window
 
-   !> Tractions that particles had one step before, where they are now
+   !> Tractions of the previous time step at the present positions of the particles
    !>
-   !> Linear between the centres of elements where a step is not a whole number of elements.
+   !> Linear interpolation between centres of elements if the step is not a whole number of elements.
    pure subroutine sample_before(problem, before, box, p)
       type(patch_problem), intent(in) :: problem
       type(traction_fields), intent(in) :: before
@@ -133,7 +133,7 @@ contains
       distance = 0.0_wp
       if (problem%motion == motion%transient_rolling) distance = problem%dq*[cos(problem%chi)/problem%grid%dx, &
          & sin(problem%chi)/problem%grid%dy]
-      ! what comes from beyond the window is free of tractions, from however far
+      ! beyond the grid there are no tractions, whatever the distance
       distance = max(-limit, min(limit, distance))
       whole = floor(distance + rounding)
       share = max(0.0_wp, distance - whole)

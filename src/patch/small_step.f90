@@ -1,4 +1,4 @@
-!> A solved patch at an approach that differs by next to nothing, to first order
+!> Linear extrapolation of a solved patch to a slightly different approach
 module contact_patch_small_step
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -17,11 +17,11 @@ module contact_patch_small_step
 
 contains
 
-   !> Is the derivative known, and is it all there is?
+   !> Is the derivative known, and sufficient?
    !>
-   !> Heat, yield limits, friction that follows its slip, and pressures that follow tractions change by more.
+   !> Not with heat, yield limits, friction that depends on slip, or pressures that depend on tractions.
    pure logical function can_step(problem, state)
-      !> What was solved
+      !> The problem that was solved
       type(patch_problem), intent(in) :: problem
       !> Its solution
       type(patch_state), intent(in) :: state
@@ -31,19 +31,19 @@ contains
          & .or. allocated(problem%damping) .or. problem%n_forces > 0)
    end function can_step
 
-   !> Pressures, and forces of all kinds, at another approach
+   !> Pressures, tractions and forces at another approach
    !>
-   !> Pressures change by their derivative, approximate ones as the force of Hertz's contact does, tangential tractions in
-   !> proportion to them: exact where the surfaces slide, and where they adhere wrong by a part of a change that is within the
-   !> tolerance.
+   !> Pressures change by their derivative, approximate ones in proportion to the force of Hertz's theory, and tangential tractions
+   !> in proportion to the pressures: exact in the slip area; in the adhesion area the error is a fraction of a change that is
+   !> within the tolerance.
    pure subroutine small_step(problem, change, state, result)
-      !> What was solved
+      !> The problem that was solved
       type(patch_problem), intent(in) :: problem
-      !> Of the approach [mm]
+      !> Change of the approach [mm]
       real(wp), intent(in) :: change
-      !> Solution; gets the new one
+      !> Solution; updated
       type(patch_state), intent(inout) :: state
-      !> The same, and its totals
+      !> Result of the solution; updated
       type(patch_result), intent(inout) :: result
       real(wp) :: ratio, area
       logical :: is_hertzian
@@ -80,19 +80,19 @@ contains
       state%now%force = [result%fn, result%fx, result%fy]
    end subroutine small_step
 
-   !> The same for a change that is not within the tolerance: tractions and what follows from them are solved anew
+   !> The same for a change that exceeds the tolerance: tractions and derived quantities are solved anew
    subroutine step_with_tractions(problem, change, state, workspace, log, result)
-      !> What was solved
+      !> The problem that was solved
       type(patch_problem), intent(in) :: problem
-      !> Of the approach [mm]
+      !> Change of the approach [mm]
       real(wp), intent(in) :: change
-      !> Solution; gets the new one
+      !> Solution; updated
       type(patch_state), intent(inout) :: state
-      !> That of the solution
+      !> Work space of the solution
       type(patch_workspace), intent(inout) :: workspace
-      !> Takes the trace of the solvers, and warnings
+      !> Gets the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
-      !> The same solution, its totals and its reports
+      !> Result of the solution with totals and reports; updated
       type(patch_result), intent(inout) :: result
 
       call small_step(problem, change, state, result)

@@ -1,9 +1,9 @@
-!> Solves one contact patch: normal and tangential problem, and what follows from them
+!> Solution of one contact patch: normal and tangential problem, and quantities derived from them
 !>
-!> With K = 0 the two problems are solved once, one after the other (Johnson). Otherwise they
-!> alternate with the tractions of the other one frozen (Panagiotopoulos), until the pressures
-!> belong to the tangential tractions that follow from them. What passes from one pass to the next are the normal
-!> displacements by tangential tractions, extrapolated from the passes before (contact_numeric_anderson).
+!> With K = 0 the two problems are solved once, one after the other (Johnson). Otherwise they are solved in turn with the tractions
+!> of the other one fixed (Panagiotopoulos), until the pressures are consistent with the normal displacements by the tangential
+!> tractions. These displacements are the variables of the outer iteration; they are extrapolated from previous passes
+!> (contact_numeric_anderson).
 module contact_patch_solve
    use contact_base_choices, only : motion
    use contact_base_constants, only : excluded_threshold
@@ -31,33 +31,33 @@ module contact_patch_solve
 
    public :: check_problem, solve_patch
 
-   !> Passes that the extrapolation remembers
+   !> Number of passes in the history of the extrapolation
    integer, parameter :: outer_depth = 10
-   !> What passes leave of their problems is noise of the outer iteration, which strong coupling amplifies: from a change of so many
-   !> times EPS on, they solve to this part of EPS, but not below what rounding leaves
+   !> Residuals of the two problems are noise for the outer iteration, amplified by strong coupling: once the change is below this
+   !> multiple of EPS, they are solved to this fraction of EPS, but not below the level of round-off
    real(wp), parameter :: near_the_end = 10.0_wp, sharp = 0.1_wp, least_eps = 1.0e-12_wp
 
-   !> Steps that differ from the length of an element by less than this part are one element
+   !> Steps whose relative difference to the length of an element is below this value are one element
    real(wp), parameter :: step_slack = 0.01_wp
 
 contains
 
-   !> Solve for the tractions of this step
+   !> Solve for the tractions of this time step
    subroutine solve_patch(problem, state, workspace, log, result, error)
-      !> Everything that is asked
+      !> Complete description of the problem
       type(patch_problem), intent(in) :: problem
       !> now: estimate on entry, solution on exit; before: the previous time step
       type(patch_state), intent(inout) :: state
-      !> Kept from case to case for speed; its contents do not matter
+      !> Work space, kept from case to case for speed; its contents have no meaning
       type(patch_workspace), intent(inout) :: workspace
-      !> Takes the trace of all solvers, and warnings
+      !> Gets the trace of all solvers, and warnings
       type(log_type), intent(inout) :: log
       !> Tractions, slip, totals, reports and the status of the case
       type(patch_result), intent(inout) :: result
-      !> Allocated when the problem has no solution, or time is up
+      !> Allocated if the problem has no solution, or the time limit is exceeded
       type(error_type), allocatable, intent(out) :: error
-      !> Iteration between pressures and tractions
-      type(solve_report) :: turns
+      !> Outer iteration between pressures and tractions
+      type(solve_report) :: outer_report
       integer :: outer
 
       call check_problem(problem, error)
@@ -65,7 +65,7 @@ contains
       call fit_workspace(problem, workspace)
       call reset_result(problem, state, result)
       call choose_order(problem, result%tangential)
-      ! simplified theory has a weight of its own for the spin
+      ! in simplified theory the spin term has other weights
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) call rigid_slip(problem, result)
       if (problem%motion == motion%none) then
          state%now%px = 0.0_wp
@@ -80,7 +80,7 @@ contains
          call normal_step(problem, state, workspace, log, result)
          if (problem%motion == motion%none) exit
          if (allocated(problem%simplified)) then
-            ! pressures do not feel the tractions of simplified theory
+            ! in simplified theory pressures do not depend on the tractions
             call simplified_step(problem, state, workspace, log, result)
             exit
          end if
@@ -88,30 +88,30 @@ contains
          if (problem%settings%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit
          if (problem%deadline%has_passed()) then
-            turns%ended = ending%out_of_time
+            outer_report%ended = ending%out_of_time
             exit
          end if
-         call next_pass(problem, state, workspace, log, result, turns)
-         if (turns%ended /= ending%not_started) exit
-         if (outer == problem%settings%maxout) turns%ended = ending%iteration_limit
+         call next_pass(problem, state, workspace, log, result, outer_report)
+         if (outer_report%ended /= ending%not_started) exit
+         if (outer == problem%settings%maxout) outer_report%ended = ending%iteration_limit
       end do
-      if (any([result%normal%ended, result%tangential%ended, turns%ended] == ending%out_of_time)) then
+      if (any([result%normal%ended, result%tangential%ended, outer_report%ended] == ending%out_of_time)) then
          call problem%deadline%check("in the solution of a contact patch", error)
          return
       end if
       call derive(problem, state, workspace, result)
-      call derive_status(problem, turns, result)
+      call derive_status(problem, outer_report, result)
       if (.not. result%status%is_solved()) call log%warning(result%status%reason)
       call remember_forces(problem, state, result)
       call find_sensitivities(problem, workspace, state, result, log)
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, log, result)
       state%started = .true.
-      if (any(problem%motion == [motion%transient_rolling, motion%steady_rolling])) call judge_creepages(result, log)
+      if (any(problem%motion == [motion%transient_rolling, motion%steady_rolling])) call warn_of_creepages(result, log)
    end subroutine solve_patch
 
-   !> Warn of surfaces that slide faster than they roll
-   subroutine judge_creepages(result, log)
+   !> Warn of creepages above 1
+   subroutine warn_of_creepages(result, log)
       type(patch_result), intent(in) :: result
       type(log_type), intent(inout) :: log
       character(len=:), allocatable :: which
@@ -123,17 +123,17 @@ contains
       if (abs(result%ceta) > 1.0_wp) which = which // "CETA = " // real_text(result%ceta)
       if (len(which) > 0 .and. result%ncon > 0) call log%warning("creepages beyond 1 (" // which // "): the surfaces slide &
          &faster than they roll; creepages are relative to the rolling velocity, 1 % is 0.01")
-   end subroutine judge_creepages
+   end subroutine warn_of_creepages
 
-   !> Judge a pass; choose what the pressures of the next one belong to
-   subroutine next_pass(problem, state, workspace, log, result, turns)
+   !> Check convergence of the outer iteration; choose the normal displacements for the next pass
+   subroutine next_pass(problem, state, workspace, log, result, outer_report)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(patch_result), intent(in) :: result
-      !> Ended when the change is within the tolerance
-      type(solve_report), intent(inout) :: turns
+      !> Ended if the change is within the tolerance
+      type(solve_report), intent(inout) :: outer_report
       real(wp) :: change, scale
       integer :: level
       character(len=96) :: line
@@ -147,12 +147,12 @@ contains
             & problem%settings%eps*scale
          call log%trace(level, trim(line))
       end if
-      turns%method = "outer iteration"
-      turns%iterations = result%outer_iterations
-      turns%residual = change/scale
-      turns%tolerance = problem%settings%eps
+      outer_report%method = "outer iteration"
+      outer_report%iterations = result%outer_iterations
+      outer_report%residual = change/scale
+      outer_report%tolerance = problem%settings%eps
       if (change <= problem%settings%eps*scale) then
-         turns%ended = ending%converged
+         outer_report%ended = ending%converged
          return
       end if
       if (change <= near_the_end*problem%settings%eps*scale) &
@@ -161,7 +161,7 @@ contains
       call workspace%outer%advance(workspace%un, workspace%lift)
    end subroutine next_pass
 
-   !> Forces of this time step for the next one, and damping by their change since the previous one
+   !> Store the forces of this time step for the next one; damping forces from their change since the previous one
    subroutine remember_forces(problem, state, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(inout) :: state
@@ -175,11 +175,11 @@ contains
       if (state%before%is_solved) result%damping = damping_forces(problem%damping, state%before%force, state%now%force, result%dt)
    end subroutine remember_forces
 
-   !> Refuse what has no solution
+   !> Refuse problems without solution
    subroutine check_problem(problem, error)
-      !> Everything that is asked
+      !> Complete description of the problem
       type(patch_problem), intent(in) :: problem
-      !> Allocated with the reason
+      !> Allocated with the reason if it is refused
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: force
       character(len=16) :: text

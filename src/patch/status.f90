@@ -1,4 +1,4 @@
-!> How the solution of a patch ended, from the reports of its iterations and from the prescribed forces
+!> Status of the solution of a patch, from the reports of its iterations and from the prescribed forces
 module contact_patch_status
    use contact_base_case_status, only : case_status, missed_iteration
    use contact_base_choices, only : motion
@@ -13,11 +13,11 @@ module contact_patch_status
 
 contains
 
-   !> Status of a patch whose totals are known
+   !> Set the status of a patch whose totals are known
    subroutine derive_status(problem, outer, result)
       !> Prescribed forces and tolerances
       type(patch_problem), intent(in) :: problem
-      !> Iteration between pressures and tractions
+      !> Outer iteration between pressures and tractions
       type(solve_report), intent(in) :: outer
       !> Its status is set
       type(patch_result), intent(inout) :: result
@@ -31,14 +31,14 @@ contains
       call result%status%record_iteration(missed_iteration%outer, "pressures and tractions", outer)
    end subroutine derive_status
 
-   !> Are the prescribed tangential forces there?
+   !> Check whether the prescribed tangential forces were reached
    subroutine judge_forces(problem, result)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
       character(len=2), parameter :: name(2) = ["FX", "FY"]
-      !> Forces may miss by this many times the tolerance, relative to the largest possible one
+      !> Maximum deviation of a force, in multiples of the tolerance, relative to the maximum possible force
       real(wp), parameter :: allowed = 2.0_wp
-      !> The largest possible force [N]
+      !> Maximum possible force [N]
       real(wp) :: bound
       character(len=24) :: largest
       real(wp) :: requested(2), found(2)

@@ -1,4 +1,4 @@
-!> The tangential problem of a patch: shear tractions and slip on a given contact area
+!> The tangential problem of a patch: tangential tractions and slip on a given contact area
 module contact_patch_tangential_step
    use contact_base_choices, only : is_classical, motion, solver_choice
    use contact_base_kinds, only : wp
@@ -24,8 +24,9 @@ module contact_patch_tangential_step
 
    public :: tangential_step
 
-   !> Relaxation of the Gauss-Seidel methods where the input gives none, all values chosen. Contact areas of few elements need
-   !> none; steps in time and ConvexGS have one for adhesion and slip; steady rolling has two, by the ratio DX/DY of the elements
+   !> Relaxation factors of the Gauss-Seidel methods if the input gives none, all values chosen. Contact areas of few elements are
+   !> not relaxed; time steps and ConvexGS have one factor for adhesion and slip; steady rolling has two, which depend on the ratio
+   !> DX/DY of the elements
    integer, parameter :: few_elements = 25
    real(wp), parameter :: long_element = 5.0_wp, longer_element = 15.0_wp
    real(wp), parameter :: relaxed_step = 0.5_wp, relaxed_square(2) = [0.9_wp, 1.0_wp], relaxed_long(2) = [0.8_wp, 0.8_wp], &
@@ -33,17 +34,17 @@ module contact_patch_tangential_step
 
 contains
 
-   !> Tangential tractions and slip on the given contact area
+   !> Solve for tangential tractions and slip on a given contact area
    subroutine tangential_step(problem, state, workspace, log, result)
       !> Motion, friction, creepages or forces, method
       type(patch_problem), intent(in) :: problem
-      !> Pressures and element states on entry, estimate of the tractions; solution on exit
+      !> On entry pressures, element states and estimate of the tractions; on exit the solution
       type(patch_state), intent(inout) :: state
-      !> Compliance of the box, the tangential problem and its solution
+      !> Compliance of the box, tangential problem and solution
       type(patch_workspace), intent(inout) :: workspace
-      !> Takes the trace of the solvers, and warnings
+      !> Gets the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
-      !> Gets slip, coefficients of friction, creepages and reports
+      !> Slip, coefficients of friction, creepages and reports are set
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
 
@@ -57,12 +58,12 @@ contains
       if (problem%general_step) call prepare_step(problem, workspace)
       if (iterates_friction(problem)) call workspace%friction%start(problem, state, result%dt, &
          & result%outer_iterations == 1, result%mu)
-      call state_and_solve(problem, state, box, workspace, log, result)
+      call set_and_solve(problem, state, box, workspace, log, result)
       if (allocated(workspace%tangential%second) .and. .not. any(result%tangential%ended == [ending%converged, &
          & ending%out_of_time, ending%beyond_friction])) then
          call lower_order("no progress with order 2", result%tangential)
          call rigid_slip(problem, result)
-         call state_and_solve(problem, state, box, workspace, log, result)
+         call set_and_solve(problem, state, box, workspace, log, result)
       end if
 
       associate (solution => workspace%solution)
@@ -76,8 +77,8 @@ contains
       if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
    end subroutine tangential_step
 
-   !> Make the tangential problem of the order that acts, and solve it
-   subroutine state_and_solve(problem, state, box, workspace, log, result)
+   !> Define the tangential problem with the order in effect, and solve it
+   subroutine set_and_solve(problem, state, box, workspace, log, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(bounding_box), intent(in) :: box
@@ -97,7 +98,7 @@ contains
          result%tangential%passes = result%tangential%passes + 1
          if (log%shows(9)) call show_division(state, box, workspace%solution, log)
       end if
-   end subroutine state_and_solve
+   end subroutine set_and_solve
 
    !> Do coefficients of friction depend on the solution?
    pure logical function iterates_friction(problem)
@@ -107,7 +108,7 @@ contains
       if (allocated(problem%friction)) iterates_friction = problem%friction%driver() /= friction_driver%none
    end function iterates_friction
 
-   !> Alternate between tractions and the coefficients of friction that depend on their slip
+   !> Solve for tractions and for coefficients of friction that depend on slip, in turn
    subroutine solve_with_friction(problem, state, box, workspace, log, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -129,7 +130,7 @@ contains
       call workspace%friction%report(problem, result%friction)
    end subroutine solve_with_friction
 
-   !> New traction bounds; tractions on the old bound move to the new one, so that little is left to do
+   !> Set new traction bounds; tractions on the old bound are scaled to the new one as an estimate
    pure subroutine set_bound(state, box, mu, t, s)
       type(patch_state), intent(in) :: state
       type(bounding_box), intent(in) :: box
@@ -157,7 +158,7 @@ contains
       end do
    end subroutine set_bound
 
-   !> Crop the tangential problem to the contact area
+   !> Restrict the tangential problem to the bounding box of the contact area
    subroutine set_tangential(problem, state, box, workspace, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -218,7 +219,7 @@ contains
       end associate
    end subroutine set_tangential
 
-   !> Coefficients of the same particles a step ago, for steps of any length and direction
+   !> Influence coefficients of the same particles one step before, for steps of any length and direction
    subroutine prepare_step(problem, workspace)
       type(patch_problem), intent(in) :: problem
       type(patch_workspace), intent(inout) :: workspace
@@ -233,7 +234,7 @@ contains
       end associate
    end subroutine prepare_step
 
-   !> Contribution of the present pressures to the slip
+   !> Add the contribution of the present pressures to the slip
    subroutine add_by_pressures(problem, state, box, workspace)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
@@ -248,7 +249,7 @@ contains
          call workspace%previous%tangential(workspace%box_un, workspace%box_un, workspace%box_pn, &
             & workspace%box_ut(:, :, 1), workspace%box_ut(:, :, 2))
          workspace%box_ut = -workspace%box_ut
-         if (allocated(workspace%tangential%edge)) call count_from_edge(problem, state, box, workspace)
+         if (allocated(workspace%tangential%edge)) call displace_from_edge(problem, state, box, workspace)
       else if (workspace%tangential%steady) then
          call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)
       else
@@ -257,12 +258,12 @@ contains
       workspace%tangential%shift = workspace%tangential%shift + workspace%box_ut
    end subroutine add_by_pressures
 
-   !> Displacements by the present pressures at the edges of contact, for the particles that entered during the step
-   subroutine count_from_edge(problem, state, box, workspace)
+   !> Displacements by the present pressures at the edge of contact, for particles that entered during the step
+   subroutine displace_from_edge(problem, state, box, workspace)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(bounding_box), intent(in) :: box
-      !> box_ut: displacements of the same particles a step ago, taken off
+      !> box_ut is set, in elements with an edge, to minus the displacement at the edge [mm]
       type(patch_workspace), intent(inout) :: workspace
       integer :: ix, iy, edge
 
@@ -277,9 +278,9 @@ contains
             end do
          end do
       end associate
-   end subroutine count_from_edge
+   end subroutine displace_from_edge
 
-   !> Relaxation of the Gauss-Seidel methods: from the input, or by the shape of the elements
+   !> Relaxation factors of the Gauss-Seidel methods: from the input, or by the shape of the elements
    pure subroutine set_relaxation(problem, ncon, t)
       type(patch_problem), intent(in) :: problem
       integer, intent(in) :: ncon
@@ -303,7 +304,7 @@ contains
       t%settings%omegas = omega(2)
    end subroutine set_relaxation
 
-   !> Run the default solver, which hands over to a classical one when it makes no progress, or the classical one that is asked for
+   !> Use the default solver, with a classical one as fallback, or the classical solver that is requested
    subroutine choose_and_solve(problem, workspace, log, report)
       type(patch_problem), intent(in) :: problem
       type(patch_workspace), intent(inout) :: workspace
@@ -311,12 +312,12 @@ contains
       type(solve_report), intent(inout) :: report
       integer :: method
 
-      method = classical_one(problem)
+      method = classical_method_for(problem)
       report%asked = ""
       if (is_beyond_friction(workspace%tangential) .and. .not. problem%general_step) then
          call slide_fully(workspace%tangential, workspace%box, workspace%solution, report)
       else if (problem%general_step) then
-         ! the default solver takes steps of one element along x only
+         ! the default solver is limited to steps of one element along x
          call solve_classical(workspace%tangential, workspace%box, classical_method%convex_gs, workspace%solution, report, log, &
             & workspace%shifted)
       else if (.not. (problem%classical .and. is_classical(problem%solver))) then
@@ -332,17 +333,17 @@ contains
       if (is_classical(problem%solver) .and. report%method /= method_name(method)) report%asked = method_name(method)
    end subroutine choose_and_solve
 
-   !> Newton-Krylov; when it makes no progress, a classical method
+   !> Newton-Krylov, with a classical method as fallback if it stagnates
    subroutine solve_by_default(problem, method, workspace, log, report)
       type(patch_problem), intent(in) :: problem
-      !> Member of classical_method
+      !> Fallback method, member of classical_method
       integer, intent(in) :: method
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(solve_report), intent(inout) :: report
-      !> A classical method looks at the size of its updates, which leaves a residual far below the tolerance as a rule: who asked
-      !> for one gets as much of the default method, down to where rounding begins. With this share its residual is the smaller one
-      !> in 457 of 500 problems of test_solvers_agree, and below the tolerance in all
+      !> A classical method stops by the size of its updates, with a residual usually far below the tolerance: if one is requested,
+      !> the default method gets a smaller tolerance, bounded by round-off. With this factor its residual is smaller than that of
+      !> the classical method in 457 of 500 problems of test_solvers_agree, and below the tolerance in all
       real(wp), parameter :: usual_share = 0.1_wp, least = 1.0e-12_wp
       real(wp) :: eps
 
@@ -351,13 +352,13 @@ contains
          if (is_classical(problem%solver)) t%settings%eps = min(eps, max(usual_share*eps, least))
          call solve_newton_krylov(t, workspace%box, workspace%tangential_work, workspace%solution, report, log)
          t%settings%eps = eps
-         ! what is asked for is EPS, also where tractions are made sharper
+         ! the requested tolerance is EPS, also if tractions are solved more accurately
          report%tolerance = problem%settings%eps*max(1.0_wp, problem%traction_eps)
          if (report%ended == ending%out_of_time) return
          if ((is_classical(problem%solver) .or. eps < report%tolerance) .and. (report%ended == ending%stagnated &
             & .or. report%ended == ending%iteration_limit) .and. report%residual >= 0.0_wp &
             & .and. report%residual <= report%tolerance) report%ended = ending%converged
-         ! without success the order is lowered first
+         ! after a failure of the second order, the caller reduces the order first
          if (report%succeeded() .or. allocated(t%second)) return
          if (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table()) return
          call log%warning("Newton-Krylov made no further progress; a classical method takes over")
@@ -370,8 +371,8 @@ contains
       end associate
    end subroutine solve_by_default
 
-   !> The classical method that the case names, or that the default solver hands over to; member of classical_method
-   pure integer function classical_one(problem) result(method)
+   !> The classical method that the case requests, or that is the fallback of the default solver; member of classical_method
+   pure integer function classical_method_for(problem) result(method)
       type(patch_problem), intent(in) :: problem
 
       method = classical_method%tang_cg
@@ -380,7 +381,7 @@ contains
          if (problem%solver == solver_choice%gd_steady) method = classical_method%gd_steady
       end if
       if (problem%solver == solver_choice%convex_gs) method = classical_method%convex_gs
-   end function classical_one
+   end function classical_method_for
 
    !> Heading of the flow trace
    pure function type_of_motion(choice) result(text)
@@ -392,7 +393,7 @@ contains
       if (choice == motion%transient_rolling) text = "TRANSIENT ROLLING CONTACT"
    end function type_of_motion
 
-   !> Picture of a solution on the box, in its place on the grid
+   !> Picture of the element states of a solution, at its position on the grid
    subroutine show_division(state, box, solution, log)
       type(patch_state), intent(in) :: state
       type(bounding_box), intent(in) :: box

@@ -1,4 +1,4 @@
-!> Time steps of a patch: the present one becomes the previous one, on the window of the next case
+!> Time steps of a patch: the present one becomes the previous one, on the grid of the next case
 module contact_patch_time_steps
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, fatal_error
@@ -13,17 +13,18 @@ module contact_patch_time_steps
 
 contains
 
-   !> Present time step becomes the previous one, on the window of this case
+   !> Shift the time steps: the present one becomes the previous one, on the grid of this case
    subroutine link_time_steps(problem, link, state, error)
-      !> Grid of this case, and the effects that remember
+      !> Grid of this case, and quantities that particles carry
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
-      !> On entry as the previous case left it; on exit `now` is the estimate and `before` the previous time step, on the new window
+      !> On entry the state after the previous case; on exit `now` is the estimate and `before` the previous time step, on the new
+      !> grid
       type(patch_state), intent(inout) :: state
-      !> Allocated when the windows do not fit each other, or the new one leaves out contact that matters
+      !> Allocated if the grids are not compatible, or the new one omits elements in contact that are needed
       type(error_type), allocatable, intent(out) :: error
-      ! of particles without history, one list for all that is remembered
+      ! values of particles without history, for the quantity in turn
       real(wp), allocatable :: fresh(:)
       integer :: kind, kx, ky
       logical :: linked
@@ -33,7 +34,7 @@ contains
       linked = state%started .and. (link /= time_link%initiate .or. problem%estimate /= estimate_choice%fresh)
       if (linked) then
          call offset_of(state%now%grid, problem%grid, kx, ky, error)
-         if (.not. allocated(error) .and. link /= time_link%initiate) call refuse_loss(state, problem%grid, link, error)
+         if (.not. allocated(error) .and. link /= time_link%initiate) call check_lost_contact(state, problem%grid, link, error)
          if (allocated(error)) return
          call move_window(state%now, problem%grid, kx, ky)
          if (state%before%grid%mx > 0) call move_window(state%before, problem%grid, kx, ky)
@@ -66,17 +67,17 @@ contains
       end do
    end subroutine link_time_steps
 
-   !> The present values become those of the same particles at the previous time step
+   !> Quantities of the particles at the previous time step, from the present ones
    !>
-   !> In rolling the window moves by one step, and the particles that are in its elements now
-   !> were that far ahead in it: values in between are interpolated bilinearly.
+   !> In rolling the contact moves by one step: the particles that are now in its elements were one step ahead. Values between
+   !> elements are interpolated bilinearly.
    subroutine hand_over(problem, link, linked, kx, ky, fresh, now, before)
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
-      !> Is there a previous case to go on from? Otherwise all particles are without history
+      !> Does the case continue from a previous one? Otherwise all particles are without history
       logical, intent(in) :: linked
-      !> Elements by which the window was moved
+      !> Shift of the grid, in elements
       integer, intent(in) :: kx, ky
       !> Value of particles without history, per row
       real(wp), intent(in) :: fresh(:)
@@ -104,10 +105,10 @@ contains
       end select
    end subroutine hand_over
 
-   !> A remembered field on the window of this case; without history where it is new
+   !> Move a stored quantity to the grid of this case; particles that enter have no history
    subroutine fit_memory(grid, kx, ky, fresh, field)
       type(potential_contact), intent(in) :: grid
-      !> Elements by which the window was moved
+      !> Shift of the grid, in elements
       integer, intent(in) :: kx, ky
       !> Value of particles without history, per row
       real(wp), intent(in) :: fresh(:)
@@ -129,7 +130,7 @@ contains
       end do
    end subroutine fit_memory
 
-   !> One value per row
+   !> Fill a field with one value per row
    pure subroutine fill_rows(fresh, field)
       real(wp), intent(in) :: fresh(:)
       !> Shape (mx, size(fresh))
@@ -141,19 +142,19 @@ contains
       end do
    end subroutine fill_rows
 
-   !> Field at places a number of elements ahead, interpolated; fresh values beyond the window
+   !> Values of a field at a distance ahead, interpolated bilinearly; fresh values beyond the grid
    pure subroutine sample_ahead(field, steps_x, steps_y, fresh, sampled)
-      !> Shape (mx, my)
+      !> Field, shape (mx, my)
       real(wp), intent(in) :: field(:, :)
-      !> Distance in elements [-]
+      !> Distance, in elements [-]
       real(wp), intent(in) :: steps_x, steps_y
-      !> Values beyond the window, per row
+      !> Values beyond the grid, per row
       real(wp), intent(in) :: fresh(:)
-      !> Shape (mx, my)
+      !> Values at the distance, shape (mx, my)
       real(wp), intent(inout) :: sampled(:, :)
       integer :: kx, ky, ix, iy, jx, jy, i, j
       real(wp) :: a, b, corner(0:1, 0:1)
-      !> Distances this close to a whole number of elements are whole numbers
+      !> Distances this close to an integer are regarded as integers [-]
       real(wp), parameter :: whole = 1.0e-9_wp
 
       kx = floor(steps_x + whole)
@@ -181,7 +182,7 @@ contains
       end do
    end subroutine sample_ahead
 
-   !> Number of elements by which a window was moved
+   !> Shift of a grid relative to the previous one, in elements
    subroutine offset_of(old, new, kx, ky, error)
       type(potential_contact), intent(in) :: old, new
       integer, intent(out) :: kx, ky
@@ -204,11 +205,11 @@ contains
       end if
    end subroutine offset_of
 
-   !> Refuse a window that leaves out elements in contact, whose tractions act on in the next time step
-   subroutine refuse_loss(state, grid, link, error)
+   !> Refuse a grid that omits elements in contact whose tractions affect the next time step
+   subroutine check_lost_contact(state, grid, link, error)
       type(patch_state), intent(in) :: state
       type(potential_contact), intent(in) :: grid
-      !> Member of time_link, another one than initiate
+      !> Member of time_link other than initiate
       integer, intent(in) :: link
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: box(4)
@@ -216,7 +217,7 @@ contains
       character(len=12) :: number
       integer :: lost
 
-      ! a repeated step has its previous time step already, and the present one is an estimate
+      ! a repeated step keeps its previous time step, and the present one is only an estimate
       if (link == time_link%repeat_step) then
          if (.not. state%before%grid%mx > 0) return
          call elements_left_out(state%before%division, state%before%grid, grid, lost, box)
@@ -229,17 +230,17 @@ contains
       call fatal_error(error, "the potential contact leaves out " // trim(number) // " of the elements that were in contact in &
          &the previous case, whose tractions this case continues; a window that contains " // trim(window) // &
          & " mm, or sequence = ""initiate"" with estimate = ""fresh""")
-   end subroutine refuse_loss
+   end subroutine check_lost_contact
 
-   !> Elements in contact that lie outside another window of the same elements
+   !> Number of elements in contact that are outside another grid with the same elements
    pure subroutine elements_left_out(division, old, new, n, box)
-      !> Element states on the old window
+      !> Element states on the old grid
       integer, intent(in) :: division(:, :)
-      !> Windows of elements of the same size on the same lattice
+      !> Grids with elements of the same size on the same lattice
       type(potential_contact), intent(in) :: old, new
-      !> Their number
+      !> Number of elements outside
       integer, intent(out) :: n
-      !> Where the whole contact is: smallest and largest x, smallest and largest y [mm]
+      !> Bounding box of the contact area: minimum and maximum x, minimum and maximum y [mm]
       real(wp), intent(out) :: box(4)
       integer :: ix, iy, jx, jy
 
@@ -257,7 +258,7 @@ contains
       end do
    end subroutine elements_left_out
 
-   !> Fields on a moved window: values of the overlap, zero where new
+   !> Move the fields to a shifted grid: values in the overlap, zero elsewhere
    subroutine move_window(fields, grid, kx, ky)
       type(traction_fields), intent(inout) :: fields
       type(potential_contact), intent(in) :: grid
@@ -294,10 +295,10 @@ contains
       end do
    end subroutine move_window
 
-   !> Values of fields move by some elements where they stand, in an order in which none is overwritten before it has moved
+   !> Shift the values of fields in place, in an order in which no value is overwritten before it is moved
    pure subroutine shift_fields(fields, kx, ky)
       type(traction_fields), intent(inout) :: fields
-      !> An element gets what the one so many columns and rows on has; zero where that lies outside
+      !> Offset in columns and rows of the element whose value an element gets; zero if that is outside the grid
       integer, intent(in) :: kx, ky
       integer :: mx, my, i, j, ix, iy, jx, jy
 
@@ -326,11 +327,11 @@ contains
       end do
    end subroutine shift_fields
 
-   !> No contact
+   !> Set a time step without contact
    subroutine clear_time_step(fields, grid)
-      !> Gets arrays of the size of the grid, zero, without element in contact
+      !> Arrays get the size of the grid and are set to zero; all elements are exterior
       type(traction_fields), intent(inout) :: fields
-      !> Window of the time step
+      !> Grid of the time step
       type(potential_contact), intent(in) :: grid
 
       call fit_fields(fields, grid%mx, grid%my)
@@ -347,9 +348,9 @@ contains
 
    !> Copy of the fields of a time step
    subroutine copy_fields(from, to)
-      !> Solved tractions
+      !> Solved time step
       type(traction_fields), intent(in) :: from
-      !> Gets them, without their derivative and what particles carry along; arrays are kept when the size is the same
+      !> Copy, without derivative and quantities of the particles; arrays of equal size are reused
       type(traction_fields), intent(inout) :: to
 
       call fit_fields(to, from%grid%mx, from%grid%my)
@@ -363,7 +364,7 @@ contains
       to%force = from%force
    end subroutine copy_fields
 
-   !> Fields of a time step on a grid, zero where new; kept when the size is the same
+   !> Fields of a time step on a grid, zero if new; arrays of equal size are reused
    subroutine fit_fields(fields, grid_mx, grid_my)
       type(traction_fields), intent(inout) :: fields
       integer, intent(in) :: grid_mx, grid_my

@@ -1,4 +1,4 @@
-!> How far slip turns from element to element: what elements do not see of it is an error of tangential forces
+!> Change of the slip direction from element to element, which causes discretisation errors of the tangential forces
 module contact_patch_turning
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -10,12 +10,12 @@ module contact_patch_turning
 
 contains
 
-   !> Half the differences of tractions of elements that slip, in directions more than a right angle apart, with no others or
-   !> elements in adhesion between them [N/mm2]
+   !> Sum of half the traction differences between slip elements whose directions differ by more than a right angle, and which are
+   !> neighbours or separated by elements in adhesion only [N/mm2]
    pure real(wp) function turned_round(result, most_between) result(total_change)
       !> Solved
       type(patch_result), intent(in) :: result
-      !> So many elements in adhesion at the most
+      !> Maximum number of separating elements in adhesion
       integer, intent(in) :: most_between
       integer :: ix, iy, jx, jy, side, step(2), n
 
@@ -40,7 +40,7 @@ contains
       end do
    end function turned_round
 
-   !> Squares of the turns of tractions from elements that slip to the next ones, times what these carry [N/mm2]
+   !> Sum over neighbouring slip elements of the squared angle between their tractions times the traction [N/mm2]
    pure real(wp) function turns(result)
       !> Solved
       type(patch_result), intent(in) :: result

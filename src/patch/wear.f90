@@ -1,10 +1,10 @@
-!> Wear and rolling contact fatigue of a solved patch: quantities of the literature, where a case asks for them
+!> Wear and rolling contact fatigue of a solved patch: quantities from the literature, if a case requests them
 !>
-!> Sources: T-gamma, forces times creepages and moment times spin: Pearce and Sherratt, Wear 144 (1991); that over the contact
-!> area: Lewis and Dwyer-Joyce, Proc. IMechE J 218 (2004). Depth: Archard, J. Appl. Phys. 24 (1953), along the strips of a contact
-!> as Jendel, Wear 253 (2002). Surface fatigue index: Ekberg, Kabo and Andersson, Fatigue Fract. Eng. Mater. Struct. 25 (2002),
-!> whose 2 pi a b/(3 Fn) is one over the largest pressure of Hertz. Shakedown: Johnson, Contact mechanics, 1985, section 9.2.
-!> contact.wear of Python has the same as functions of arrays.
+!> Sources: T-gamma (tangential forces times creepages and spin moment times spin): Pearce and Sherratt, Wear 144 (1991); T-gamma
+!> per contact area: Lewis and Dwyer-Joyce, Proc. IMechE J 218 (2004). Wear depth: Archard, J. Appl. Phys. 24 (1953), along the
+!> strips of a contact as Jendel, Wear 253 (2002). Surface fatigue index: Ekberg, Kabo and Andersson, Fatigue Fract. Eng. Mater.
+!> Struct. 25 (2002), where 2 pi a b/(3 Fn) is the reciprocal of Hertz's maximum pressure. Shakedown: Johnson, Contact mechanics,
+!> 1985, section 9.2. The Python module contact.wear has the same quantities as functions of arrays.
 module contact_patch_wear
    use contact_base_choices, only : is_rolling, motion
    use contact_base_constants, only : nmm_per_joule
@@ -15,27 +15,28 @@ module contact_patch_wear
 
    public :: derive_wear, shakedown_limit, wear_spec
 
-   !> What a case gives
+   !> Material data of a case
    type :: wear_spec
       !> Archard's coefficient [-], hardness of the softer body, yield stress in cyclic shear [N/mm2]; 0: not given
       real(wp) :: archard = 0.0_wp, hardness = 0.0_wp, shear_yield = 0.0_wp
    end type wear_spec
 
-   !> Largest shear along the surface, below it, over the largest pressure of a line contact that slides with traction f: these
-   !> coefficients times f**0 ... f**4, fitted to the stresses of Hertz's pressures and tractions within 2e-7 up to f = 0.3675
+   !> Maximum shear stress parallel to the surface, below it, relative to the maximum pressure, in a line contact that slides with
+   !> ratio f of tangential to normal force: coefficients of f**0 ... f**4, fitted to the stresses of Hertzian pressures and
+   !> tractions within 2e-7 up to f = 0.3675
    real(wp), parameter :: shear_below(0:4) = [0.25_wp, 0.29904477_wp, 0.07165843_wp, -0.05709596_wp, 0.03172995_wp]
-   !> Traction from which on the shear at the surface, f itself, is the largest [-]
+   !> Ratio of tangential to normal force above which the maximum shear stress, f itself, is at the surface [-]
    real(wp), parameter :: surface_traction = 0.36723_wp
 
 contains
 
    !> Totals and fields of wear and fatigue, from those of the solution
    pure subroutine derive_wear(spec, spin_centre, result)
-      !> What the case gives
+      !> Material data
       type(wear_spec), intent(in) :: spec
-      !> Point to which the creepages belong, from the one to which the moment belongs [mm]
+      !> Reference point of the creepages, relative to that of the moment [mm]
       real(wp), intent(in) :: spin_centre(2)
-      !> Solved; gets `wear`, `power` and `wear_depth`
+      !> Solution; `wear`, `power` and `wear_depth` are set
       type(patch_result), intent(inout) :: result
       real(wp) :: mz
 
@@ -62,9 +63,9 @@ contains
       end associate
    end subroutine derive_wear
 
-   !> Depth by pressure times the distance that a point slides: in rolling along x over all elements of its row
+   !> Wear depth by pressure times sliding distance; in rolling along x a point passes all elements of its row
    pure subroutine wear_off(rate, result)
-      !> Depth per pressure and distance [mm2/N]
+      !> Wear depth per pressure and distance [mm2/N]
       real(wp), intent(in) :: rate
       type(patch_result), intent(inout) :: result
 
@@ -78,11 +79,12 @@ contains
       end if
    end subroutine wear_off
 
-   !> Largest pressure over yield stress in shear under which a line contact ends in elastic shakedown [-]
+   !> Maximum pressure relative to the yield stress in shear at the elastic shakedown limit of a line contact [-]
    !>
-   !> By Melan's theorem: residual stresses carry all but the shear along the surface, which must nowhere exceed the yield stress.
+   !> By Melan's theorem: residual stresses balance all components but the shear stress parallel to the surface, which must nowhere
+   !> exceed the yield stress.
    elemental real(wp) function shakedown_limit(traction) result(limit)
-      !> Tangential over normal force, of full sliding [-]
+      !> Ratio of tangential to normal force in full sliding [-]
       real(wp), intent(in) :: traction
       real(wp) :: largest
       integer :: k

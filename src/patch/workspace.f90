@@ -1,4 +1,4 @@
-!> Scratch of one contact patch: compliances with their spectra, and the arrays of the solvers
+!> Work space of one contact patch: compliances with their spectra, and the arrays of the solvers
 module contact_patch_workspace
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
@@ -20,24 +20,25 @@ module contact_patch_workspace
 
    public :: patch_workspace, fit_workspace, pressure_displacement, prepare_window, prepare_box, release_workspace
 
-   !> Sizes of windows that serve others, in elements: multiples of this one, beyond so many of the next one
+   !> Sizes of grids that serve several smaller ones, in elements: multiples of `fine_size` up to `few_elements`, above it of
+   !> `coarse_size`
    integer, parameter :: fine_size = 8, few_elements = 64, coarse_size = 16
 
-   !> Nothing in here carries meaning from one case to the next
+   !> Work space; its contents have no meaning from one case to the next
    type :: patch_workspace
-      !> Compliance on the whole window and on the bounding box of the contact area
+      !> Compliance on the whole grid and on the bounding box of the contact area
       class(compliance), allocatable :: window, box
-      !> Those of other windows and boxes that were in use
+      !> Compliances of other grids and boxes that were in use
       type(operator_shelf) :: windows, boxes
-      !> Compliance on a window of a size that serves many, and others of such sizes
+      !> Compliance on a grid of rounded size that serves several ones, and others of such sizes
       class(compliance), allocatable :: rounded
       type(operator_shelf) :: all_rounded
-      !> Pressures and displacements there
+      !> Pressures and displacements on this grid
       real(wp), allocatable :: rounded_pn(:, :), rounded_un(:, :)
       type(previous_operator) :: previous
-      !> Normal displacements of few elements, for approximate pressures; unallocated where they do not suit the bodies
+      !> Normal displacements of few elements, for approximate pressures; unallocated if not applicable to the bodies
       type(pressure_sums), allocatable :: sums
-      !> Coefficients of the same particles a step ago, in steady rolling with steps of any length
+      !> Influence coefficients of the same particles one step before, in steady rolling with steps of any length
       type(kernel_table) :: shifted
       type(normal_problem) :: normal
       type(normal_workspace) :: normal_work
@@ -45,35 +46,34 @@ module contact_patch_workspace
       type(tangential_solution) :: solution
       type(nested_workspace) :: tangential_work
       type(friction_iteration) :: friction
-      !> Acceleration of the outer iteration, and the part of EPS that its passes solve pressures and tractions to
+      !> Acceleration of the outer iteration, and the fraction of EPS to which its passes solve for pressures and tractions
       type(anderson_iteration) :: outer
       real(wp) :: sharper = 1.0_wp
-      !> The tangential problem and its solution where simplified theory is asked for
+      !> The tangential problem and its solution in simplified theory
       type(simplified_problem) :: simplified
       type(simplified_solution) :: simplified_solution
       !> Displacements at the previous time [mm], shape (mx, my, 2)
       real(wp), allocatable :: old_displacement(:, :, :)
-      !> For the leading-edge correction: displacements by the previous tractions at the places of the elements [mm],
-      !> shape (mx, my, 2)
+      !> For the leading-edge correction: displacements at the elements by the previous tractions [mm], shape (mx, my, 2)
       real(wp), allocatable :: edge_displacement(:, :, :)
-      !> Normal displacements that the pressures belong to, and those by the present tangential
-      !> tractions [mm], shape (mx, my)
+      !> Normal displacements for which the pressures were solved, and those by the present tangential tractions [mm], shape (mx,
+      !> my)
       real(wp), allocatable :: un(:, :), lift(:, :)
-      !> Scratch on the window, shape (mx, my, 2)
+      !> Work arrays on the grid, shape (mx, my, 2)
       real(wp), allocatable :: ut(:, :, :), pt(:, :, :)
-      !> Scratch on the box
+      !> Work arrays on the box
       real(wp), allocatable :: box_un(:, :), box_pn(:, :), box_ut(:, :, :)
-      !> Part of the step that the elements of the box have been in contact; of meaning with the leading-edge correction
+      !> Fraction of the step during which the elements of the box were in contact, for the leading-edge correction
       real(wp), allocatable :: share(:, :)
    end type patch_workspace
 
 contains
 
-   !> Scratch of the size of the window; kept when the size is the same
+   !> Allocate the work arrays on the grid; arrays of equal size are reused
    subroutine fit_workspace(problem, workspace)
-      !> Its grid gives the size
+      !> Its grid defines the size
       type(patch_problem), intent(in) :: problem
-      !> Arrays on the window; zero when they are new
+      !> Arrays on the grid; zero if new
       type(patch_workspace), intent(inout) :: workspace
       integer :: mx, my
 
@@ -88,11 +88,11 @@ contains
          & workspace%old_displacement(mx, my, 2), source=0.0_wp)
    end subroutine fit_workspace
 
-   !> Compliance on the whole window
+   !> Prepare the compliance on the whole grid
    subroutine prepare_window(problem, workspace)
       !> Elasticity, grid and rolling direction
       type(patch_problem), intent(in) :: problem
-      !> Its `window` is prepared
+      !> `window` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
       call workspace%windows%fetch(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
@@ -102,14 +102,14 @@ contains
          & rolling_direction(problem), problem%grid%y(1))
    end subroutine prepare_window
 
-   !> Normal displacements of flat half-spaces by the pressures of a window that was solved without its compliance
+   !> Normal displacements of flat half-spaces by pressures that were solved without the compliance of the grid
    !>
-   !> With zeros beside it the window has a size that many others have too: coefficients, spectra and plans are those of an earlier
-   !> case. An operator that is there for the window itself is taken.
+   !> The grid is padded with zeros to a size that serves several grids: influence coefficients, spectra and plans of an earlier
+   !> case can be reused. If there is a compliance for the grid itself, it is used.
    subroutine pressure_displacement(problem, workspace, pn, un)
       !> Elasticity and grid
       type(patch_problem), intent(in) :: problem
-      !> Its `window` or its `rounded` is used
+      !> `window` or `rounded` is used
       type(patch_workspace), intent(inout) :: workspace
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
@@ -141,9 +141,9 @@ contains
       end associate
    end subroutine pressure_displacement
 
-   !> Size of a window that serves a smaller one
+   !> Rounded size of a grid
    pure integer function rounded_up(n)
-      !> In elements
+      !> Size in elements
       integer, intent(in) :: n
       integer :: step
 
@@ -151,13 +151,13 @@ contains
       rounded_up = ((n + step - 1)/step)*step
    end function rounded_up
 
-   !> Compliance on the bounding box of the contact area
+   !> Prepare the compliance on the bounding box of the contact area
    subroutine prepare_box(problem, box, workspace)
       !> Elasticity, grid and rolling direction
       type(patch_problem), intent(in) :: problem
       !> First and last column and row of the box in the grid
       type(bounding_box), intent(in) :: box
-      !> Its `box` is prepared
+      !> `box` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
       call workspace%boxes%fetch(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
@@ -167,9 +167,9 @@ contains
          & box%iy1 - box%iy0 + 1, rolling_direction(problem), problem%grid%y(box%iy0))
    end subroutine prepare_box
 
-   !> Free what the workspace holds outside Fortran's memory: plans of transforms
+   !> Free the memory that the workspace holds outside Fortran: plans of transforms
    subroutine release_workspace(workspace)
-      !> Plans of its compliances and solvers are freed; may be used again
+      !> Plans of its compliances and solvers are freed; it may be used again
       type(patch_workspace), intent(inout) :: workspace
 
       if (allocated(workspace%window)) call workspace%window%release()

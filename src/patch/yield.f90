@@ -1,4 +1,4 @@
-!> The yield limit of the layer between the bodies, from the material of a patch to its tangential problem
+!> Yield limit of the layer between the bodies: from the material of a patch to its tangential problem and back
 module contact_patch_yield
    use contact_base_choices, only : motion
    use contact_base_constants, only : nmm_per_joule
@@ -12,24 +12,24 @@ module contact_patch_yield
 
    public :: set_yield, carry_yield, derive_yield
 
-   !> Softening ends at this part of the initial limit [-]
+   !> Minimum of the yield limit in softening, relative to the initial limit [-]
    real(wp), parameter :: lowest_share = 0.1_wp
-   !> Slopes below this part of the stiffness of an element, G/DX, count as zero [-]; for steel about 1e-6 N/mm3
+   !> Slopes below this fraction of the stiffness of an element, G/DX, are regarded as zero [-]; for steel about 1e-6 N/mm3
    real(wp), parameter :: no_slope = 1.0e-11_wp
 
 contains
 
-   !> Yield limits in the tangential problem
+   !> Set the yield limits in the tangential problem
    !>
-   !> Without slope they are just another bound of the tractions.
+   !> Without slope they are included in the traction bound.
    subroutine set_yield(problem, before, box, tangential)
       !> Initial yield limit and its slope
       type(patch_problem), intent(in) :: problem
       !> The previous time step
       type(traction_fields), intent(in) :: before
-      !> First and last column and row of the tangential problem in the window
+      !> First and last column and row of the tangential problem in the grid
       type(bounding_box), intent(in) :: box
-      !> Bounds of friction on entry
+      !> The traction bounds of friction are set on entry
       type(tangential_problem), intent(inout) :: tangential
 
       allocate(tangential%yield)
@@ -45,15 +45,15 @@ contains
       end associate
    end subroutine set_yield
 
-   !> Limits and plastic displacements after the step; material out of contact keeps them
+   !> Yield limits and plastic displacements after the step; they do not change outside the contact area
    subroutine carry_yield(problem, box, solution, state)
-      !> Does anything depend on the past of plastic shearing?
+      !> `remembers_yield` says whether they are needed
       type(patch_problem), intent(in) :: problem
-      !> Place of the solution in the window; empty without contact
+      !> Position of the solution in the grid; empty without contact
       type(bounding_box), intent(in) :: box
       !> Plastic displacements and yield limits on the box
       type(tangential_solution), intent(in) :: solution
-      !> Gets both as those of the present time step
+      !> Its present time step is set
       type(patch_state), intent(inout) :: state
       integer :: ix, iy, k, jx, jy
       logical :: upwards
@@ -68,7 +68,7 @@ contains
             call add(now%memory(carried%uply)%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 2))
             return
          end if
-         ! what an element has is what flows in from the next one upstream, and the change in the step
+         ! state of an element: that of the next element upstream, plus the change in the step
          upwards = rolling_direction(problem) < 0
          do iy = 1, problem%grid%my
             limit = problem%initial_yield_limit
@@ -97,15 +97,15 @@ contains
       end subroutine add
    end subroutine carry_yield
 
-   !> Fields, number of plastic elements and the work of plastic shearing
+   !> Fields, number of plastic elements, and work of plastic deformation
    subroutine derive_yield(problem, state, solution, result)
       !> Grid, motion, and whether surfaces yield
       type(patch_problem), intent(in) :: problem
       !> Yield limits and plastic displacements; without motion those of the previous time step
       type(patch_state), intent(inout) :: state
-      !> Plastic displacements of the step on the box
+      !> Plastic displacements of the step, on the box
       type(tangential_solution), intent(in) :: solution
-      !> Gets the fields and `nplast`; the work of plastic shearing is added to the frictional power
+      !> The fields and `nplast` are set; the work of plastic deformation is added to the frictional power
       type(patch_result), intent(inout) :: result
 
       if (allocated(result%tau_c)) deallocate(result%tau_c, result%uplx, result%uply)

@@ -1,9 +1,8 @@
 !> FaStrip: adhesion by strip theory, direction of slip by Fastsim (Sichani, Enblom and Berg 2016)
 !>
-!> Each row of an elliptic contact is taken for a strip of a line contact. In its adhesion area,
-!> at the leading edge, the tractions are those of strip theory (Haines and Ollerton 1963, Kalker
-!> 1967), with creepages scaled such that the forces at vanishing creepage are Kalker's. In the
-!> slip area the tractions are on the bound, in the direction that Fastsim finds.
+!> Each row of an elliptic contact is treated as a strip in line contact. In its adhesion area, at the leading edge, the tractions
+!> are those of strip theory (Haines and Ollerton 1963, Kalker 1967), with creepages scaled such that the forces at vanishing
+!> creepage are Kalker's. In the slip area the tractions are on the bound, in the direction computed by Fastsim.
 module contact_simplified_fastrip
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -15,18 +14,18 @@ module contact_simplified_fastrip
 
    public :: strip_data, apply_strip_theory, slip_half_length, scaled_creepages
 
-   !> What strip theory knows of the contact
+   !> Data of the contact for strip theory
    type :: strip_data
-      !> Ellipse that stands for the contact area, coordinates of its centre [mm]
+      !> Ellipse equivalent to the contact area, coordinates of its centre [mm]
       type(ellipse) :: area
       real(wp) :: centre(2) = 0.0_wp
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp
       !> Normal force [N]
       real(wp) :: fn = 0.0_wp
-      !> Factor of the stiffness for contaminated surfaces [-]
+      !> Reduction factor of the stiffness for contaminated surfaces [-]
       real(wp) :: slope = 1.0_wp
-      !> Creepages at the origin [-], spin [rad/mm], point with these creepages [mm]
+      !> Creepages at the spin centre [-], spin [rad/mm], spin centre [mm]
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer :: direction = 1
@@ -34,9 +33,9 @@ module contact_simplified_fastrip
 
 contains
 
-   !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
+   !> Replace Fastsim's tractions, row by row, separately for each contiguous stretch of contact in a row
    pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division)
-      !> Ellipse, material, force and creepages that strip theory starts from
+      !> Ellipse, material, normal force and creepages
       type(strip_data), intent(in) :: data
       !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
       real(wp), intent(in) :: x(:), y(:), dx
@@ -46,7 +45,7 @@ contains
       logical, contiguous, intent(in) :: contact(:, :)
       !> Traction bound [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: bound(:, :)
-      !> Fastsim's answer on entry: tractions [N/mm2], slip per step [mm], element states
+      !> On entry the solution of Fastsim: tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
       !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
@@ -74,7 +73,7 @@ contains
       end do
    end subroutine apply_strip_theory
 
-   !> One strip: adhesion from strip theory where that is possible
+   !> One strip: tractions of strip theory in its adhesion area, if it has one
    pure subroutine one_strip(data, x, y, dx, mu, bound, p, slip, division)
       type(strip_data), intent(in) :: data
       real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
@@ -91,7 +90,7 @@ contains
       creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
       creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
       call scaled_creepages(data, mu, creep, spin)
-      ! seen from the leading edge: rolling towards decreasing x is a mirror image
+      ! strip theory rolls towards increasing x; the other direction is its mirror image
       creep(1) = data%direction*creep(1)
       spin = data%direction*spin
       q = creep(1) - spin*(y - data%centre(2))/a
@@ -122,7 +121,7 @@ contains
             p(i, 2) = f(i, 2)*mu*peak_pressure(data)
             slip(i, :) = 0.0_wp
             division(i) = element%adhesion
-            ! strip theory may ask for more than the pressures of this contact allow
+            ! tractions of strip theory may exceed the bound of the actual pressures
             length = hypot(p(i, 1), p(i, 2))
             if (length > bound(i)) p(i, :) = p(i, :)*(bound(i)/length)
             cycle
@@ -137,11 +136,11 @@ contains
       end do
    end subroutine one_strip
 
-   !> Creepages and spin in units of what strip theory can stand, changed in place
+   !> Scale the creepages and the spin of the contact to those of a strip, in place
    !>
-   !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
+   !> The factors are the ratios of Kalker's coefficients to those of a strip, pi**2/(4 (1 - nu)) and so on.
    pure subroutine scaled_creepages(data, mu, creep, spin)
-      !> Ellipse, material, force and creepages that strip theory starts from
+      !> Ellipse, material, normal force and creepages
       type(strip_data), intent(in) :: data
       !> Coefficient of friction [-]
       real(wp), intent(in) :: mu
@@ -159,17 +158,17 @@ contains
       spin = unit*3.0_wp*sqrt(data%area%aa*data%area%bb)*c%c23/(2.0_wp*pi)*data%spin
    end subroutine scaled_creepages
 
-   !> Half the length of the slip area by strip theory [mm]; huge for full sliding
+   !> Half-length of the slip area by strip theory [mm]; huge in full sliding
    !>
-   !> Root of a quadratic equation, in the form without cancellation.
+   !> Root of a quadratic equation, in the form without cancellation
    elemental real(wp) function slip_half_length(a, nu, q, eta, spin) result(d)
       !> Semi-axis of the ellipse along x [mm], Poisson ratio
       real(wp), intent(in) :: a, nu
-      !> Scaled creepages of the strip: longitudinal with its share of the spin, lateral; scaled spin
+      !> Scaled creepages of the strip: longitudinal, including the contribution of spin, and lateral; scaled spin [-]
       real(wp), intent(in) :: q, eta, spin
-      !> Spin beyond which nothing sticks [-]
+      !> Spin above which there is no adhesion area [-]
       real(wp), parameter :: excessive = 1.0e8_wp
-      !> Denominators of order 1 below this value stand for a slip zone without end: rounding leaves about 1e-16
+      !> Denominators, of order 1, below this value mean full sliding: rounding leaves about 1e-16
       real(wp), parameter :: no_adhesion = 1.0e-12_wp
       real(wp) :: size_, q1, eta1, discriminant, root
 
@@ -194,7 +193,7 @@ contains
       end if
    end function slip_half_length
 
-   !> Largest pressure of Hertz's distribution over the ellipse [N/mm2]
+   !> Maximum pressure of the Hertz distribution on the ellipse [N/mm2]
    pure real(wp) function peak_pressure(data) result(p0)
       type(strip_data), intent(in) :: data
 

@@ -1,8 +1,8 @@
-!> Kalker's algorithm Fastsim: tangential tractions on a bed of springs, one march through the area
+!> Kalker's algorithm Fastsim: tangential tractions on a Winkler foundation, in one sweep from the leading edge
 !>
-!> With u = L p and the slip of a step S = u - u' + W, where u' is the displacement of the same
-!> particle one step before: stick if |p| <= g, otherwise |p| = g opposite to the slip. The trial
-!> traction of no slip, (u' - W)/L, is scaled back to the bound (Kalker 1982). First order in the step.
+!> With u = L p and the slip per step S = u - u' + W, where u' is the displacement of the same particle one step before: adhesion if
+!> |p| <= g, otherwise |p| = g opposite to the slip. The trial traction for zero slip, (u' - W)/L, is scaled back to the bound
+!> (Kalker 1982). First order in the step.
 module contact_simplified_fastsim
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -11,14 +11,14 @@ module contact_simplified_fastsim
 
    public :: march_fastsim, step_fastsim
 
-   !> Rows that march side by side: their square roots and divisions overlap
+   !> Number of rows that are processed together, so that their square roots and divisions overlap
    integer, parameter :: rows_at_once = 16
 
 contains
 
-   !> Steady rolling by one element per step: from the leading edge through each row
+   !> Steady rolling, one element per step, through each row from the leading edge
    !>
-   !> A particle that was outside the contact area one step before arrives without displacement.
+   !> A particle that was outside the contact area one step before has zero displacement.
    pure subroutine march_fastsim(contact, bound, shift, flx, direction, p, slip, division)
       !> Elements in contact, shape (mx, my)
       logical, contiguous, intent(in) :: contact(:, :)
@@ -32,7 +32,7 @@ contains
       integer, intent(in) :: direction
       !> Tractions [N/mm2], slip per step [mm], both of shape (mx, my, 2); element states
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
-      !> Members of element, shape (mx, my)
+      !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
       real(wp), dimension(rows_at_once) :: ux, uy
       integer :: mx, my, first, last, ix, iy, k, start, finish
@@ -63,9 +63,9 @@ contains
       end do
    end subroutine march_fastsim
 
-   !> One step in time from the tractions of the same particles one step before
+   !> One time step, from the tractions of the same particles one step before
    !>
-   !> Their displacements follow with the flexibilities of now: without motion nothing changes.
+   !> The previous displacements are computed with the present flexibilities, so that without motion nothing changes.
    pure subroutine step_fastsim(contact, bound, shift, flx, before, p, slip, division)
       !> Elements in contact, shape (mx, my)
       logical, contiguous, intent(in) :: contact(:, :)
@@ -77,7 +77,7 @@ contains
       real(wp), contiguous, intent(in) :: before(:, :, :)
       !> Tractions [N/mm2] and slip per step [mm], both of shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
-      !> Members of element, shape (mx, my)
+      !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
       real(wp) :: ux, uy
       integer :: ix, iy
@@ -96,14 +96,14 @@ contains
       end do
    end subroutine step_fastsim
 
-   !> One element in contact: stick, or slip on the bound
+   !> One element in contact: adhesion, or slip with the traction on the bound
    pure subroutine touch(bound, wx, wy, flx, ux, uy, px, py, sx, sy, state)
       real(wp), intent(in) :: bound, wx, wy, flx(2)
-      !> Displacement one step before on entry, now on exit [mm]
+      !> Displacement [mm]: one step before on entry, present on exit
       real(wp), intent(inout) :: ux, uy
       real(wp), intent(inout) :: px, py, sx, sy
       integer, intent(inout) :: state
-      !> Longest vector whose square is certain to be a number
+      !> Largest length of a vector whose square cannot overflow
       real(wp), parameter :: too_long = 1.0e150_wp
       real(wp) :: tx, ty, length, largest
 

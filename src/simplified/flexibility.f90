@@ -1,9 +1,8 @@
-!> Flexibilities of the simplified theory: one number where the half-space has an integral operator
+!> Flexibilities of the simplified theory, which replace the influence coefficients of the half-space
 !>
-!> A surface particle follows its own traction only, u = L p. Three values of L make the forces at
-!> vanishing creepage agree with Kalker's linear theory; they are blended into one when slip
-!> spreads (Vollebregt and Voltr 2023), and grow with the slip area for contaminated surfaces
-!> (Spiryagin, Polach and Cole 2013).
+!> The displacement of a surface particle depends on its own traction only, u = L p. Three values of L reproduce the forces of
+!> Kalker's linear theory at vanishing creepage; they are blended into one as slip spreads (Vollebregt and Voltr 2023), and increase
+!> with the slip area for contaminated surfaces (Spiryagin, Polach and Cole 2013).
 module contact_simplified_flexibility
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -19,18 +18,18 @@ module contact_simplified_flexibility
       real(wp) :: aa = 0.0_wp, bb = 0.0_wp
    end type ellipse
 
-   !> Parameters of the slope reduction, all [-]
+   !> Parameters of the slope reduction of contaminated surfaces, all [-]
    type :: slope_reduction
-      !> Factor at vanishing creepage, share of it that is left at large creepage, rate of change
+      !> Factor at vanishing creepage, fraction of it at large creepage, rate of change
       real(wp) :: k0 = 1.0_wp, alpha = 1.0_wp, beta = 1.0_wp
    end type slope_reduction
 
-   !> Smallest characteristic creepage [-] that creepages are compared with: no friction force gives none
+   !> Lower bound of the characteristic creepage [-], which is zero without friction force
    real(wp), parameter :: min_characteristic = 1.0e-10_wp
 
 contains
 
-   !> Ellipse with the area of a contact area and the proportions of its bounding box
+   !> Ellipse with the area of the contact area and the aspect ratio of its bounding box
    pure function equivalent_ellipse(contact, dx, dy) result(self)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
@@ -61,10 +60,10 @@ contains
       self = ellipse(c*proportion, c/proportion)
    end function equivalent_ellipse
 
-   !> Flexibilities for longitudinal, lateral and spin creepage [mm3/N]: equal forces at
-   !> vanishing creepage, Kalker (1982)
+   !> Flexibilities for longitudinal, lateral and spin creepage [mm3/N] that give the forces of linear theory at vanishing creepage,
+   !> Kalker (1982)
    pure function three_flexibilities(area, gg, nu) result(flx)
-      !> Semi-axes of the contact area [mm]
+      !> Semi-axes of the contact ellipse [mm]
       type(ellipse), intent(in) :: area
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
@@ -77,17 +76,17 @@ contains
       flx(3) = pi*area%aa*sqrt(area%aa/area%bb)/(4.0_wp*c%c23*gg)
    end function three_flexibilities
 
-   !> Three values that approach a common one as the creepage grows
+   !> Three flexibilities that approach a common value with increasing creepage
    !>
-   !> The common value is the mean that Kalker (1982) gives for combined creepages.
+   !> The common value is the mean of Kalker (1982) for combined creepages.
    pure function blended_flexibilities(flx, area, gg, nu, load, creep, spin) result(blend)
-      !> Values for vanishing creepage [mm3/N]
+      !> Flexibilities at vanishing creepage [mm3/N]
       real(wp), intent(in) :: flx(3)
-      !> Semi-axes of the contact area [mm]
+      !> Semi-axes of the contact ellipse [mm]
       type(ellipse), intent(in) :: area
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
-      !> Largest friction force mu Fn [N]
+      !> Maximum friction force mu Fn [N]
       real(wp), intent(in) :: load
       !> Creepages [-] and spin [rad/mm]
       real(wp), intent(in) :: creep(2), spin
@@ -98,7 +97,7 @@ contains
       c = kalker_coefficients(area%aa, area%bb, nu)
       characteristic = load/(area%aa*area%bb*gg)*hypot(1.0_wp/c%c11, 1.0_wp/c%c22)
       weight = min(1.0_wp, norm2(creep)/(3.0_wp*max(min_characteristic, characteristic)))
-      ! pi a**2/4 over 8 a/3: the factors by which the three flexibilities weigh the creepages
+      ! pi a**2/4 over 8 a/3: the weights of the three creepages
       psi = spin*3.0_wp*pi*area%aa/32.0_wp
       total = hypot(norm2(creep), psi)
       mean = flx(1)
@@ -106,17 +105,17 @@ contains
       blend = (1.0_wp - weight)*flx + weight*mean
    end function blended_flexibilities
 
-   !> Factor k by which stiffness 1/L is reduced [-]
+   !> Factor k by which the stiffness 1/L is reduced [-]
    pure real(wp) function slope_factor(reduction, area, gg, nu, load, creep, spin) result(k)
       !> Parameters of the reduction for contaminated surfaces
       type(slope_reduction), intent(in) :: reduction
-      !> Semi-axes of the contact area [mm]
+      !> Semi-axes of the contact ellipse [mm]
       type(ellipse), intent(in) :: area
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
-      !> Friction force in full sliding, mu Fn, with the friction of sliding [N]
+      !> Friction force in full sliding, mu Fn, with the kinetic coefficient of friction [N]
       real(wp), intent(in) :: load
-      !> Creepages [-]; spin [rad/mm], positive where it adds to the lateral slip at the leading edge: times -1 in rolling
+      !> Creepages [-]; spin [rad/mm], positive where it adds to the lateral slip at the leading edge: multiplied by -1 when rolling
       !> towards decreasing x
       real(wp), intent(in) :: creep(2), spin
       type(creepage_coefficients) :: c
@@ -127,7 +126,7 @@ contains
       lateral = creep(2) + spin*area%aa
       if (abs(lateral) < abs(creep(2))) lateral = creep(2)
       c = kalker_coefficients(area%aa, area%bb, nu)
-      ! share: ratio of the slip area to the area of adhesion, Spiryagin et al. (2013), times the load
+      ! share: ratio of the slip area to the adhesion area, Spiryagin et al. (2013), times the load
       share = 0.25_wp*pi*gg*area%aa*area%bb*reduction%k0*c%c11*hypot(creep(1), lateral)
       k = reduction%k0*(reduction%alpha + (1.0_wp - reduction%alpha)*load/max(load + reduction%beta*share, tiny(load)))
    end function slope_factor

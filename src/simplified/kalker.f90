@@ -1,10 +1,10 @@
-!> Kalker's creepage coefficients: the slope of the creep forces at vanishing creepage
+!> Kalker's creepage coefficients: the slope of the creep force curve at vanishing creepage
 !>
-!> For an elliptic contact with semi-axes a (along rolling) and b, c = sqrt(a b), without slip:
+!> For an elliptic contact with semi-axes a (along rolling) and b, c = sqrt(a b), without slip area:
 !>
 !>     Fx = -G c**2 C11 xi,   Fy = -G c**2 (C22 eta + c C23 phi),   Mz = G c**3 C23 eta - ...
 !>
-!> The table and the limits for narrow ellipses are Kalker's (1967; 1990, appendix E).
+!> The table and the limits for slender ellipses are Kalker's (1967; 1990, appendix E).
 module contact_simplified_kalker
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -19,7 +19,7 @@ module contact_simplified_kalker
       real(wp) :: c11 = 0.0_wp, c22 = 0.0_wp, c23 = 0.0_wp
    end type creepage_coefficients
 
-   !> Below this ratio of the axes, where the table ends, its limits for narrow ellipses hold
+   !> Ratio of the semi-axes at the end of the table; the limits for slender ellipses are used below it
    real(wp), parameter :: narrow = 0.1_wp
 
    !> C11, C22, C23, each for nu = 0, 1/4, 1/2; columns a/b = 0.1, 0.2, ..., 1
@@ -48,17 +48,17 @@ module contact_simplified_kalker
       & 3.51_wp, 4.22_wp, 5.30_wp, 3.51_wp, 3.81_wp, 4.16_wp, 1.44_wp, 1.59_wp, 1.77_wp, &
       & 3.40_wp, 4.12_wp, 5.20_wp, 3.40_wp, 3.67_wp, 3.98_wp, 1.33_wp, 1.47_wp, 1.63_wp], [9, 10])
 
-   !> Smallest ratio of the semi-axes: stands for a line contact, whose limits are logarithms of the ratio
+   !> Lower bound of the ratio of the semi-axes: represents a line contact, as the limits have logarithms of the ratio
    real(wp), parameter :: min_ratio = 1.0e-6_wp
 
 contains
 
    !> Coefficients for an ellipse and a Poisson ratio
    !>
-   !> Linear between the columns of the table; 1/C is quadratic in nu. Narrow ellipses beyond the
-   !> table by their limits, which do not join the table exactly: they jump there by up to 6 %.
+   !> Linear between the columns of the table; 1/C is quadratic in nu. For slender ellipses beyond the table its limits are used,
+   !> with a jump of up to 6 % at the end of the table.
    pure function kalker_coefficients(aa, bb, nu) result(c)
-      !> Semi-axes along and across the rolling direction [mm]; without a size: a circle
+      !> Semi-axes along and across the rolling direction [mm]; a circle if not positive
       real(wp), intent(in) :: aa, bb
       !> Combined Poisson ratio [-]
       real(wp), intent(in) :: nu

@@ -13,18 +13,18 @@ module contact_simplified_problem
 
    public :: simplified_model, simplified_problem, simplified_solution, complete_problem, tractions_at, mean
 
-   !> What a case asks for
+   !> Model and flexibility of a case
    type :: simplified_model
-      !> Member of material_model that is_simplified
+      !> Member of material_model for which is_simplified holds
       integer :: choice = material_model%fastsim
-      !> Flexibility [mm3/N] of the model with a single one
+      !> Flexibility [mm3/N], for the model with a single one
       real(wp) :: flx = 0.0_wp
       type(slope_reduction) :: reduction
-      !> Ellipse of the Hertz solution; zero for other geometries
+      !> Ellipse of the Hertz solution; zero for non-Hertzian geometries
       type(ellipse) :: hertz
    end type simplified_model
 
-   !> Data on a window; constant during the solution
+   !> Data on the elements of the tangential problem; constant during the solution
    type :: simplified_problem
       type(simplified_model) :: model
       !> Centres of columns and rows [mm], shapes (mx) and (my); sides of the elements [mm]
@@ -33,70 +33,70 @@ module contact_simplified_problem
       !> Elements in contact and pressures [N/mm2], shape (mx, my)
       logical, allocatable :: contact(:, :)
       real(wp), allocatable :: pn(:, :)
-      !> Coefficient of friction at rest of each row, shape (my) [-]
+      !> Static coefficient of friction of each row, shape (my) [-]
       real(wp), allocatable :: mu(:)
-      !> Law for friction in sliding, with one set of parameters or one per row of this window;
-      !> unallocated for Coulomb friction. Its slip velocity is the rigid one, without spin [mm/s]
+      !> Law for the kinetic coefficient of friction, with one set of parameters or one per row; unallocated for Coulomb friction.
+      !> Its slip velocity is the rigid slip velocity without spin [mm/s]
       class(friction_law), allocatable :: law
       real(wp) :: velocity = 0.0_wp
       !> Coefficient of friction that scales forces [-], normal force [N]
       real(wp) :: mu_scal = 0.3_wp, fn = 0.0_wp
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp
-      !> Steady rolling, or one step in time from the tractions before
+      !> Steady rolling? Otherwise one time step from the tractions `before`
       logical :: steady = .true.
-      !> Are creepages lengths (shift), so that they cannot be compared with creepages of rolling?
+      !> Are creepages lengths (shift), which cannot be compared with creepages of rolling?
       logical :: shift = .false.
-      !> Rolling towards increasing (+1) or decreasing (-1) x; distance per step [mm]
+      !> Rolling towards increasing (+1) or decreasing (-1) x; distance travelled per step [mm]
       integer :: direction = 1
       real(wp) :: dq = 1.0_wp
-      !> Tractions of the same particles one step before [N/mm2], shape (mx, my, 2); not for steady rolling
+      !> Tractions of the same particles one step before [N/mm2], shape (mx, my, 2); not used in steady rolling
       real(wp), allocatable :: before(:, :, :)
-      !> Creepages [-] (shifts [mm] for dq = 1), spin [rad/mm], spin centre and offset of its effect [mm]
+      !> Creepages [-] (shifts [mm] with dq = 1), spin [rad/mm], spin centre and offset of the spin term [mm]
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp, spin_offset(2) = 0.0_wp
-      !> Parts of the spin that act along x and y [-]
+      !> Weights of the spin term in x and y [-]
       real(wp) :: spin_weight(2) = 1.0_wp
       !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
       real(wp), allocatable :: extra_slip(:, :, :)
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy), and the forces relative to mu_scal fn [-]
       integer :: n_forces = 0
       real(wp) :: force(2) = 0.0_wp
-      !> Tolerance on the relative forces
+      !> Tolerance of the relative forces [-]
       real(wp) :: eps = 1.0e-6_wp
-      !> From here on set by complete_problem: ellipse with the area of the contact, and the one that
-      !> determines flexibilities; flexibilities at vanishing creepage [mm3/N]
+      !> The components from here on are set by complete_problem: ellipse with the area of the contact area, and ellipse that
+      !> determines the flexibilities; flexibilities at vanishing creepage [mm3/N]
       type(ellipse) :: area, reference
       !> Centre of the bounding box of the contact area [mm]
       real(wp) :: centre(2) = 0.0_wp
       real(wp) :: flx0(3) = 0.0_wp
    end type simplified_problem
 
-   !> Tractions and what belongs to them
+   !> Tractions and the quantities derived from them
    type :: simplified_solution
       !> Tractions [N/mm2], slip and rigid slip per step [mm], all of shape (mx, my, 2)
       real(wp), allocatable :: p(:, :, :), slip(:, :, :), shift(:, :, :)
       !> Traction bound [N/mm2], element states, shape (mx, my)
       real(wp), allocatable :: bound(:, :)
       integer, allocatable :: division(:, :)
-      !> Coefficient of friction as used, shape (my) [-]
+      !> Coefficient of friction that was used, shape (my) [-]
       real(wp), allocatable :: mu(:)
-      !> Creepages as used [-]
+      !> Creepages, prescribed or found [-]
       real(wp) :: creep(2) = 0.0_wp
-      !> Flexibilities [mm3/N] before slope reduction, its factor [-], flexibilities after it
+      !> Flexibilities [mm3/N] before slope reduction, reduction factor [-], flexibilities after it [mm3/N]
       real(wp) :: flx(3) = 0.0_wp, slope = 1.0_wp, compliance(2) = 0.0_wp
       !> Forces relative to mu_scal fn [-]
       real(wp) :: force(2) = 0.0_wp
-      !> Does every element in contact slip?
+      !> Do all elements in contact slip?
       logical :: sliding = .false.
    end type simplified_solution
 
 contains
 
-   !> Derive areas and flexibilities, and give the solution its arrays
+   !> Determine ellipses and flexibilities, and allocate the arrays of the solution
    subroutine complete_problem(problem, solution)
-      !> Grid, pressures, model and creepages on entry; areas and flexibilities are added
+      !> Grid, pressures, model and creepages on entry; ellipses and flexibilities are added
       type(simplified_problem), intent(inout) :: problem
-      !> Gets arrays of the size of the grid
+      !> Its arrays get the size of the grid
       type(simplified_solution), intent(inout) :: solution
       integer :: mx, my
       real(wp) :: lowest(2), highest(2)
@@ -132,12 +132,11 @@ contains
 
    !> Tractions, slip and forces for given creepages
    subroutine tractions_at(problem, creep, solution)
-      !> Completed
+      !> After complete_problem
       type(simplified_problem), intent(in) :: problem
-      !> [-]
       !> Longitudinal and lateral creepage [-]
       real(wp), intent(in) :: creep(2)
-      !> Gets tractions, slip, element states and forces
+      !> Tractions, slip, element states and forces are set
       type(simplified_solution), intent(inout) :: solution
       integer :: iy
 
@@ -170,10 +169,10 @@ contains
       solution%sliding = .not. any(solution%division == element%adhesion)
    end subroutine tractions_at
 
-   !> Coefficient of friction of each row for the rigid slip velocity: no iteration, no memory
+   !> Coefficient of friction of each row at its rigid slip velocity, without iteration or memory
    subroutine friction_of_rows(problem, creepage, mu)
       type(simplified_problem), intent(in) :: problem
-      !> Size of the creepage [-]
+      !> Magnitude of the creepage [-]
       real(wp), intent(in) :: creepage
       real(wp), intent(inout) :: mu(:)
       real(wp), allocatable :: speed(:, :), field(:, :)
@@ -188,14 +187,14 @@ contains
    end subroutine friction_of_rows
 
    pure real(wp) function mean(values)
-      !> Any numbers, at least one
+      !> At least one value, in any order
       real(wp), intent(in) :: values(:)
 
       mean = sum(values)/size(values)
    end function mean
 
-   !> Rigid slip per step [mm]; the spin is weighed such that a spring of flexibility L1 or L2 feels
-   !> what one of flexibility L3 should feel
+   !> Rigid slip per step [mm]; the spin term is weighted such that springs of flexibility L1 and L2 respond like springs of
+   !> flexibility L3
    subroutine rigid_slip(problem, solution)
       type(simplified_problem), intent(in) :: problem
       type(simplified_solution), intent(inout) :: solution
@@ -212,7 +211,7 @@ contains
       if (allocated(problem%extra_slip)) solution%shift = solution%shift + problem%dq*problem%extra_slip
    end subroutine rigid_slip
 
-   !> What strip theory needs to know
+   !> Data for strip theory
    pure function strips_of(problem, solution) result(strips)
       type(simplified_problem), intent(in) :: problem
       type(simplified_solution), intent(in) :: solution

@@ -1,7 +1,7 @@
-!> Solves a problem of the simplified theory: for given creepages, or for given forces
+!> Solution of a problem of the simplified theory, for given creepages or for given forces
 !>
-!> Forces fall with the creepages, so each unknown creepage can be held between two bounds. Newton's
-!> method comes first where there are two unknowns; the nested search always ends.
+!> Forces decrease with the creepages, so each unknown creepage can be bracketed. With two unknowns Newton's method is tried first;
+!> the nested search by bracketing always terminates.
 module contact_simplified_solve
    use contact_base_choices, only : is_fastrip
    use contact_base_kinds, only : wp
@@ -15,20 +15,20 @@ module contact_simplified_solve
 
    public :: solve_simplified
 
-   !> Part of the tolerance that the inner of two nested searches is held to: the outer one sees its error as noise; chosen
+   !> Tolerance of the inner one of two nested searches, relative to that of the outer one, which sees its error as noise; chosen
    real(wp), parameter :: inner_part = 0.1_wp
-   !> Determinants of the sensitivities, in units of the characteristic creepages, that are no better than zero: differences over
-   !> 1e-6 of these creepages leave about ten digits
+   !> Determinants of the sensitivities, scaled by the characteristic creepages, that are regarded as zero: differences over 1e-6 of
+   !> these creepages have about ten significant digits
    real(wp), parameter :: singular = 1.0e-12_wp
 
 contains
 
-   !> Tractions, slip, creepages. The iterations of the report are marches through the area, 0 for
-   !> given creepages; its residual is the error of the relative forces.
+   !> Tractions, slip and creepages. The iterations of the report are sweeps through the contact area, 0 for given creepages; its
+   !> residual is the error of the relative forces.
    subroutine solve_simplified(problem, solution, report)
-      !> What is given; completed here
+      !> Problem data; completed here
       type(simplified_problem), intent(inout) :: problem
-      !> Tractions, slip, element states, forces, and the creepages that were looked for
+      !> Tractions, slip, element states, forces, and creepages, prescribed or found
       type(simplified_solution), intent(inout) :: solution
       !> How the search for creepages ended
       type(solve_report), intent(inout) :: report
@@ -50,7 +50,7 @@ contains
       end if
       creep(:n) = 0.0_wp
       if (min(mean(problem%mu), problem%mu_scal)*problem%fn <= 0.0_wp) then
-         ! without friction there is no force to be found
+         ! without friction no force can be reached
          call tractions_at(problem, creep, solution)
          report%residual = maxval(abs(problem%force(:n)))
          if (report%residual > problem%eps) report%ended = ending%stagnated
@@ -65,7 +65,7 @@ contains
       if (report%residual > problem%eps) report%ended = ending%stagnated
    end subroutine solve_simplified
 
-   !> Creepages that vanishing slip would need for the whole friction force [-]
+   !> Creepages for which linear theory gives the full friction force [-]
    pure function characteristic_creep(problem) result(creep)
       type(simplified_problem), intent(in) :: problem
       real(wp) :: creep(2)
@@ -73,7 +73,7 @@ contains
 
       c = kalker_coefficients(problem%area%aa, problem%area%bb, problem%nu)
       creep = mean(problem%mu)*problem%fn/(problem%gg*problem%area%aa*problem%area%bb*problem%model%reduction%k0*[c%c11, c%c22])
-      ! a shift [mm] is this strain over the length of the contact
+      ! a shift [mm] gives this strain over the semi-axis of the contact
       if (problem%shift) creep = creep*problem%area%aa
    end function characteristic_creep
 
@@ -81,7 +81,7 @@ contains
    subroutine find_longitudinal(problem, tolerance, creep, solution, report)
       type(simplified_problem), intent(in) :: problem
       real(wp), intent(in) :: tolerance
-      !> Estimate on entry; the lateral one is given
+      !> The longitudinal creepage is an estimate on entry and the solution on exit; the lateral one is given [-]
       real(wp), intent(inout) :: creep(2)
       type(simplified_solution), intent(inout) :: solution
       type(solve_report), intent(inout) :: report
@@ -101,7 +101,7 @@ contains
       report%residual = search%best_value
    end subroutine find_longitudinal
 
-   !> Both creepages for both forces, by bracketing one within the other
+   !> Both creepages for both forces, by nested bracketing
    subroutine find_both(problem, creep, solution, report)
       type(simplified_problem), intent(in) :: problem
       real(wp), intent(inout) :: creep(2)
@@ -129,23 +129,23 @@ contains
       report%residual = maxval(abs(solution%force - problem%force))
    end subroutine find_both
 
-   !> Newton's method with differences; gives up, with the residual told, when it makes no progress
+   !> Newton's method with finite differences; gives up without progress and reports its residual
    subroutine newton(problem, creep, solution, report)
       type(simplified_problem), intent(in) :: problem
       real(wp), intent(inout) :: creep(2)
       type(simplified_solution), intent(inout) :: solution
       type(solve_report), intent(inout) :: report
       integer, parameter :: max_steps = 20, max_halvings = 6
-      !> Differences are taken over this share of the characteristic creepages
+      !> Step of the differences, relative to the characteristic creepages
       real(wp), parameter :: share = 1.0e-6_wp
       real(wp) :: unit(2), base(2), missing(2), slope(2, 2), step(2), determinant, factor
       integer :: i, j
 
       unit = characteristic_creep(problem)
-      ! the creep curve of Vermeulen and Johnson (1964)
+      ! creep force curve of Vermeulen and Johnson (1964)
       factor = 1.0_wp - (max(0.0_wp, 1.0_wp - norm2(problem%force)))**(1.0_wp/3.0_wp)
       creep = -3.0_wp*factor*unit*problem%force/max(norm2(problem%force), tiny(factor))
-      call look(creep)
+      call evaluate(creep)
       do i = 1, max_steps
          if (report%residual <= problem%eps) return
          base = creep
@@ -153,7 +153,7 @@ contains
          do j = 1, 2
             creep = base
             creep(j) = base(j) + share*unit(j)
-            call look(creep)
+            call evaluate(creep)
             slope(:, j) = (solution%force - problem%force - missing)/(share*unit(j))
          end do
          determinant = slope(1, 1)*slope(2, 2) - slope(1, 2)*slope(2, 1)
@@ -162,7 +162,7 @@ contains
          step = -[slope(2, 2)*missing(1) - slope(1, 2)*missing(2), slope(1, 1)*missing(2) - slope(2, 1)*missing(1)]/determinant
          do j = 0, max_halvings
             creep = base + 0.5_wp**j*step
-            call look(creep)
+            call evaluate(creep)
             if (norm2(solution%force - problem%force) < norm2(missing)) exit
          end do
          if (j > max_halvings) then
@@ -174,13 +174,13 @@ contains
 
    contains
 
-      !> Tractions at a point, counted
-      subroutine look(at)
+      !> Evaluate the tractions at given creepages, and count the evaluation
+      subroutine evaluate(at)
          real(wp), intent(in) :: at(2)
 
          call tractions_at(problem, at, solution)
          report%iterations = report%iterations + 1
          report%residual = maxval(abs(solution%force - problem%force))
-      end subroutine look
+      end subroutine evaluate
    end subroutine newton
 end module contact_simplified_solve
