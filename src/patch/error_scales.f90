@@ -30,8 +30,8 @@ module contact_patch_error_scales
    !> the forces, also if an adhesion area of at most this fraction of the contact lies in between. Measured with rollers of
    !> aluminium and steel, EPS from 1e-2 to 1e-5
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
-   !> Lower bounds of the fraction of elements in adhesion: in full sliding the directions of slip have errors, too; for shifts,
-   !> whose errors in full sliding are half as large as others (seed 8102)
+   !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors,
+   !> too; of shifts, whose errors in full sliding are half as large as others (seed 8102)
    real(wp), parameter :: least_adhesion = 0.02_wp, least_in_shifts = 0.25_wp
 
    !> Quantities common to all totals of a patch

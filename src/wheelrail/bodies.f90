@@ -1,9 +1,8 @@
-!> The surfaces of a pair where one of them varies: a rail along the track, a wheel around its axle
+!> The surfaces of wheel and rail if one of them varies: a rail along the track, a wheel around its axle
 !>
-!> Sections of the variable profile stand on an even mesh along the track (rail) or around the axle (wheel), with their
-!> derivatives along the mesh; between two sections heights are cubic (Hermite). A section is made when something
-!> is evaluated there for the first time in a case: most of them never are.
-!> Bodies that do not vary are evaluated from their profile.
+!> Sections of the variable profile are on an equidistant mesh along the track (rail) or around the axle (wheel), with their
+!> derivatives along the mesh; between sections, heights are interpolated by cubic Hermite polynomials. A section is computed at its
+!> first use in a case: most of them are never used. Bodies that do not vary are evaluated from their profile.
 module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -17,76 +16,78 @@ module contact_wheelrail_bodies
    public :: wheel_rail_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
    public :: find_rail_row, find_wheel_row, slice_pair
 
-   !> What was found last on a section: the same place is looked at again in the next step, or by the next point
+   !> Last point found on a section: the next step, or the next point, is often at or near the same position
    type :: known_point
-      !> Lateral position [mm]; none yet
+      !> Lateral position [mm]; huge: none yet
       real(wp) :: y = huge(1.0_wp)
-      !> Height [mm], its derivatives across [-] and along the mesh, per mm or rad, and how these change across
+      !> Height [mm], derivatives across the profile [-] and along the mesh, per mm or rad, and derivatives of both across the
+      !> profile
       real(wp) :: z = 0.0_wp, z_y = 0.0_wp, z_u = 0.0_wp, z_yy = 0.0_wp, z_uy = 0.0_wp
    end type known_point
 
-   !> Sections on an even mesh
+   !> Sections on an equidistant mesh
    type :: strip
-      !> Place of the first section and distance of sections: x in the track [mm], or angle from the bottom [rad]
+      !> Position of the first section and distance between sections: x in the track [mm], or angle from the bottom [rad]
       real(wp) :: first = 0.0_wp, step = 1.0_wp
-      !> Those that are made, and which ones are
+      !> Sections, and whether they have been computed
       type(surface_cut), allocatable :: sections(:)
       logical, allocatable :: made(:)
-      !> Piece of each section that held the last point
+      !> Piece of each section that contains the last point
       integer, allocatable :: piece(:)
       type(known_point), allocatable, private :: known(:)
-      !> What they are sections of, the position u on it of place 0, and the axes they are seen from (see `cut`)
+      !> The surface, the coordinate u on it of position 0 of the mesh, and axes of the sections (see `cut`)
       type(profile_surface) :: surface
       real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
    contains
-      !> Make a section if it is not there yet
+      !> Compute a section unless it has been computed
       procedure :: need
-      !> Number of the section at a place where one stands
+      !> Index of the section at a position of the mesh
       procedure :: number_at
       procedure :: at => strip_at
    end type strip
 
-   !> Both surfaces in their present places
+   !> Both surfaces in their present positions
    type :: wheel_rail_bodies
       !> The rail in track coordinates, the wheel in its own
       type(profile_curve) :: rail, wheel
       type(wheel_rail_placement) :: placement
-      !> Sections of a variable rail in track coordinates; unallocated when it is prismatic
+      !> Sections of a variable rail in track coordinates; unallocated for a prismatic rail
       type(strip), allocatable :: rail_strip
-      !> Sections of a wheel that is out of round, in its own coordinates, by the angle from its bottom
+      !> Sections of an out-of-round wheel in wheel coordinates, by the angle from its bottom
       type(strip), allocatable :: wheel_strip
       !> See search_spec
       logical :: angle_below_axle = .false.
    end type wheel_rail_bodies
 
-   !> The slices before and behind a place, for questions about places near each other
+   !> The slices before and after a position along the track, kept for neighbouring positions
    type :: slice_pair
       integer, private :: before = 0
       type(surface_cut), private :: cut(2)
    contains
-      !> How far a rail stands above both of them
+      !> Height of a rail above both slices
       procedure :: swing
    end type slice_pair
 
-   !> Distance of sections along the surface at most [mm]
+   !> Maximum distance of sections along the surface [mm]
    real(wp), parameter :: furthest_section = 1.0_wp
-   !> How far contact is sought along the track to both sides, and sections beyond it, of the wheel's radius
+   !> Range of the contact search along the track to both sides, its upper bound, and additional range of sections, relative to the
+   !> wheel's radius
    real(wp), parameter :: reach = 0.125_wp, furthest = 0.5_wp, beyond = 0.035_wp
-   !> Slope of the steepest flank on which contact is sought, dz/dy: 80 degrees
+   !> Slope of the steepest flank in the contact search, dz/dy: 80 degrees
    real(wp), parameter :: steepest_flank = 5.67_wp
-   !> Share of the distance of sections that is none
+   !> Distances from a section, relative to the distance of sections, that are regarded as zero
    real(wp), parameter :: rounding = 1.0e-9_wp
-   !> Least dy/ds of a rail: a steeper one counts as vertical
+   !> Minimum dy/ds of a rail: a steeper surface is regarded as vertical
    real(wp), parameter :: steepest = 1.0e-6_wp
 
 contains
 
-   !> Prepare for a case. `bodies%rail`, `bodies%wheel` and `bodies%placement` are there already
+   !> Prepare the sections for a case. `bodies%rail`, `bodies%wheel` and `bodies%placement` are set already
    !>
-   !> Sections are as far apart as elements: a flat or a joint that slices describe closely shows in the
-   !> pressures, and coarser sections would take the edge off it (5 % of the highest pressure of `wheelflat` for 1 mm).
+   !> The distance of sections is that of elements: a wheel flat or a joint that is described by closely spaced slices is visible in
+   !> the pressures, and is smoothed by coarser sections (5 % of the maximum pressure of `wheelflat` for 1 mm).
    subroutine place_bodies(bodies, s_ws, pitch, dx, rail_surface, wheel_surface)
-      !> Profiles and placement on entry; sections along the track and their extent are made here
+      !> Profiles and placement on entry; sections and their range are set
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Position of the wheelset along the track [mm]; pitch angle of the wheel [rad]
       real(wp), intent(in) :: s_ws, pitch
@@ -105,14 +106,14 @@ contains
          bodies%rail_strip%origin = s_ws
          bodies%rail_strip%axes = track_axes(bodies%placement)
       end if
-      ! With positive pitch the bottom shows what was in front of it, at a negative angle
+      ! With positive pitch the point at the bottom was ahead of it at zero pitch, at a negative angle
       if (allocated(bodies%wheel_strip)) bodies%wheel_strip%origin = -pitch
    end subroutine place_bodies
 
-   !> How far from the wheel contact is sought along the track [mm]: on the flank of a yawed wheel it is ahead of the axle or behind
-   !> it by the radius times slope and yaw
+   !> Range of the contact search along the track, to both sides of the axle [mm]: on the flank of a yawed wheel, contact is ahead
+   !> of or behind the axle by radius times slope times yaw
    pure real(wp) function search_reach(bodies) result(length)
-      !> Prepared by `place_bodies`
+      !> After `place_bodies`
       type(wheel_rail_bodies), intent(in) :: bodies
 
       associate (yaw => abs(bodies%placement%wheel%yaw()))
@@ -120,14 +121,14 @@ contains
       end associate
    end function search_reach
 
-   !> How far from the wheel contact may be [mm]
+   !> Maximum range of the contact search along the track [mm]
    pure real(wp) function widest_reach(bodies) result(length)
-      !> Prepared by `place_bodies`
+      !> After `place_bodies`
       type(wheel_rail_bodies), intent(in) :: bodies
       length = furthest*bodies%placement%wheel_radius
    end function widest_reach
 
-   !> A strip without sections: n of them to both sides of its middle
+   !> A strip of sections that have not been computed, n of them on both sides of the middle
    subroutine lay_out(along, surface, n, middle, step)
       type(strip), allocatable, intent(inout) :: along
       !> Unallocated for a body that does not vary
@@ -147,10 +148,10 @@ contains
       allocate(along%known(2*n + 1))
    end subroutine lay_out
 
-   !> Make a section if it is not there yet
+   !> Compute a section unless it has been computed
    subroutine need(self, number)
       class(strip), intent(inout) :: self
-      !> Number of the section, from 1
+      !> Index of the section, from 1
       integer, intent(in) :: number
 
       if (self%made(number)) return
@@ -158,14 +159,15 @@ contains
       self%made(number) = .true.
    end subroutine need
 
-   !> How far a rail stands above the slices on both sides at a place [mm]; 0 for less than what is told when it is read
+   !> Height of a rail above the slices on both sides of a position [mm]; 0 below the threshold for the warning when the rail is
+   !> read
    !>
-   !> What a spline makes of sudden changes is no body that anything could touch.
+   !> Overshoot of the spline at sudden changes is not a surface that can be in contact.
    real(wp) function swing(self, along, x, y, z)
       class(slice_pair), intent(inout) :: self
       !> The sections of the rail
       type(strip), intent(in) :: along
-      !> In track coordinates; z is the height of the rail there [mm]
+      !> Position in track coordinates; z is the height of the rail there [mm]
       real(wp), intent(in) :: x, y, z
       real(wp) :: height(1, 2)
       logical :: found(1, 2)
@@ -191,10 +193,10 @@ contains
       if (swing < large_overshoot) swing = 0.0_wp
    end function swing
 
-   !> The nearest section; 0 beyond the ends
+   !> Index of the nearest section; 0 beyond the ends
    pure integer function number_at(self, place)
       class(strip), intent(in) :: self
-      !> Place along the mesh [mm]
+      !> Position along the mesh [mm] or [rad]
       real(wp), intent(in) :: place
 
       number_at = 1 + nint((place - self%first)/self%step)
@@ -217,24 +219,24 @@ contains
    subroutine rail_section(surface, placement, u, section)
       !> Surface through the slices of the rail
       type(profile_surface), intent(in) :: surface
-      !> Where the rail's origin is in the track, and how it is turned
+      !> Position and orientation of the rail in the track
       type(wheel_rail_placement), intent(in) :: placement
       !> Position along the track [mm]
       real(wp), intent(in) :: u
-      !> `present` is false where there is no rail between slices
+      !> Section; `present` is false in gaps between slices
       type(surface_cut), intent(out) :: section
 
       call surface%continued(u, section, track_axes(placement))
    end subroutine rail_section
 
-   !> Height and slopes at a place between two sections
+   !> Height and slopes at a position between two sections
    subroutine strip_at(self, place, y, z, z_y, found, z_place)
       class(strip), intent(inout) :: self
-      !> Along the mesh, and lateral position [mm]
+      !> Position along the mesh [mm] or [rad], and lateral position [mm]
       real(wp), intent(in) :: place, y
       !> Height [mm], z down, and its derivative across [-]
       real(wp), intent(out) :: z, z_y
-      !> Do both sections have this point?
+      !> Do both sections have a surface at this lateral position?
       logical, intent(out) :: found
       !> Its derivative along the mesh, per mm or rad
       real(wp), intent(out), optional :: z_place
@@ -250,7 +252,7 @@ contains
       found = k >= 1 .and. k < size(self%sections)
       if (.not. found) return
       t = t - (k - 1)
-      ! a place on a section is one, in spite of rounding
+      ! a position on a section is regarded as such in spite of round-off
       if (t > 1.0_wp - rounding) then
          k = k + 1
          t = 0.0_wp
@@ -273,17 +275,17 @@ contains
          & + low%z_u*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high%z_u*t*(2.0_wp - 3.0_wp*t)
    end subroutine strip_at
 
-   !> The point of a section; near the one that was found last along its parabola
+   !> Point of a section; near the last point found by a parabola
    subroutine find_on_section(self, number, y, point, found)
       type(strip), intent(inout) :: self
-      !> Number of the section, from 1
+      !> Index of the section, from 1
       integer, intent(in) :: number
-      !> [mm]
+      !> Lateral position [mm]
       real(wp), intent(in) :: y
       type(known_point), intent(out) :: point
-      !> Is there such a point?
+      !> Does the section have a surface at this lateral position?
       logical, intent(out) :: found
-      !> As far as this [mm] a parabola is the curve: what is left is some millionths of a millionth of a millimetre
+      !> Range of the parabola about the last point [mm]; its error is of the order of 1e-12 mm
       real(wp), parameter :: nearness = 2.0e-4_wp
       real(wp) :: way
 
@@ -303,27 +305,27 @@ contains
       self%known(number) = point
    end subroutine find_on_section
 
-   !> Height n of the rail over a point (x, s) of a plane; of the track itself when the plane is the default frame
+   !> Height n of the rail above a point (x, s) of a plane; of the track itself if the plane is the default frame
    !>
    !> On the line along n the surface is found by Newton's method, with the slope across the rail.
    subroutine find_rail(bodies, plane, x, s, n, found)
-      !> Prepared by `place_bodies`; sections that are needed are made
+      !> After `place_bodies`; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> In track coordinates
+      !> Plane in track coordinates
       type(frame), intent(in) :: plane
       !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
       !> Estimate on entry, solution on exit [mm]
       real(wp), intent(inout) :: n
-      !> Does the line along n meet the rail?
+      !> Does the line along n intersect the rail?
       logical, intent(out) :: found
       real(wp) :: point(3), z, z_y, correction, rho, place, along, across, facing
       logical :: vertical
       integer :: step
-      !> Of a step [mm]: with the slope that is used what remains is a thousandth of it
+      !> Tolerance of a step [mm]; with the approximate slope the remaining error is a thousandth of it
       real(wp), parameter :: tolerance = 1.0e-7_wp
 
-      ! along a vertical line the surface is found at once
+      ! on a vertical line no iteration is needed
       vertical = all(abs(plane%axes(1:2, 3)) <= 0.0_wp)
       do step = 1, 30
          point = plane%to_parent([x, s, n])
@@ -347,7 +349,7 @@ contains
          correction = (z - point(3))/facing
          n = n + correction
          if (vertical .or. abs(correction) <= tolerance) then
-            ! a surface that turns its back on the plane is not the one in contact
+            ! a surface that faces away from the plane is not in contact
             found = facing > 0.0_wp
             return
          end if
@@ -355,17 +357,17 @@ contains
       found = .false.
    end subroutine find_rail
 
-   !> Heights n of the rail over a row of points (x, s) of a plane; each point starts from the three before it
+   !> Heights n of the rail above a row of points (x, s) of a plane; the estimate for each point is extrapolated from the last three
    subroutine find_rail_row(bodies, plane, x, s, n, found)
-      !> Prepared by `place_bodies`; sections that are needed are made
+      !> After `place_bodies`; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> In track coordinates
+      !> Plane in track coordinates
       type(frame), intent(in) :: plane
-      !> At even distances
+      !> Positions in the plane [mm], x equidistant
       real(wp), intent(in) :: x(:), s
-      !> Height over each point [mm]
+      !> Height above each point [mm]
       real(wp), intent(out) :: n(:)
-      !> Does the line along n meet the rail there?
+      !> Does the line along n intersect the rail?
       logical, intent(out) :: found(:)
       real(wp) :: recent(3)
       integer :: i, known
@@ -374,7 +376,7 @@ contains
       known = 0
       if (size(x) > 1 .and. .not. allocated(bodies%rail_strip) .and. .not. bodies%placement%roller_radius > 0.0_wp &
          & .and. all(abs(plane%axes(2:3, 1)) <= 0.0_wp)) then
-         ! what does not vary along the track is found once, as well as where each point goes on from the last one
+         ! a surface that does not vary along the track is evaluated once, unless the estimate of a point depends on the last one
          n(1) = 0.0_wp
          call find_rail(bodies, plane, x(1), s, n(1), found(1))
          if (found(1)) call find_rail(bodies, plane, x(1), s, n(1), found(1))
@@ -389,21 +391,22 @@ contains
       end do
    end subroutine find_rail_row
 
-   !> Height n of the wheel over a point (x, s) of a plane
+   !> Height n of the wheel above a point (x, s) of a plane
    subroutine find_wheel(bodies, seen, x, s, place, n, found)
-      !> Prepared by `place_bodies`; sections that are needed are made
+      !> After `place_bodies`; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> The plane seen from the wheel
+      !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
       !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
-      !> Place on the profile of a round wheel, and height [mm]: estimates on entry, solution on exit
+      !> Position on the profile of a round wheel, and height [mm]: estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
-      !> Does the line along n meet the wheel?
+      !> Does the line along n intersect the wheel?
       logical, intent(out) :: found
       real(wp) :: base(3), q(3), k(3), rho, z, z_y, z_around, around, correction
       integer :: step
-      !> Way along the surface in a step of Newton's method [mm]: what remains is its square over the radius of the surface
+      !> Length along the surface of the last step of Newton's method [mm]; the remaining error is its square over the radius of
+      !> curvature
       real(wp), parameter :: short_way = 3.0e-5_wp
 
       associate (radius => bodies%placement%wheel_radius)
@@ -418,7 +421,7 @@ contains
             rho = sqrt(q(1)**2 + q(3)**2)
             call bodies%wheel_strip%at(atan2(q(1), q(3)), q(2), z, z_y, found, z_around)
             if (.not. found) return
-            ! radius + z - rho = 0
+            ! equation: radius + z - rho = 0
             around = (k(1)*q(3) - k(3)*q(1))/rho
             correction = (radius + z - rho)/((k(1)*q(1) + k(3)*q(3))/rho - z_y*k(2) - z_around*around/rho)
             n = n + correction
@@ -428,17 +431,17 @@ contains
       end associate
    end subroutine find_wheel
 
-   !> Heights n of the wheel over a row of points (x, s) of a plane
+   !> Heights n of the wheel above a row of points (x, s) of a plane
    subroutine find_wheel_row(bodies, seen, x, s, n, found)
-      !> Prepared by `place_bodies`; sections that are needed are made
+      !> After `place_bodies`; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> The plane seen from the wheel
+      !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
-      !> At even distances
+      !> Positions in the plane [mm], x equidistant
       real(wp), intent(in) :: x(:), s
-      !> Height over each point [mm]
+      !> Height above each point [mm]
       real(wp), intent(out) :: n(:)
-      !> Does the line along n meet the wheel there?
+      !> Does the line along n intersect the wheel?
       logical, intent(out) :: found(:)
       real(wp) :: start(2), recent(3), place(size(x))
       integer :: i, known
@@ -457,9 +460,9 @@ contains
       end do
    end subroutine find_wheel_row
 
-   !> The next one in a row of heights: along a parabola through the last three
+   !> Estimate of the next height in a row, from the parabola through the last three
    pure real(wp) function estimate(recent, known)
-      !> The last one first, and how many there are
+      !> Heights, the last one first, and their number
       real(wp), intent(in) :: recent(3)
       integer, intent(in) :: known
 
@@ -473,7 +476,7 @@ contains
       end select
    end function estimate
 
-   !> Remember a height; a point without one begins a new row
+   !> Store a height; a point without surface starts a new row
    pure subroutine keep(recent, known, height, found)
       real(wp), intent(inout) :: recent(3)
       integer, intent(inout) :: known

@@ -1,6 +1,6 @@
-!> Results of wheel and rail in the systems of the bodies: frames, forces, centre of pressure
+!> Results of wheel and rail in the coordinates of the bodies: frames, forces, centre of pressure
 !>
-!> For a pair on the right side of the track, as all results inside.
+!> All results refer to a pair on the right side of the track, as everywhere below input and output.
 module contact_wheelrail_body_frames
    use contact_base_kinds, only : wp
    use contact_wheelrail_frame, only : cross, frame, new_frame, roll_axes
@@ -11,23 +11,23 @@ module contact_wheelrail_body_frames
 
    public :: body_frames, forces_in_bodies, frames_of, pressure_centre
 
-   !> Frames of rail, wheelset and wheel in the track
+   !> Frames of rail, wheelset and wheel in track coordinates
    type :: body_frames
       type(frame) :: rail, wheelset, wheel
-      !> The wheel in the wheelset
+      !> Wheel in wheelset coordinates
       type(frame) :: wheel_in_set
    end type body_frames
 
-   !> The centre of pressure divides by a sum of pressures that this keeps from zero [N/mm2]
+   !> Lower bound of the sum of pressures in the denominator of the centre of pressure [N/mm2]
    real(wp), parameter :: min_pressure = 1.0e-10_wp
 
 contains
 
-   !> Frames of the last calculation
+   !> Frames of the last solution
    pure function frames_of(pair, result) result(frames)
-      !> For the position of the wheelset and its side of the track
+      !> Position of the wheelset and side of the track
       type(wheel_rail_spec), intent(in) :: pair
-      !> For the markers
+      !> Positions of the markers
       type(wheel_rail_result), intent(in) :: result
       type(body_frames) :: frames
       real(wp) :: s
@@ -41,12 +41,11 @@ contains
       end associate
    end function frames_of
 
-   !> x and y in the track of the mean of the elements, weighted by their pressures; rows of a curved patch have places
-   !> of their own
+   !> x and y in the track of the centre of pressure; each row of a curved patch has its own position
    pure function pressure_centre(patch) result(centre)
-      !> With its pressures
+      !> Patch with pressures
       type(wheel_rail_patch), intent(in) :: patch
-      !> [mm]
+      !> Centre of pressure [mm]
       real(wp) :: centre(2)
       real(wp) :: weight, x, y, row_y
       integer :: ix, iy
@@ -68,14 +67,14 @@ contains
       centre = [patch%x + x/weight, patch%y + y/weight]
    end function pressure_centre
 
-   !> Force on the rail and its moment, about the rail marker in track and rail axes, about the wheel marker in
-   !> wheelset and wheel axes; damping included
+   !> Force on the rail and its moment, about the rail marker in track and rail axes, about the wheel marker in wheelset and wheel
+   !> axes; including damping
    pure function forces_in_bodies(patch, frames) result(list)
-      !> With its force and moment
+      !> Patch with force and moment
       type(wheel_rail_patch), intent(in) :: patch
       !> See frames_of
       type(body_frames), intent(in) :: frames
-      !> Four times a force [N] and a moment [N mm]
+      !> Four times force [N] and moment [N mm]: rail marker in track and rail axes, wheel marker in wheelset and wheel axes
       real(wp) :: list(24)
       real(wp) :: axes(3, 3), force(3), moment(3), about_rail(3), about_wheel(3)
 

@@ -1,12 +1,11 @@
-!> Tractions of the previous time step, carried over to the patches of the present one
+!> Transfer of the tractions of the previous time step to the patches of the present one
 !>
-!> Patches come and go, join and separate. What they leave behind is kept on one lattice of elements per
-!> pair: across the rail it is fixed to the arc length of the profile, along the track to the rail (shifts)
-!> or to the wheelset (rolling). A patch is a window on this lattice. Every element that was in contact is
-!> given to one present patch at most, the nearest one of those whose bounds overlap with the bounds of its
-!> own patch, and that patch's window is widened to hold it: nothing is lost and nothing counted twice.
-!> Components along the track, along the profile and normal to it are kept, although the planes of
-!> the patches differ by small angles: they belong to the surface, and so does the friction bound.
+!> Patches appear and vanish, merge and separate. Their tractions are stored on one lattice of elements for wheel and rail: in
+!> lateral direction it is fixed to the arc length of the rail profile, along the track to the rail (shifts) or to the wheelset
+!> (rolling). The grid of a patch is a window of this lattice. Every element that was in contact is assigned to at most one present
+!> patch: the nearest one of those whose bounds overlap with the bounds of its own patch. The window of that patch is extended to
+!> include the element: no traction is lost or counted twice. Components along the track, along the profile and normal to it are
+!> kept, although the planes of the patches differ by small angles: tractions and traction bound refer to the surface.
 module contact_wheelrail_carry_over
    use, intrinsic :: iso_fortran_env, only : int64
    use contact_base_kinds, only : wp
@@ -19,7 +18,7 @@ module contact_wheelrail_carry_over
 
    public :: carried_step, lattice_box, lattice_window, place_on_lattice
 
-   !> Patches of a pair at most
+   !> Maximum number of patches of wheel and rail
    integer, parameter, public :: max_patches = 10
 
    !> Bounds of a patch on the lattice [mm]
@@ -27,64 +26,64 @@ module contact_wheelrail_carry_over
       real(wp) :: x(2) = 0.0_wp, s(2) = 0.0_wp
    end type lattice_box
 
-   !> Numbers of the first element of a window; element (i, j) of the lattice is centred at (i dx, j ds)
+   !> Indices of the first element of a window; element (i, j) of the lattice is centred at (i dx, j ds)
    type :: lattice_window
       integer(int64) :: first(2) = 0_int64
    end type lattice_window
 
-   !> What one patch has left
+   !> Stored data of one patch
    type :: carried_patch
       type(traction_fields) :: fields
       type(lattice_window) :: window
       type(lattice_box) :: box
-      !> Number of the present patch that an element is given to, 0 for none; shape of the fields
+      !> Index of the present patch to which an element is assigned, 0 for none; shape of the fields
       integer, allocatable :: owner(:, :)
    end type carried_patch
 
-   !> All patches of a pair in one time step
+   !> All patches of wheel and rail in one time step
    type :: carried_step
-      !> In the order of the results; unallocated before the first case
+      !> Patches in the order of the results; unallocated before the first case
       type(carried_patch), allocatable :: patch(:)
       !> Is the lattice fixed to the rail along the track? Otherwise to the wheelset
       logical :: follows_rail = .false.
-      !> Position of the wheelset along the rail at that time [mm]
+      !> Position of the wheelset along the rail in that time step [mm]
       real(wp) :: travel = 0.0_wp
    contains
-      !> No tractions
+      !> Remove all patches
       procedure :: clear
-      !> Take the patches of a solved case
+      !> Store the patches of a solved case
       procedure :: start
       procedure :: add
-      !> Change between lattices on the rail and on the wheelset
+      !> Change between lattices fixed to the rail and to the wheelset
       procedure :: set_frame
-      !> Leave out patches on other elements
+      !> Remove patches with other element sizes
       procedure :: drop_other_elements
-      !> Forget tangential tractions
+      !> Remove tangential tractions
       procedure :: drop_tangential
-      !> Give elements to the patches of the present time step
+      !> Assign elements to the patches of the present time step
       procedure :: share_out
-      !> Patches of that time step which a present one continues
+      !> Previous patches that a present one continues
       procedure :: find_sources
-      !> Window that holds all elements of a present patch
+      !> Extend a window to all elements assigned to a patch
       procedure :: widen
-      !> What a present patch continues from
+      !> Fields of the previous time step for a present patch
       procedure :: hand_over
-      !> Sum of the tractions of a present patch
+      !> Sum of the tractions assigned to a present patch
       procedure :: total_force
    end type carried_step
 
 contains
 
-   !> No tractions
+   !> Remove all patches
    pure subroutine clear(self)
       class(carried_step), intent(inout) :: self
       if (allocated(self%patch)) deallocate(self%patch)
    end subroutine clear
 
-   !> Make place for the patches of a time step; arrays are kept when the number is the same
+   !> Prepare for the patches of a time step; arrays are kept if the number is the same
    subroutine start(self, patches, follows_rail, travel)
       class(carried_step), intent(inout) :: self
-      !> Their number
+      !> Number of patches
       integer, intent(in) :: patches
       !> Is the lattice fixed to the rail along the track? Otherwise to the wheelset
       logical, intent(in) :: follows_rail
@@ -99,18 +98,18 @@ contains
       self%travel = travel
    end subroutine start
 
-   !> Take the tractions of a patch
+   !> Store the tractions of a patch
    !>
-   !> A window that is not on the lattice, as in steady rolling, is moved to the nearest place there.
+   !> A grid that is not aligned with the lattice, as in steady rolling, is moved to the nearest lattice position.
    subroutine add(self, k, fields, reference, box)
       class(carried_step), intent(inout) :: self
-      !> Number of the patch, 1 to those of `start`
+      !> Index of the patch, up to the number given to `start`
       integer, intent(in) :: k
-      !> On a window in coordinates of the patch
+      !> Fields on the grid of the patch
       type(traction_fields), intent(in) :: fields
-      !> Place of the contact reference on the lattice [mm]
+      !> Position of the contact reference on the lattice [mm]
       real(wp), intent(in) :: reference(2)
-      !> Bounds of the patch on the lattice [mm], as it was solved
+      !> Bounds of the solved patch on the lattice [mm]
       type(lattice_box), intent(in) :: box
 
       associate (kept => self%patch(k)%fields)
@@ -121,18 +120,18 @@ contains
       self%patch(k)%box = box
    end subroutine add
 
-   !> Place on the lattice that is nearest to a window
+   !> Lattice position nearest to a grid
    pure function place_on_lattice(grid, reference) result(window)
-      !> In coordinates with the contact reference as origin
+      !> Grid in coordinates whose origin is the contact reference
       type(potential_contact), intent(in) :: grid
-      !> Place of the contact reference on the lattice [mm]
+      !> Position of the contact reference on the lattice [mm]
       real(wp), intent(in) :: reference(2)
       type(lattice_window) :: window
 
       window%first = [nint((grid%x(1) + reference(1))/grid%dx, int64), nint((grid%y(1) + reference(2))/grid%dy, int64)]
    end function place_on_lattice
 
-   !> Change between lattices on the rail and on the wheelset, by whole elements
+   !> Change between lattices fixed to the rail and to the wheelset, by whole elements
    pure subroutine set_frame(self, follows_rail)
       class(carried_step), intent(inout) :: self
       !> Is the lattice to be fixed to the rail along the track? Otherwise to the wheelset
@@ -154,12 +153,12 @@ contains
       self%follows_rail = follows_rail
    end subroutine set_frame
 
-   !> Leave out patches whose elements have other sides than those of the lattice
+   !> Remove patches whose elements have other sides than those of the lattice
    subroutine drop_other_elements(self, dx, ds, dropped)
       class(carried_step), intent(inout) :: self
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, ds
-      !> Number of patches left out
+      !> Number of patches removed
       integer, intent(out) :: dropped
       integer :: k
       real(wp), parameter :: same_side = 1.0e-4_wp
@@ -175,7 +174,7 @@ contains
       end do
    end subroutine drop_other_elements
 
-   !> Forget tangential tractions
+   !> Remove tangential tractions
    pure subroutine drop_tangential(self)
       class(carried_step), intent(inout) :: self
       integer :: k
@@ -187,10 +186,10 @@ contains
       end do
    end subroutine drop_tangential
 
-   !> Give every element that was in contact to one of the present patches
+   !> Assign every element that was in contact to one of the present patches
    subroutine share_out(self, boxes)
       class(carried_step), intent(inout) :: self
-      !> Bounds of the present patches, `max_patches` at most
+      !> Bounds of the present patches, at most `max_patches` [mm]
       type(lattice_box), intent(in) :: boxes(:)
       integer :: j, k, ix, iy, candidates(max_patches), n, nearest
       real(wp) :: place(2), distance, shortest
@@ -231,13 +230,13 @@ contains
       end do
    end subroutine share_out
 
-   !> Have two boxes points in common?
+   !> Do two boxes overlap?
    pure logical function overlap(a, b)
       type(lattice_box), intent(in) :: a, b
       overlap = a%x(1) <= b%x(2) .and. b%x(1) <= a%x(2) .and. a%s(1) <= b%s(2) .and. b%s(1) <= a%s(2)
    end function overlap
 
-   !> Squared distance from a box, 0 inside [mm2]
+   !> Squared distance of a point from a box, 0 inside [mm2]
    pure real(wp) function squared_distance(place, box) result(distance)
       real(wp), intent(in) :: place(2)
       type(lattice_box), intent(in) :: box
@@ -245,12 +244,12 @@ contains
          & + max(box%s(1) - place(2), place(2) - box%s(2), 0.0_wp)**2
    end function squared_distance
 
-   !> Patches of that time step which a present one continues, rising
+   !> Previous patches that a present one continues, in increasing order
    pure subroutine find_sources(self, k, list)
       class(carried_step), intent(in) :: self
-      !> Number of the present patch
+      !> Index of the present patch
       integer, intent(in) :: k
-      !> Kept when its size is right
+      !> Indices of the previous patches; reallocated if the size changes
       integer, allocatable, intent(inout) :: list(:)
       integer :: found(max_patches)
       integer :: j, n
@@ -270,14 +269,14 @@ contains
       list(:) = found(:n)
    end subroutine find_sources
 
-   !> Widen a window on the lattice so that it holds all elements given to a patch
+   !> Extend a window to all elements assigned to a patch
    pure subroutine widen(self, k, window, grid)
       class(carried_step), intent(in) :: self
-      !> Number of the present patch
+      !> Index of the present patch
       integer, intent(in) :: k
-      !> Place of the first element on the lattice
+      !> Position of the first element on the lattice
       type(lattice_window), intent(inout) :: window
-      !> Size and place of the window in coordinates of the patch
+      !> Size and position of the window in coordinates of the patch
       type(potential_contact), intent(inout) :: grid
       integer(int64) :: low(2), high(2)
       integer :: j, ix, iy
@@ -303,16 +302,16 @@ contains
       window%first = low
    end subroutine widen
 
-   !> Fields of the previous time step on the window of a present patch
+   !> Fields of the previous time step on the grid of a present patch
    subroutine hand_over(self, k, problem, window, fields)
       class(carried_step), intent(in) :: self
-      !> Number of the present patch
+      !> Index of the present patch
       integer, intent(in) :: k
-      !> Its problem, on a window that holds all its elements
+      !> Its problem, on a grid that includes all assigned elements
       type(patch_problem), intent(in) :: problem
-      !> Place of the first element of the problem's grid on the lattice
+      !> Position of the first element of the grid on the lattice
       type(lattice_window), intent(in) :: window
-      !> Gets the tractions, and what particles carry along; zero where no patch was
+      !> Tractions and quantities of the particles are set; zero outside the previous patches
       type(traction_fields), intent(inout) :: fields
       real(wp) :: fresh(problem%grid%my)
       integer :: j, ix, iy, jx, jy, kind
@@ -333,13 +332,13 @@ contains
                   jx = int(patch%window%first(1) - window%first(1)) + ix
                   jy = int(patch%window%first(2) - window%first(2)) + iy
                   fields%is_solved = .true.
-                  ! an element in which two patches meet has the tractions of both
+                  ! tractions of two patches that meet in an element are added
                   fields%division(jx, jy) = max(fields%division(jx, jy), old%division(ix, iy))
                   fields%pn(jx, jy) = fields%pn(jx, jy) + old%pn(ix, iy)
                   fields%px(jx, jy) = fields%px(jx, jy) + old%px(ix, iy)
                   fields%py(jx, jy) = fields%py(jx, jy) + old%py(ix, iy)
                   do kind = 1, carried%count
-                     ! where both time steps have it
+                     ! quantities that both time steps have
                      if (allocated(old%memory(kind)%value) .and. allocated(fields%memory(kind)%value)) &
                         & fields%memory(kind)%value(jx, jy) = old%memory(kind)%value(ix, iy)
                   end do
@@ -350,10 +349,10 @@ contains
       fields%force = self%total_force(k)
    end subroutine hand_over
 
-   !> Sum of the tractions of a present patch: Fn, Fx, Fs [N]
+   !> Sum of the tractions assigned to a present patch: Fn, Fx, Fs [N]
    pure function total_force(self, k) result(force)
       class(carried_step), intent(in) :: self
-      !> Number of the present patch
+      !> Index of the present patch
       integer, intent(in) :: k
       real(wp) :: force(3)
       integer :: j

@@ -1,7 +1,7 @@
-!> Cases one after the other in time: what the last ones tell of the next one
+!> Extrapolation over a sequence of cases in time: estimates for the next case from the last ones
 !>
-!> Penetration over F**(2/3) hardly depends on the force, and changes slowly with the position of the wheelset. It is continued
-!> along the way that the wheelset went from the case before the last one to the last one. A wrong guess costs time only.
+!> The ratio of penetration to F**(2/3) depends little on the force, and changes slowly with the position of the wheelset. It is
+!> extrapolated along the path from the case before the last one to the last one. A poor estimate only costs time.
 module contact_wheelrail_course
    use contact_base_kinds, only : wp
    use contact_wheelrail_spec, only : wheelset_spec
@@ -10,43 +10,43 @@ module contact_wheelrail_course
 
    public :: course_type
 
-   !> Power of the force that the penetration of a contact goes with
+   !> Power of the force to which the penetration is roughly proportional
    real(wp), parameter, public :: power = 2.0_wp/3.0_wp
 
-   !> Place of a wheelset, in lengths that matter as much as each other
+   !> Coordinates of the position of a wheelset, scaled to lengths with comparable influence
    integer, parameter :: n_place = 3
-   !> An angle matters as much as so many millimetres: the distance of the wheel from the centre of the track
+   !> Length by which angles are scaled [mm]: distance of the wheel from the centre of the track
    real(wp), parameter :: lever = 750.0_wp
-   !> From further away nothing is continued [mm]
+   !> Maximum distance for extrapolation [mm]
    real(wp), parameter :: near = 0.5_wp
-   !> Parts of the last way that are believed
+   !> Limits of the extrapolation, relative to the last step
    real(wp), parameter :: furthest_back = -1.0_wp, furthest_on = 2.0_wp
-   !> Steps that are no way [mm2]
+   !> Squared steps that are regarded as zero [mm2]
    real(wp), parameter :: no_way = 1.0e-20_wp
 
-   !> What the last cases have found
+   !> Results of the last cases
    type :: course_type
-      !> Cases that are known, 2 at most: the last one first
+      !> Number of cases that are stored, at most 2: the last one first
       integer, private :: known = 0
       real(wp), private :: place(n_place, 2) = 0.0_wp
-      !> Penetration over F**(2/3) [mm/N**(2/3)]
+      !> Ratio of penetration to F**(2/3) [mm/N**(2/3)]
       real(wp), private :: softness(2) = 0.0_wp
-      !> Derivative of the force to the height, over what follows from the stiffness of the contacts [-]
+      !> Ratio of the derivative of the force with respect to the height to its value by the stiffness of the contacts [-]
       real(wp) :: stiffer = 1.0_wp
    contains
-      !> Was the last case near this one?
+      !> Is the last case near this one?
       procedure :: is_near
-      !> Expected penetration
+      !> Estimated penetration
       procedure :: penetration
-      !> Take note of a case
+      !> Store the result of a case
       procedure :: note
-      !> Begin anew
+      !> Remove all cases
       procedure :: forget
    end type course_type
 
 contains
 
-   !> Place of a wheelset [mm]
+   !> Scaled position of a wheelset [mm]
    pure function place_of(wheelset) result(place)
       type(wheelset_spec), intent(in) :: wheelset
       real(wp) :: place(n_place)
@@ -54,20 +54,20 @@ contains
       place = [wheelset%y, lever*wheelset%roll, lever*wheelset%yaw]
    end function place_of
 
-   !> Was the last case near this one?
+   !> Is the last case near this one?
    pure logical function is_near(self, wheelset)
       class(course_type), intent(in) :: self
-      !> Where the wheelset is now
+      !> Present position of the wheelset
       type(wheelset_spec), intent(in) :: wheelset
 
       is_near = self%known > 0
       if (is_near) is_near = all(abs(place_of(wheelset) - self%place(:, 1)) < near)
    end function is_near
 
-   !> Penetration that is expected to carry a force [mm]
+   !> Estimated penetration for a given force [mm]
    pure real(wp) function penetration(self, wheelset, force)
       class(course_type), intent(in) :: self
-      !> Where the wheelset is now, near the last case
+      !> Present position of the wheelset, near the last case
       type(wheelset_spec), intent(in) :: wheelset
       !> Prescribed force [N], positive
       real(wp), intent(in) :: force
@@ -85,12 +85,12 @@ contains
       penetration = softness*force**power
    end function penetration
 
-   !> Take note of a case that was solved
+   !> Store the result of a solved case
    pure subroutine note(self, wheelset, force, penetration)
       class(course_type), intent(inout) :: self
-      !> Where the wheelset was
+      !> Position of the wheelset
       type(wheelset_spec), intent(in) :: wheelset
-      !> Prescribed force [N] and penetration that carried it [mm]; without both the course begins anew
+      !> Prescribed force [N] and penetration found [mm]; if one is not positive, all cases are removed
       real(wp), intent(in) :: force, penetration
 
       if (.not. (force > 0.0_wp .and. penetration > 0.0_wp)) then

@@ -1,8 +1,7 @@
 !> Creepages of a flat contact patch between two moving bodies
 !>
-!> Slip is the velocity of the rail (body 1) minus that of the wheel (body 2) at the contact reference,
-!> divided by the rolling velocity V; see doc/theory/wheel_rail.md. All vectors in track axes: x along
-!> the track, y to the right, z down.
+!> Slip is the velocity of the rail (body 1) minus that of the wheel (body 2) at the contact reference, divided by the rolling
+!> velocity V; see doc/theory/wheel_rail.md. All vectors are in track axes: x along the track, y to the right, z down.
 module contact_wheelrail_creepage
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -22,7 +21,7 @@ module contact_wheelrail_creepage
 
    !> Relative motion in a patch
    type :: contact_motion
-      !> Creepages [-] and spin [rad/mm]; in a shift displacements [mm] and rotation [rad]
+      !> Creepages [-] and spin [rad/mm]; in a shift, displacements [mm] and rotation [rad]
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
       !> Rolling velocity [mm/s], 1 in a shift
       real(wp) :: veloc = 1.0_wp
@@ -30,30 +29,30 @@ module contact_wheelrail_creepage
       real(wp) :: chi = 0.0_wp
    end type contact_motion
 
-   !> Velocities below this value count as standstill [mm/s]
+   !> Velocities below this value are regarded as standstill [mm/s]
    real(wp), parameter :: standstill = 1.0e-6_wp
 
 contains
 
    !> Velocity of a point of the body [mm/s]
    pure function velocity_of(motion, point) result(v)
-      !> Velocity and rotation of the body
+      !> Velocity and angular velocity of the body
       type(rigid_motion), intent(in) :: motion
-      !> In track coordinates [mm]
+      !> Point in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: v(3)
 
       v = motion%velocity + cross(motion%rotation, point - motion%origin)
    end function velocity_of
 
-   !> Creepages of rolling
+   !> Creepages in rolling
    !>
-   !> V is the mean of the speed of translation and that of the wheel's circumference; on a roller the
-   !> mean of the two circumferences.
+   !> V is the mean of the velocities of translation and of the wheel's circumference; on a roller it is the mean of the two
+   !> circumferential velocities.
    pure function flat_creepage(rail, wheel, spin_axis, pitch_rate, on_rail, on_wheel, delta, roller) result(motion)
       !> Motion of rail (or roller) and wheel
       type(rigid_motion), intent(in) :: rail, wheel
-      !> Unit vector of the wheelset's axle, and the pitch rate about it [rad/s], which is part of the wheel's rotation
+      !> Unit vector of the wheelset's axle, and pitch rate about it [rad/s], which is included in the rotation of the wheel
       real(wp), intent(in) :: spin_axis(3), pitch_rate
       !> Contact reference on the two bodies [mm]
       real(wp), intent(in) :: on_rail(3), on_wheel(3)
@@ -73,7 +72,7 @@ contains
          if (circumference(1) > 0.0_wp) motion%chi = pi
       else
          motion%veloc = 0.5_wp*(abs(translation) + abs(circumference(1)))
-         ! the faster of the two motions tells the direction
+         ! the larger velocity determines the direction
          if (abs(translation) >= abs(circumference(1))) then
             if (translation < 0.0_wp) motion%chi = pi
          else if (circumference(1) > 0.0_wp) then
@@ -86,7 +85,7 @@ contains
       motion%cphi = normal_part(rail%rotation - wheel%rotation, delta)/motion%veloc
    end function flat_creepage
 
-   !> Shift of one step: the motions are displacements and rotations
+   !> Shift of one step, from displacements and rotations
    pure function flat_shift(rail, wheel, on_rail, on_wheel, delta) result(motion)
       !> Displacements [mm] and rotations [rad]
       type(rigid_motion), intent(in) :: rail, wheel

@@ -1,9 +1,9 @@
 !> A contact patch on a curved reference surface
 !>
-!> In the section of the track at the contact reference a curve runs midway between the two undeformed profiles.
-!> Rows of elements lie on it at even distances of the rail's arc length; the surface is the curve moved along the
-!> track. Each row has axes of its own: x along the track, s along the curve, n normal to it and into the rail.
-!> Distances, motions and forces belong to the axes of their row. A plane is the special case of a straight curve.
+!> The reference curve runs midway between the two undeformed profiles in the section of the track at the contact reference. Rows of
+!> elements lie on it at equal distances of the rail's arc length; the reference surface is the curve extruded along the track. Each
+!> row has its own axes: x along the track, s along the curve, n normal to it and into the rail. Distances, motions and forces refer
+!> to the axes of their row. A plane is the special case of a straight curve.
 module contact_wheelrail_curved_patch
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -21,30 +21,31 @@ module contact_wheelrail_curved_patch
    public :: curved_reference, curved_rows, new_curved_reference, straight_reference, surface_heights
    public :: surface_slip, fit_creepages, curved_forces
 
-   !> The curve at the rows of a grid, in track coordinates
+   !> The reference curve at the rows of a grid, in track coordinates
    type :: curved_reference
-      !> Section of the track [mm]
+      !> Position of the section along the track [mm]
       real(wp) :: x = 0.0_wp
-      !> Place [mm] and inclination [rad], shape (my)
+      !> Position [mm] and inclination [rad], shape (my)
       real(wp), allocatable :: y(:), z(:), alpha(:)
    contains
-      !> Axes of a row; x is counted from the section
+      !> Axes of a row, with origin in the section
       procedure :: row_axes
    end type curved_reference
 
-   !> Profiles and their facing places in the section of a patch
+   !> Profiles in the section of a patch, and their opposite positions
    type :: facing_profiles
       type(profile_curve) :: rail, wheel
       real(wp) :: x = 0.0_wp
-      !> Arc lengths on rail and wheel that face each other at the contact reference [mm]
+      !> Arc lengths of opposite points of rail and wheel at the contact reference [mm]
       real(wp) :: s_rail = 0.0_wp, s_wheel = 0.0_wp
    end type facing_profiles
 
-   !> Rows end where the normals of the two bodies disagree: mean of rail's and wheel's reversed unit normal
+   !> Rows end where the normals of the bodies differ too much: minimum length of the mean of rail's unit normal and wheel's
+   !> reversed unit normal
    real(wp), parameter :: min_agreement = 0.9_wp
-   !> Range of rows that is looked at, relative to that of a flat patch
+   !> Range of rows to examine, relative to that of a flat patch
    real(wp), parameter :: wider = 1.2_wp
-   !> Rows beyond the region on each side
+   !> Additional rows on each side of the region
    integer, parameter :: guard_rows = 2
 
 contains
@@ -52,31 +53,31 @@ contains
    !> Axes of a row
    pure function row_axes(self, iy) result(axes)
       class(curved_reference), intent(in) :: self
-      !> Number of the row, from 1
+      !> Index of the row, from 1
       integer, intent(in) :: iy
       type(frame) :: axes
 
       axes = new_frame([self%x, self%y(iy), self%z(iy)], self%alpha(iy), 0.0_wp)
    end function row_axes
 
-   !> Choose the rows that cover a region, in place of those of the flat patch; columns and the places of rows stay
+   !> Choose the rows that cover a region, instead of those of the flat patch; columns and positions of rows do not change
    subroutine curved_rows(rail, bodies, region, plane, grid)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      !> Sections of rail and wheel, and where they are
+      !> Sections and positions of rail and wheel
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Interpenetration that the rows have to cover
+      !> Interpenetration to be covered by the rows
       type(contact_region), intent(in) :: region
       !> Contact reference
       type(frame), intent(in) :: plane
-      !> Of the flat patch on entry
+      !> Grid of the flat patch on entry, of the curved one on exit
       type(potential_contact), intent(inout) :: grid
       type(facing_profiles) :: facing
       real(wp) :: point(2), normal(2)
       integer :: centre, first, last, lowest, highest, iy
 
-      facing = face(rail, bodies, plane)
-      ! rows are numbered as in the flat patch, so that some numbers are negative
+      facing = find_opposite_points(rail, bodies, plane)
+      ! rows are numbered as in the flat patch, possibly with negative numbers
       centre = nint(0.5_wp - grid%yl/grid%dy)
       first = min(centre - 1, ceiling(centre + wider*(1 - centre)))
       last = max(centre + 1, floor(centre + wider*(grid%my - centre)))
@@ -93,22 +94,22 @@ contains
       grid%my = highest - lowest + 1
    end subroutine curved_rows
 
-   !> The curve at the rows of a grid
+   !> The reference curve at the rows of a grid
    function new_curved_reference(rail, bodies, plane, grid) result(curve)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      !> Sections of rail and wheel, and where they are
+      !> Sections and positions of rail and wheel
       type(wheel_rail_bodies), intent(in) :: bodies
       !> Contact reference
       type(frame), intent(in) :: plane
-      !> Rows that the curve is given at
+      !> Grid with the rows
       type(potential_contact), intent(in) :: grid
       type(curved_reference) :: curve
       type(facing_profiles) :: facing
       real(wp) :: point(2), normal(2)
       integer :: iy
 
-      facing = face(rail, bodies, plane)
+      facing = find_opposite_points(rail, bodies, plane)
       curve%x = plane%origin(1)
       allocate(curve%y(grid%my), curve%z(grid%my), curve%alpha(grid%my))
       do iy = 1, grid%my
@@ -119,11 +120,11 @@ contains
       end do
    end function new_curved_reference
 
-   !> The same for a plane
+   !> The reference of a plane
    function straight_reference(plane, grid) result(curve)
-      !> Plane whose x and s the reference follows
+      !> Plane with axes x and s
       type(frame), intent(in) :: plane
-      !> Rows that it is given at
+      !> Grid with the rows
       type(potential_contact), intent(in) :: grid
       type(curved_reference) :: curve
       integer :: iy
@@ -134,8 +135,8 @@ contains
       allocate(curve%alpha(grid%my), source=plane%roll())
    end function straight_reference
 
-   !> Profiles in the section of a patch: the wheel's point vertically above the reference faces it
-   function face(rail, bodies, plane) result(facing)
+   !> Profiles in the section of a patch: the point of the wheel vertically above the reference is opposite to it
+   function find_opposite_points(rail, bodies, plane) result(facing)
       type(profile_curve), intent(in) :: rail
       type(wheel_rail_bodies), intent(in) :: bodies
       type(frame), intent(in) :: plane
@@ -148,17 +149,17 @@ contains
       facing%s_rail = rail%s_at(plane%origin(2))
       seen = bodies%placement%wheel%to_local(plane%origin)
       facing%s_wheel = bodies%wheel%s_at(seen(2))
-   end function face
+   end function find_opposite_points
 
-   !> Point midway between the profiles and mean of their normals, upwards, as functions of the rail's arc length
+   !> Midpoint between the profiles and mean of their normals, upwards, as functions of the rail's arc length
    !>
-   !> The mean of two unit normals is the shorter the less they agree.
+   !> The length of the mean of two unit normals decreases with the angle between them.
    subroutine middle(bodies, facing, s, point, normal)
       type(wheel_rail_bodies), intent(in) :: bodies
       type(facing_profiles), intent(in) :: facing
-      !> From the contact reference [mm]
+      !> Arc length from the contact reference [mm]
       real(wp), intent(in) :: s
-      !> Components y, z
+      !> Components y, z: midpoint [mm] and mean normal [-]
       real(wp), intent(out) :: point(2), normal(2)
       real(wp) :: on_rail(2), out_of_rail(2), on_wheel(2), out_of_wheel(2)
 
@@ -168,11 +169,11 @@ contains
       normal = 0.5_wp*(out_of_rail - out_of_wheel)
    end subroutine middle
 
-   !> Point of the rail's (roller's) section and its unit normal out of the rail; straight beyond the ends
+   !> Point of the rail's (roller's) section and its unit normal out of the rail; the section is extended straight beyond its ends
    subroutine point_of_rail(facing, roller_radius, s, point, normal)
       type(facing_profiles), intent(in) :: facing
       real(wp), intent(in) :: roller_radius
-      !> From the contact reference [mm]
+      !> Arc length from the contact reference [mm]
       real(wp), intent(in) :: s
       real(wp), intent(out) :: point(2), normal(2)
       real(wp) :: range(2), place, tangent(2), rho, zeta
@@ -192,11 +193,11 @@ contains
       normal = [tangent(2), -tangent(1)]
    end subroutine point_of_rail
 
-   !> Point of the wheel in the section, facing a point of the rail, and the part of its unit normal in the section
+   !> Point of the wheel in the section, opposite to a point of the rail, and the component of its unit normal in the section
    subroutine point_of_wheel(facing, bodies, s, point, normal)
       type(facing_profiles), intent(in) :: facing
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> On the rail, from the contact reference [mm]; the wheel's arc length runs the other way
+      !> Arc length on the rail from the contact reference [mm]; that of the wheel has the opposite direction
       real(wp), intent(in) :: s
       real(wp), intent(out) :: point(2), normal(2)
       real(wp) :: range(2), reached, place, beyond, local(3), tangent(2), across(2), radius, track(3), out(3)
@@ -215,7 +216,7 @@ contains
       associate (wheel => bodies%placement%wheel, r0 => bodies%placement%wheel_radius)
          radius = r0 + facing%wheel%z%value(place) + tangent(2)*beyond
          do step = 1, 4
-            ! where the circle of this point passes through the section
+            ! intersection of the circle of this point with the section
             local(3) = sqrt(max(tiny(radius), radius**2 - local(1)**2)) - r0
             local(1) = (facing%x - wheel%origin(1) - wheel%axes(1, 2)*local(2) - wheel%axes(1, 3)*local(3))/wheel%axes(1, 1)
          end do
@@ -227,12 +228,12 @@ contains
       normal = out(2:3)
    end subroutine point_of_wheel
 
-   !> Arc length of the wheel's section across the track for one of its profile: longer than 1 where a wheel is yawed, as the
-   !> section runs obliquely over it
+   !> Arc length of the wheel's section across the track per arc length of its profile: above 1 for a yawed wheel, whose section is
+   !> oblique
    pure real(wp) function length_in_section(facing, bodies, place) result(length)
       type(facing_profiles), intent(in) :: facing
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> On the profile [mm]
+      !> Position on the profile [mm]
       real(wp), intent(in) :: place
       real(wp) :: along(3), around(3), range(2), s
 
@@ -244,15 +245,15 @@ contains
       length = norm2(along(2:) - along(1)/around(1)*around(2:))
    end function length_in_section
 
-   !> Heights of rail and wheel over the reference surface, along the normals of its rows [mm]
+   !> Heights of rail and wheel above the reference surface, along the normals of its rows [mm]
    subroutine surface_heights(bodies, curve, grid, rail, wheel)
-      !> Sections of rail and wheel, and where they are
+      !> Sections and positions of rail and wheel
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> Points and normals of the rows
+      !> Positions and normals of the rows
       type(curved_reference), intent(in) :: curve
-      !> Columns and rows at which heights are wanted
+      !> Columns and rows
       type(potential_contact), intent(in) :: grid
-      !> Shape (mx, my); far apart where a surface is missing
+      !> Heights, shape (mx, my); far apart where a surface is missing
       real(wp), allocatable, intent(out) :: rail(:, :), wheel(:, :)
       type(frame) :: row, seen
       real(wp) :: x(grid%mx), n(grid%mx)
@@ -277,20 +278,20 @@ contains
       end do
    end subroutine surface_heights
 
-   !> Velocity of the rail minus that of the wheel at facing points of the undeformed surfaces, in the axes of rows
+   !> Velocity of the rail minus that of the wheel at opposite points of the undeformed surfaces, in the axes of the rows
    !>
-   !> Particles slide along the deformed surface. It lies between the undeformed ones, in the ratio of the compliances,
-   !> and its slopes turn x and s: the velocity normal to the reference has a part in these directions.
+   !> Particles slide along the deformed surface. It lies between the undeformed surfaces, in the ratio of the compliances, and its
+   !> slopes rotate x and s: the velocity normal to the reference contributes to the slip.
    subroutine surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, rail_share, slip)
       !> Motion of the bodies in track axes
       type(rigid_motion), intent(in) :: rail, wheel
-      !> Points and normals of the rows
+      !> Positions and normals of the rows
       type(curved_reference), intent(in) :: curve
-      !> Columns and rows at which the slip is wanted
+      !> Columns and rows
       type(potential_contact), intent(in) :: grid
       !> Heights of the surfaces [mm], shape (mx, my)
       real(wp), intent(in) :: on_rail(:, :), on_wheel(:, :)
-      !> The rail's part of the compliance [-]
+      !> Fraction of the compliance due to the rail [-]
       real(wp), intent(in) :: rail_share
       !> Components along x and s [mm/s], or [mm] for displacements, shape (mx, my, 2)
       real(wp), allocatable, intent(out) :: slip(:, :, :)
@@ -315,7 +316,7 @@ contains
 
       !> Slope of the deformed surface along a line of elements
       pure real(wp) function interface_slope(rail, wheel, i, step) result(slope)
-         !> Heights of the undeformed surfaces along the line, number of the element, distance of elements [mm]
+         !> Heights of the undeformed surfaces along the line, index of the element, distance of elements [mm]
          real(wp), intent(in) :: rail(:), wheel(:)
          integer, intent(in) :: i
          real(wp), intent(in) :: step
@@ -323,7 +324,7 @@ contains
          slope = (1.0_wp - rail_share)*slope_of(rail, i, step) + rail_share*slope_of(wheel, i, step)
       end function interface_slope
 
-      !> Slope of a surface along a line of elements; level where it ends
+      !> Slope of a surface along a line of elements; zero at its end
       pure real(wp) function slope_of(n, i, step) result(slope)
          real(wp), intent(in) :: n(:), step
          integer, intent(in) :: i
@@ -338,17 +339,17 @@ contains
       end function slope_of
    end subroutine surface_slip
 
-   !> Creepages and spin that describe the slip where the bodies interpenetrate best, and what remains
+   !> Creepages and spin that describe the slip in the area of interpenetration best, and the remainder
    !>
    !> Least squares of w_x - (cksi - cphi s) and w_s - (ceta + cphi x).
    subroutine fit_creepages(grid, inside, slip, motion)
       !> Centres of the elements
       type(potential_contact), intent(in) :: grid
-      !> Elements that count, shape (mx, my)
+      !> Elements in the area of interpenetration, shape (mx, my)
       logical, intent(in) :: inside(:, :)
       !> Slip relative to the rolling velocity on entry, remainder on exit [-], shape (mx, my, 2)
       real(wp), intent(inout) :: slip(:, :, :)
-      !> With the spin of the contact reference on entry; it stays where there are too few elements to tell
+      !> Creepages and spin; the spin on entry is that of the contact reference, and is kept if there are too few elements
       type(contact_motion), intent(inout) :: motion
       real(wp) :: n, mean(4), moment, spread, x, s
       integer :: ix, iy
@@ -384,17 +385,17 @@ contains
       end do
    end subroutine fit_creepages
 
-   !> Forces and moment on the rail in the axes of the contact reference, summed up with the axes of the rows
+   !> Forces and moment on the rail in the axes of the contact reference, as sums over rows with different axes
    pure subroutine curved_forces(curve, plane, contact, pressure_force, force, moment)
-      !> Points and normals of the rows
+      !> Positions and normals of the rows
       type(curved_reference), intent(in) :: curve
       !> Contact reference and its axes
       type(frame), intent(in) :: plane
-      !> Solved tractions on the grid of the curve
+      !> Solved patch on the grid of the curve
       type(patch_result), intent(in) :: contact
-      !> Of the pressures alone, and of all tractions [N]
+      !> Forces of the pressures, and of all tractions [N]
       real(wp), intent(out) :: pressure_force(3), force(3)
-      !> About the contact reference [N mm]
+      !> Moment about the contact reference [N mm]
       real(wp), intent(out) :: moment(3)
       type(frame) :: row
       real(wp) :: traction(3), one(3), place(3), area

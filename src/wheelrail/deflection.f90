@@ -14,28 +14,29 @@ module contact_wheelrail_deflection
 
    public :: search_deflection, lower_rail
 
-   !> The first step goes a little beyond what the spring alone would do, so that the root lies between the first two points
+   !> Length of the first step relative to the deflection of the spring alone: beyond 1, so that the root is between the first two
+   !> points
    real(wp), parameter :: beyond_spring = 1.05_wp
-   !> Intervals of deflection that count as a point [mm], and the part of the tolerance that a spring may make of one
+   !> Width of a bracket of the deflection that is regarded as a point [mm], and its contribution to the tolerance of the force
    real(wp), parameter :: fine_deflection = 1.0e-8_wp, part_of_tolerance = 0.1_wp
 
 contains
 
-   !> Search the lateral deflection of a rail on springs
+   !> Find the lateral deflection of a rail on springs
    !>
-   !> The lateral force falls when the rail gives way, and the force of the spring rises.
+   !> With increasing deflection the lateral contact force decreases and the force of the spring increases.
    subroutine search_deflection(problem, memory, z, log, result, error)
-      !> What is asked; stiffness of the spring and static force
+      !> The problem; stiffness of the spring and static force
       type(wheel_rail_problem), intent(in) :: problem
-      !> Patches of the trials; that of the last one stays
+      !> Patches of the trials; those of the last one are kept
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
-      !> Told when no deflection balances the forces
+      !> Gets a warning if no deflection balances the forces
       type(log_type), intent(inout) :: log
-      !> Says whether the forces are in balance
+      !> Its status says whether the forces are in balance
       type(wheel_rail_result), intent(inout) :: result
-      !> Allocated when a trial has no result
+      !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent
@@ -73,12 +74,12 @@ contains
 
    contains
 
-      !> Lateral force that the spring and the static force take [N], right-hand side of the track
+      !> Lateral force carried by the spring and the static force [N], for the right side of the track
       real(wp) function spring_force()
          spring_force = problem%spec%rail%ky*memory%geometry%deflection - side_sign(problem%spec)*problem%spec%rail%fy
       end function spring_force
 
-      !> Lateral force that neither the spring nor the static force takes [N], right-hand side of the track
+      !> Lateral contact force minus force of the spring and static force [N], for the right side of the track
       real(wp) function unbalanced()
          real(wp) :: force(3)
          force = total_force(memory)
@@ -86,7 +87,7 @@ contains
       end function unbalanced
    end subroutine search_deflection
 
-   !> Vertical deflection of a rail on springs: everything moves down with it
+   !> Vertical deflection of a rail on springs: rail and wheelset move down together
    subroutine lower_rail(problem, memory, z, result)
       !> Stiffness of the vertical spring and static force
       type(wheel_rail_problem), intent(in) :: problem
@@ -94,7 +95,7 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection on entry, above the track on exit [mm]
       real(wp), intent(inout) :: z
-      !> Gets the deflection
+      !> The deflection is set
       type(wheel_rail_result), intent(inout) :: result
       integer :: k
 

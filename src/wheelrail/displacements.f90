@@ -1,6 +1,6 @@
 !> Small displacements of the wheelset, one for each coordinate of its position
 !>
-!> Right-hand pair: lateral position, height, roll and yaw about the centre of the wheelset, which is rolled first and yawed then.
+!> Right-hand pair: lateral position, height, roll and yaw about the centre of the wheelset, which is rolled first and then yawed.
 module contact_wheelrail_displacements
    use contact_base_kinds, only : wp
    use contact_wheelrail_frame, only : cross, frame, roll_axes, yaw_axes
@@ -13,7 +13,7 @@ module contact_wheelrail_displacements
    type :: coordinate_list
       !> Lateral position and height [mm], roll and yaw [rad]
       integer :: y = 1, z = 2, roll = 3, yaw = 4
-      !> Their number
+      !> Number of coordinates
       integer :: count = 4
    end type coordinate_list
    !> Coordinates of the wheelset
@@ -21,13 +21,13 @@ module contact_wheelrail_displacements
 
 contains
 
-   !> The bodies after a displacement
+   !> Placement after a displacement
    pure function displaced(placement, number, step) result(after)
-      !> Where the bodies are
+      !> Present placement
       type(wheel_rail_placement), intent(in) :: placement
-      !> Member of coordinate; any other number displaces nothing
+      !> Member of coordinate; no displacement for any other number
       integer, intent(in) :: number
-      !> [mm] or [rad]
+      !> Displacement [mm] or [rad]
       real(wp), intent(in) :: step
       type(wheel_rail_placement) :: after
       type(frame) :: inner
@@ -48,9 +48,9 @@ contains
       end associate
    end function displaced
 
-   !> Turn of the wheelset per unit of a displacement [rad]: a vector in the track
+   !> Rotation vector of the wheelset per unit of a displacement, in track axes [rad]
    pure function turn_of(placement, number) result(turn)
-      !> Where the bodies are
+      !> Present placement
       type(wheel_rail_placement), intent(in) :: placement
       !> Member of coordinate
       integer, intent(in) :: number
@@ -63,11 +63,11 @@ contains
 
    !> Displacement of a point of the wheel per unit [mm]
    pure function displacement_at(placement, number, point) result(v)
-      !> Where the bodies are
+      !> Present placement
       type(wheel_rail_placement), intent(in) :: placement
       !> Member of coordinate
       integer, intent(in) :: number
-      !> In the track [mm]
+      !> Point in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: v(3)
 

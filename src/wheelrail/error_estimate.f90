@@ -1,9 +1,9 @@
-!> Estimated errors of wheel and rail: those of the patches, and what they do to forces and height
+!> Estimated errors of wheel and rail: errors of the patches, and their effect on forces and height
 !>
-!> The coarse level of each patch has the approach of the fine one. Where the vertical force is prescribed, the height at which
-!> the coarse patches together bear it differs; all patches follow that difference by their stiffness, and it is itself the
-!> difference of the heights of both levels. Errors of the undeformed distance, of profiles and of the places of the patches are
-!> not among them.
+!> The coarse level of each patch has the same approach as the fine one. If the vertical force is prescribed, the height at which
+!> the coarse patches together carry it is different; the difference is determined by the stiffness of all patches, and is itself
+!> the difference of the heights on both levels. Errors of the undeformed distance, of profiles and of the positions of the patches
+!> are not included.
 module contact_wheelrail_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use contact_base_choices, only : motion, time_link
@@ -21,17 +21,18 @@ module contact_wheelrail_error_estimate
 
 contains
 
-   !> Errors of all patches, and of the totals of wheel and rail
+   !> Estimate the errors of all patches, and of the totals of wheel and rail
    subroutine estimate_wheel_rail_errors(problem, memory, result, error)
-      !> What was asked for wheel and rail
+      !> The problem that was solved
       type(wheel_rail_problem), intent(in) :: problem
-      !> Its patches are solved; their results get errors
+      !> Solved patches; `errors` of their results is set
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Gets `errors`
+      !> `errors` is set
       type(wheel_rail_result), intent(inout) :: result
-      !> Allocated when time is up
+      !> Allocated if the time limit is exceeded
       type(error_type), allocatable, intent(out) :: error
-      !> Vertical force that the coarse patches lack [N], its change with the height [N/mm]
+      !> Missing vertical force of the coarse patches [N], its derivative with respect to the height [N/mm], change of the height
+      !> [mm]
       real(wp) :: missing, stiffness, change
       logical :: has_history
       integer :: k
@@ -69,7 +70,7 @@ contains
       call add_up(problem, memory, result)
    end subroutine estimate_wheel_rail_errors
 
-   !> No error is known yet
+   !> Array for the errors of all totals, NaN: not known
    function error_values(result, problem) result(values)
       type(wheel_rail_result), intent(in) :: result
       type(wheel_rail_problem), intent(in) :: problem
@@ -80,17 +81,17 @@ contains
       allocate(values(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function error_values
 
-   !> Vertical force on the rail that goes with a normal force of a patch, friction in the ratio of the solution
+   !> Vertical force on the rail for a given normal force of a patch; friction is scaled with it
    pure real(wp) function vertical(slot, fn)
       type(patch_slot), intent(in) :: slot
-      !> [N], or [N/mm] for the stiffness
+      !> Normal force [N], or stiffness [N/mm]
       real(wp), intent(in) :: fn
 
       vertical = 0.0_wp
       if (slot%result%fn > 0.0_wp) vertical = fn*dot_product(slot%plane%axes(3, :), slot%force/slot%result%fn)
    end function vertical
 
-   !> Forces and moments of all patches together: errors of the patches may add up
+   !> Errors of forces and moments of all patches: errors of the patches are added
    subroutine add_up(problem, memory, result)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
@@ -110,7 +111,7 @@ contains
             call slot%result%totals(patch)
             associate (value => slot%result%errors%value)
                local = [value(patch%place_of("fx")), value(patch%place_of("fy")), value(patch%place_of("fn"))]
-               ! without relative motion there are no tangential forces, and no errors
+               ! without relative motion there are no tangential forces and no errors of them
                where (.not. local >= 0.0_wp) local = 0.0_wp
                turned = matmul(abs(slot%plane%axes), local)
                force = force + turned
@@ -136,11 +137,11 @@ contains
       if (problem%force_prescribed) result%errors(pair%place_of("z_ws")) = height
    end subroutine add_up
 
-   !> Largest moment of errors of forces, whatever their signs
+   !> Maximum moment of errors of forces with unknown signs [N mm]
    pure function with_lever(lever, force) result(moment)
-      !> [mm]
+      !> Position relative to the reference of the moment [mm]
       real(wp), intent(in) :: lever(3)
-      !> Not negative [N]
+      !> Errors of the force components, not negative [N]
       real(wp), intent(in) :: force(3)
       real(wp) :: moment(3)
 

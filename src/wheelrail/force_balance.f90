@@ -1,12 +1,11 @@
-!> The height of a wheel that carries a prescribed vertical force
+!> Search for the height of a wheel that carries a prescribed vertical force
 !>
-!> The force F rises with the penetration d = z - z0 beyond the first touch, roughly as d**1.5, with
-!> kinks where patches appear and possibly with jumps where they merge. F**(2/3) is nearly linear in
-!> d, so that interpolation is done for it. There is always a bracket from below, the first touch with
-!> F = 0; as soon as there is one from above, every trial halves it at the latest in every third step.
-!> Where the force rises much more between the ends of the bracket than the stiffness of the contact explains, it
-!> jumps: the bracket is halved in every step, and the search ends when the place of the jump is known well enough.
-!> The caller asks for trials and answers with forces; nothing is called back.
+!> The force F increases with the penetration d = z - z0 beyond first touch, roughly as d**1.5, with kinks where patches appear and
+!> possibly with jumps where they merge. F**(2/3) is nearly linear in d, and is interpolated. A lower end of the bracket is always
+!> known: first touch with F = 0. Once an upper end is known, the bracket is halved at least in every third trial. If the force
+!> increases in the bracket much more than the stiffness of the contact explains, it is taken as a jump: the bracket is bisected,
+!> and the search ends when the position of the jump is known accurately. The search uses reverse communication: the caller
+!> evaluates the force at the requested heights.
 module contact_wheelrail_force_balance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
@@ -18,21 +17,21 @@ module contact_wheelrail_force_balance
    type :: balance_ending_list
       !> Not finished
       integer :: running = 0
-      !> The force is reached
+      !> The force was reached
       integer :: reached = 1
-      !> The force jumps over the prescribed one; the closer side is taken
+      !> The force has a jump at the prescribed value; the nearer side is used
       integer :: jump = 2
-      !> All allowed trials were used
+      !> The maximum number of trials was reached
       integer :: trial_limit = 3
       !> The force cannot be reached within the range of heights
       integer :: out_of_reach = 4
-      !> The force is exceeded at the first touch already
+      !> The force is exceeded at first touch
       integer :: above_touch = 5
    end type balance_ending_list
-   !> Names of the ways in which the search ends
+   !> Ways in which the search ends
    type(balance_ending_list), parameter :: balance_ending = balance_ending_list()
 
-   !> One trial: height [mm], force [N], slope dF/dz [N/mm] or 0 when unknown, number of contact patches
+   !> One trial: height [mm], force [N], slope dF/dz [N/mm] or 0 if unknown, number of contact patches
    type :: height_trial
       real(wp) :: z = 0.0_wp, force = 0.0_wp, slope = 0.0_wp
       integer :: patches = 0
@@ -40,77 +39,77 @@ module contact_wheelrail_force_balance
 
    !> A search for the height
    type :: force_balance
-      !> Force to be reached [N] and its tolerance [N]
+      !> Prescribed force [N] and its tolerance [N]
       real(wp) :: target = 0.0_wp, tolerance = 0.0_wp
-      !> Height of first touch, highest height allowed, width of a bracket that counts as a point [mm]
+      !> Height of first touch, maximum height, width of a bracket that is regarded as a point [mm]
       real(wp) :: touch = 0.0_wp, highest = 0.0_wp, resolution = 1.0e-9_wp
-      !> Number of trials so far and allowed
+      !> Number of trials, and its maximum
       integer :: trials = 0, max_trials = 25
       !> Best trial so far: height [mm] and force [N]
       real(wp) :: z = 0.0_wp, force = 0.0_wp
       !> Member of balance_ending
       integer :: ended = 0
-      !> Bracket; above only when it was found
+      !> Bracket; `high` is valid only if has_high
       type(height_trial) :: low, high
       logical :: has_high = .false.
-      !> Forces of trials are those of friction that is only estimated: what looks like a jump ends the search at once
+      !> Are forces computed with estimated friction? Then the search ends as soon as a jump is suspected
       logical, private :: forces_are_estimates = .false.
-      !> Trials one after the other, each with a force below zero and below that of the one before
+      !> Number of successive trials with a negative force that is below the force of the previous trial
       integer, private :: falling = 0
-      !> The last trial, and the one before it
+      !> The last trial, and the one before
       type(height_trial), private :: last, before
-      !> Trials since the bracket was last halved, and its width then
+      !> Number of trials since the bracket was last halved, and its width then
       integer, private :: slow = 0
       real(wp), private :: old_width = huge(1.0_wp)
-      !> Trials with a force above the target, while there is none below it
+      !> Number of trials above the prescribed force, while none is below it
       integer, private :: from_above = 0
    contains
-      !> Begin a search
+      !> Start a search
       procedure :: start
       !> Height of the next trial
       procedure :: next_trial
-      !> Answer to a trial
+      !> Process the force of a trial
       procedure :: record
    end type force_balance
 
-   !> Without a bracket from above the penetration grows at most by this factor per trial
+   !> Maximum growth of the penetration per trial while there is no upper end of the bracket
    real(wp), parameter :: largest_growth = 4.0_wp
-   !> Slopes that differ by more than this part are not the same
+   !> Slopes whose relative difference exceeds this value are regarded as different
    real(wp), parameter :: alike = 0.2_wp
-   !> Trials stay this part of a bracket away from its ends, or of the last step where that is shorter
+   !> Minimum distance of trials from the ends of a bracket, relative to its width or to the last step, whichever is shorter
    real(wp), parameter :: margin = 1.0e-3_wp
-   !> While no trial is below the force, one that misses it by this part of what the one before missed is no slow one
+   !> While no trial is below the prescribed force, a trial makes progress if it reduces the deviation by this factor
    real(wp), parameter :: quick = 0.1_wp
-   !> Trials with estimated forces that fall further and further below zero, after which the ratio of friction leads nowhere
+   !> Maximum number of successive trials with estimated, decreasing negative forces, after which the friction estimate is given up
    integer, parameter :: max_falling = 5
-   !> A force that rises this many times as much as the contact is stiff seems to jump, and jumps
+   !> Ratio of the increase of the force to the stiffness of the contact above which a jump is suspected, and is certain
    real(wp), parameter :: seems_to_jump = 5.0_wp, jumps = 20.0_wp
-   !> The place of a jump is sought up to this distance [mm], and this part of the penetration
+   !> Accuracy of the position of a jump [mm], absolute and relative to the penetration
    real(wp), parameter :: place_of_jump = 1.0e-6_wp, part_of_penetration = 1.0e-3_wp
 
-   !> Width of a bracket that counts as a point, relative to the height of first touch or 1 mm: what rounding leaves
+   !> Width of a bracket that is regarded as a point, relative to the height of first touch or 1 mm: of the order of round-off
    real(wp), parameter :: point_width = 1.0e-12_wp
-   !> Without a bracket from above the penetration grows at least by this factor per trial
+   !> Minimum growth of the penetration per trial while there is no upper end of the bracket
    real(wp), parameter :: min_growth = 1.02_wp
-   !> Penetration that the first steps away from the first touch are measured by [mm]
+   !> Penetration that defines the length of the first steps from first touch [mm]
    real(wp), parameter :: shallow = 1.0e-3_wp
-   !> Forces at the ends of a bracket that differ by less than this part of the target are the same but for rounding
+   !> Relative difference of the forces at the ends of a bracket that is regarded as round-off
    real(wp), parameter :: same_force = 1.0e-14_wp
 
 contains
 
-   !> Begin a search between the first touch and the highest height
+   !> Start a search between first touch and the maximum height
    subroutine start(self, target, eps, touch, highest, max_trials, forces_are_estimates)
       class(force_balance), intent(inout) :: self
-      !> Force to be reached [N], positive
+      !> Prescribed force [N], positive
       real(wp), intent(in) :: target
       !> Relative tolerance of the force [-]
       real(wp), intent(in) :: eps
-      !> Height of first touch and highest height allowed [mm], z downwards
+      !> Height of first touch and maximum height [mm], z down
       real(wp), intent(in) :: touch, highest
-      !> Trials after which the search ends without success
+      !> Maximum number of trials
       integer, intent(in) :: max_trials
-      !> Are the forces those of friction that is only estimated? A jump is then not located
+      !> Are forces computed with estimated friction? Then a jump is not located
       logical, intent(in) :: forces_are_estimates
 
       self%target = target
@@ -136,10 +135,10 @@ contains
 
    !> Height of the next trial
    !>
-   !> The first one is the caller's guess, later ones come from the forces found.
+   !> The first one is the caller's estimate, later ones are computed from the forces found.
    real(wp) function next_trial(self, guess) result(z)
       class(force_balance), intent(inout) :: self
-      !> Guess for the first trial [mm]
+      !> Estimate for the first trial [mm]
       real(wp), intent(in) :: guess
       real(wp) :: away, width
 
@@ -148,33 +147,33 @@ contains
          return
       end if
       z = newton_step(self)
-      if (leads_on(self) .and. .not. self%last%slope > 0.0_wp) z = secant(self)
+      if (is_close(self) .and. .not. self%last%slope > 0.0_wp) z = secant(self)
       if (.not. self%has_high) then
          if (self%last%force < 0.0_wp .and. self%last%slope > 0.0_wp) &
             & z = self%last%z + (self%target - self%last%force)/self%last%slope
-         ! from below: at least a little further, and not too far
-         if (.not. leads_on(self)) z = max(z, self%touch + min_growth*(self%low%z - self%touch) + self%resolution)
+         ! from below: with minimum and maximum growth of the penetration
+         if (.not. is_close(self)) z = max(z, self%touch + min_growth*(self%low%z - self%touch) + self%resolution)
          z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, shallow), self%highest)
          return
       end if
       width = self%high%z - self%low%z
       away = margin*min(width, abs(self%last%z - self%before%z))
       if (self%from_above >= 3 .and. newton_from(self, self%high) < self%touch + margin*width) then
-         ! everything points to a force at the first touch
+         ! all trials indicate that the force acts at first touch
          z = self%touch + 2.0_wp*self%resolution
       else if (self%slow >= 3 .or. rises_more(self, seems_to_jump)) then
          z = 0.5_wp*(self%low%z + self%high%z)
          self%slow = 0
          self%old_width = width
-      else if (leads_on(self) .and. z > self%low%z .and. z < self%high%z) then
-         ! however near to the end of the bracket
+      else if (is_close(self) .and. z > self%low%z .and. z < self%high%z) then
+         ! any distance from the ends of the bracket is accepted
          continue
       else if (self%low%z > self%touch .and. .not. self%low%force > 0.0_wp) then
          if (self%low%force < 0.0_wp) then
-            ! friction carries more than the pressures: the power of the penetration means nothing
+            ! friction carries more than the pressures: the power law of the penetration does not hold
             z = straight_step(self, margin*width)
          else
-            ! the end below tells nothing of the force: from the one above
+            ! the lower end has no information on the force: step from the upper one
             z = newton_from(self, self%high)
          end if
          if (.not. (z > self%low%z + margin*width .and. z < self%high%z - margin*width)) z = 0.5_wp*(self%low%z + self%high%z)
@@ -184,29 +183,30 @@ contains
       end if
    end function next_trial
 
-   !> Is the last trial near the target, and nearer by far than the one before it, if there was one? Then the next step is believed.
-   !> A first one without slope has to be nearer: the step takes the power of the penetration for granted
-   pure logical function leads_on(self)
+   !> Is the last trial near the prescribed force, and much nearer than the one before, if there is one? Then the next step is
+   !> accepted. A first trial without slope has to be nearer, as its step relies on the power law
+   pure logical function is_close(self)
       class(force_balance), intent(in) :: self
-      !> Missed force relative to the target, and to what the trial before missed
+      !> Maximum deviation of the force relative to the prescribed one, with and without slope, and relative to the deviation of the
+      !> trial before
       real(wp), parameter :: near_target = 0.05_wp, very_near = 0.02_wp, nearer = 0.2_wp
       real(wp) :: miss
 
       associate (last => self%last, before => self%before)
          miss = abs(last%force - self%target)
-         leads_on = last%z > self%touch .and. last%force > 0.0_wp .and. miss <= near_target*self%target
-         if (.not. leads_on) return
+         is_close = last%z > self%touch .and. last%force > 0.0_wp .and. miss <= near_target*self%target
+         if (.not. is_close) return
          if (before%z > self%touch) then
-            leads_on = miss <= nearer*abs(before%force - self%target) .and. before%force > 0.0_wp &
+            is_close = miss <= nearer*abs(before%force - self%target) .and. before%force > 0.0_wp &
                & .and. (last%force - before%force)*(last%z - before%z) > 0.0_wp
          else
-            leads_on = last%slope > 0.0_wp .or. miss <= very_near*self%target
+            is_close = last%slope > 0.0_wp .or. miss <= very_near*self%target
          end if
       end associate
-   end function leads_on
+   end function is_close
 
-   !> Newton's step for F**(2/3) from the last trial; the interpolation where the slope is not known, or is not that of the
-   !> bracket: the caller's slope leaves out that steep patches turn
+   !> Newton step for F**(2/3) from the last trial; interpolation if the slope is not known, or differs from that of the bracket:
+   !> the caller's slope neglects the rotation of steep patches
    pure real(wp) function newton_step(self) result(z)
       class(force_balance), intent(in) :: self
       real(wp) :: chord
@@ -217,27 +217,28 @@ contains
          if (.not. (last%slope > 0.0_wp .and. last%force > 0.0_wp) &
             & .or. abs(chord - last%slope) > alike*abs(last%slope)) then
             z = interpolated(self)
-            if (creeps(self)) z = secant(self)
+            if (one_end_stays(self)) z = secant(self)
             return
          end if
          z = newton_from(self, last)
       end associate
    end function newton_step
 
-   !> Did the last two trials end on the same side of the target, one nearer than the other, so that one end of the bracket stays?
+   !> Are the last two trials on the same side of the prescribed force, the last one nearer, so that one end of the bracket is not
+   !> moved?
    !>
-   !> Where the force rises faster and faster, as on a flank, chords of the bracket only creep on.
-   pure logical function creeps(self)
+   !> If the slope of the force increases strongly, as on a flank, chords of the bracket converge slowly.
+   pure logical function one_end_stays(self)
       class(force_balance), intent(in) :: self
 
-      creeps = .false.
+      one_end_stays = .false.
       if (.not. self%has_high .or. .not. self%before%z > self%touch .or. .not. self%before%force > 0.0_wp) return
       if ((self%before%force - self%target)*(self%last%force - self%target) <= 0.0_wp) return
-      creeps = (self%last%force - self%before%force)*(self%last%z - self%before%z) > 0.0_wp &
+      one_end_stays = (self%last%force - self%before%force)*(self%last%z - self%before%z) > 0.0_wp &
          & .and. abs(self%last%force - self%target) < abs(self%before%force - self%target)
-   end function creeps
+   end function one_end_stays
 
-   !> Where F**(2/3) meets the target on the straight line through the last two trials
+   !> Root of the straight line through F**(2/3) of the last two trials
    pure real(wp) function secant(self) result(z)
       class(force_balance), intent(in) :: self
       real(wp), parameter :: power = 2.0_wp/3.0_wp
@@ -247,16 +248,16 @@ contains
       end associate
    end function secant
 
-   !> The secant through the last two trials where it stays within the bracket; else its chord, or its middle
+   !> Secant through the last two trials if it is within the bracket; otherwise the chord of the bracket, or its middle
    !>
-   !> The force falls at first and rises faster and faster then: a chord that meets the target near the lower end is far from
-   !> the force, and leads there in ever smaller steps. The slope that follows from the stiffness is of little use here, as it
-   !> leaves out that friction and steep patches turn.
+   !> The force first decreases and then increases with growing slope: a chord whose root is near the lower end is a poor estimate,
+   !> and gives ever smaller steps. The slope by the stiffness is of little use here, as it neglects changes of friction and the
+   !> rotation of steep patches.
    pure real(wp) function straight_step(self, away) result(z)
       class(force_balance), intent(in) :: self
-      !> Distance from the ends of the bracket at least [mm]
+      !> Minimum distance from the ends of the bracket [mm]
       real(wp), intent(in) :: away
-      !> Least part of the bracket at which chords are believed
+      !> Minimum position in the bracket, relative to its width, at which a chord is accepted
       real(wp), parameter :: near_low_end = 0.25_wp
       real(wp) :: rise, part
 
@@ -272,7 +273,7 @@ contains
       end associate
    end function straight_step
 
-   !> Newton's step for F**(2/3) from a trial; the trial itself where its force or its slope is not positive
+   !> Newton step for F**(2/3) from a trial; the trial itself if its force or its slope is not positive
    pure real(wp) function newton_from(self, trial) result(z)
       class(force_balance), intent(in) :: self
       type(height_trial), intent(in) :: trial
@@ -282,7 +283,7 @@ contains
          & z = z + 1.5_wp*trial%force/trial%slope*((self%target/trial%force)**(2.0_wp/3.0_wp) - 1.0_wp)
    end function newton_from
 
-   !> Linear interpolation of F**(2/3) in the bracket; extrapolation from touch and the best trial without one
+   !> Linear interpolation of F**(2/3) in the bracket; without an upper end extrapolation from first touch and the best trial
    pure real(wp) function interpolated(self) result(z)
       class(force_balance), intent(in) :: self
       real(wp) :: below, above, wanted
@@ -303,7 +304,7 @@ contains
       end if
    end function interpolated
 
-   !> Does the force rise more in the bracket than so many times the stiffness of the contact at its ends explains?
+   !> Does the force increase in the bracket by more than a multiple of the stiffness of the contact at its ends?
    pure logical function rises_more(self, times)
       class(force_balance), intent(in) :: self
       real(wp), intent(in) :: times
@@ -314,12 +315,12 @@ contains
          & .and. self%high%force - self%low%force > times*stiffness*(self%high%z - self%low%z)
    end function rises_more
 
-   !> Answer to a trial: the force found there, and its slope where that is known
+   !> Process the force of a trial, and its slope if that is known
    subroutine record(self, z, force, slope, patches)
       class(force_balance), intent(inout) :: self
       !> Height [mm] and force [N]
       real(wp), intent(in) :: z, force
-      !> dF/dz [N/mm]; not positive when unknown
+      !> dF/dz [N/mm]; not positive if unknown
       real(wp), intent(in) :: slope
       !> Number of contact patches
       integer, intent(in) :: patches
@@ -345,12 +346,12 @@ contains
          return
       end if
       if (force < self%target) then
-         ! in a bracket with a jump or a fold a trial may be lower than the end below; the bracket still shrinks
+         ! with a jump or a fold in the bracket, a trial may have a lower force than the lower end; the bracket still shrinks
          if (z > self%low%z .and. (.not. self%has_high .or. z < self%high%z)) self%low = self%last
       else if (.not. self%has_high .or. z < self%high%z) then
          self%has_high = .true.
          self%high = self%last
-         ! a lower force was found deeper: the bracket begins at the touch again
+         ! a lower force was found at larger penetration: the bracket starts at first touch again
          if (self%low%z >= self%high%z) self%low = height_trial(z=self%touch)
       end if
 
@@ -368,7 +369,7 @@ contains
             return
          end if
       else
-         ! the ratio of friction that was learned makes the force negative: deeper it falls further
+         ! the estimated friction makes the force negative: it decreases further with the penetration
          self%falling = merge(self%falling + 1, 0, force < min(0.0_wp, self%before%force) .and. slope < 0.0_wp)
          if (z >= self%highest .or. (self%forces_are_estimates .and. self%falling >= max_falling)) then
             self%ended = balance_ending%out_of_reach
@@ -378,10 +379,10 @@ contains
       if (self%trials >= self%max_trials) self%ended = balance_ending%trial_limit
    end subroutine record
 
-   !> Does the force jump in the bracket, and is the place known well enough? Estimated forces only raise suspicion
+   !> Does the force jump in the bracket, at an accurately known position? With estimated friction, a suspected jump is sufficient
    pure logical function jump_is_known(self, width)
       class(force_balance), intent(in) :: self
-      !> Of the bracket [mm]
+      !> Width of the bracket [mm]
       real(wp), intent(in) :: width
 
       if (self%forces_are_estimates) then

@@ -1,7 +1,7 @@
-!> Places and orientations of bodies: origins, axes, and the way from one system to another
+!> Positions and orientations of bodies: origins, axes, and transformations between coordinates
 !>
-!> Right-hand systems with x forward, y to the right, z down. Roll turns about x, pitch about y, yaw
-!> about z, angles in rad, right-hand rule.
+!> Right-handed systems with x forward, y to the right, z down. Roll, pitch and yaw are rotations about x, y and z by angles in rad,
+!> with the right-hand rule.
 module contact_wheelrail_frame
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -9,33 +9,33 @@ module contact_wheelrail_frame
 
    public :: cross, frame, new_frame, roll_axes, yaw_axes
 
-   !> A system of axes, seen from its parent
+   !> A coordinate system in its parent system
    type :: frame
       !> Origin [mm] in the parent
       real(wp) :: origin(3) = 0.0_wp
       !> Unit vectors of the axes in the parent, one per column
       real(wp) :: axes(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
    contains
-      !> Coordinates in the parent of a point given in this system
+      !> Coordinates in the parent system of a point given in this system
       procedure :: to_parent
-      !> Coordinates in this system of a point given in the parent
+      !> Coordinates in this system of a point given in the parent system
       procedure :: to_local
-      !> A frame given in this system, seen from the parent
+      !> A frame given in this system, in the parent system
       procedure :: of
-      !> A frame given in the parent, seen from this system
+      !> A frame given in the parent system, in this system
       procedure :: seen_from_here
-      !> Roll and yaw angle of axes that were rolled first and then yawed
+      !> Roll and yaw angle of axes that were first rolled and then yawed
       procedure :: roll
       procedure :: yaw
    end type frame
 
 contains
 
-   !> A frame that is rolled first and then yawed about its rolled axis
+   !> A frame that is first rolled and then yawed about its rolled axis
    pure function new_frame(origin, roll, yaw) result(new)
-      !> [mm] in the parent
+      !> Origin in the parent system [mm]
       real(wp), intent(in) :: origin(3)
-      !> [rad]
+      !> Roll and yaw angle [rad]
       real(wp), intent(in) :: roll, yaw
       type(frame) :: new
       real(wp) :: rolled(3, 3), yawed(3, 3)
@@ -79,7 +79,7 @@ contains
 
    pure function to_local(self, point) result(local)
       class(frame), intent(in) :: self
-      !> Coordinates in the axes that the frame is given in [mm]
+      !> Coordinates in the parent system [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: local(3)
 
@@ -88,7 +88,7 @@ contains
 
    pure function of(self, inner) result(outer)
       class(frame), intent(in) :: self
-      !> Given in this system
+      !> Frame given in this system
       type(frame), intent(in) :: inner
       type(frame) :: outer
 
@@ -98,7 +98,7 @@ contains
 
    pure function seen_from_here(self, other) result(inner)
       class(frame), intent(in) :: self
-      !> Given in the parent
+      !> Frame given in the parent system
       type(frame), intent(in) :: other
       type(frame) :: inner
 
@@ -116,7 +116,7 @@ contains
       yaw = asin(max(-1.0_wp, min(1.0_wp, -self%axes(1, 2))))
    end function yaw
 
-   !> The vector product a x b
+   !> Vector product a x b
    pure function cross(a, b) result(c)
       !> Components in the same axes
       real(wp), intent(in) :: a(3), b(3)

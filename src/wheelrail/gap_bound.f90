@@ -1,9 +1,9 @@
-!> How small the gap between two bodies can be in parts of the track, at least
+!> Lower bounds of the gap between two bodies over stretches of the track
 !>
-!> Where a profile varies the gap is a surface, and points of a mesh tell nothing about what is between them. Here it is bounded
-!> from below over stretches of track: lines of a surface lie within the hulls of their control points
-!> (contact_profile_surface_hull), circles of a wheel within three of their points and a sagitta. Across the profile, bodies are
-!> polygons of these points; what splines add to chords is estimated from second differences, with a factor of four.
+!> If a profile varies the gap is a surface, and its values at mesh points do not bound it in between. Here it is bounded from below
+!> over stretches of the track: lines of a surface lie within the hulls of their control points (contact_profile_surface_hull),
+!> circles of a wheel within three of their points and a sagitta. Across the profile, bodies are polygons of these points; the
+!> deviation of splines from chords is estimated from second differences, with a factor of four.
 module contact_wheelrail_gap_bound
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -15,38 +15,39 @@ module contact_wheelrail_gap_bound
 
    public :: bound_gap, rail_extent
 
-   !> Longest chord of a profile that does not vary [mm]
+   !> Maximum length of chords of a profile that does not vary [mm]
    real(wp), parameter :: longest_chord = 0.5_wp
-   !> What a spline adds to a chord, of the second difference of points: an eighth on parabolas
+   !> Deviation of a spline from its chord, relative to the second difference of points: an eighth for parabolas
    real(wp), parameter :: bulge_share = 0.5_wp
-   !> Neighbours whose second differences count
+   !> Number of neighbours whose second differences are included
    integer, parameter :: neighbours = 3
-   !> Chords steeper than this count as walls, with no more than the heights of their ends [-]
+   !> Chords steeper than this are regarded as walls, with the heights of their ends only [-]
    real(wp), parameter :: wall = 20.0_wp
-   !> Circles are sampled at so many places of a stretch
+   !> Number of points per circle in a stretch
    integer, parameter :: stations = 3
-   !> What interpolation between sections and rounding may do to heights [mm]
+   !> Bound of the errors of heights by interpolation between sections and by round-off [mm]
    real(wp), parameter :: rounding = 1.0e-5_wp
 
-   !> Sine of the angle from the bottom of a wheel up to which its circles are looked at: beyond it they are far above any rail
+   !> Sine of the maximum angle from the bottom of a wheel at which its circles are examined: beyond it they are far above the rail
    real(wp), parameter :: widest_sine = 0.9_wp
-   !> What roll and yaw may add to such a sine, and the part of the nominal radius that a circle of the profile has at least;
-   !> both with ample room for a railway wheel
+   !> Contribution of roll and yaw to this sine, and minimum radius of a circle relative to the nominal radius; both sufficient for
+   !> a railway wheel
    real(wp), parameter :: added_sine = 0.1_wp, min_radius = 0.9_wp
 
 contains
 
-   !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
+   !> Lower bound of the vertical gap [mm], at each lateral position over each stretch of the track
    !>
-   !> A wheel that varies is bounded first as the round one that it lies within. Where this is far enough away no more is wanted.
+   !> A wheel that varies is first bounded by the round wheel that contains it. If the gap of that one is large enough, the bound is
+   !> not refined.
    subroutine bound_gap(bodies, edges, y, far, low)
-      !> Sections of rail and wheel, and where they are
+      !> Sections and positions of rail and wheel
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Ends of the stretches, rising, and lateral positions at even distances, in track coordinates [mm]
+      !> Ends of the stretches, increasing, and equidistant lateral positions, in track coordinates [mm]
       real(wp), intent(in) :: edges(:), y(:)
-      !> Whatever is this far away does not matter [mm]
+      !> Gaps above this value need not be known [mm]
       real(wp), intent(in) :: far
-      !> Shape (stretches, lateral positions); `no_surface` where one body is missing
+      !> Lower bounds, shape (stretches, lateral positions); `no_surface` where one body is missing
       real(wp), intent(out) :: low(:, :)
       real(wp) :: rail(size(y)), wheel(size(y)), near, rho(size(y))
       real(wp), allocatable :: profile(:, :), outline(:, :)
@@ -71,7 +72,7 @@ contains
             call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
          else
             call round_wheel_below(bodies, outline, edges(i:i + 1), y, wheel)
-            ! a roller falls away along the track
+            ! the surface of a roller falls off along the track
             if (any(rail < no_surface .and. rail + wheel - rounding < far)) then
                wheel = no_surface
                call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
@@ -95,15 +96,15 @@ contains
       end do
    end subroutine bound_gap
 
-   !> Box that holds a stretch of a rail that varies
+   !> Box that contains a stretch of a rail that varies
    subroutine rail_extent(along, range_x, range_y, top)
       !> Sections of the rail
       type(strip), intent(in) :: along
-      !> Of the track [mm]
+      !> Ends of the stretch of the track [mm]
       real(wp), intent(in) :: range_x(2)
-      !> In track coordinates [mm]; the second one below the first one where there is no rail
+      !> Lateral range in track coordinates [mm]; the second value is below the first one if there is no rail
       real(wp), intent(out) :: range_y(2)
-      !> The least z [mm]
+      !> Minimum z [mm]
       real(wp), intent(out) :: top
       real(wp), allocatable :: breaks(:)
       real(wp) :: y(along%surface%lines, 4), z(along%surface%lines, 4)
@@ -121,10 +122,10 @@ contains
       end do
    end subroutine rail_extent
 
-   !> Highest places of a rail that varies, over a stretch of track: z down, so the least z
+   !> Highest positions of a rail that varies, over a stretch of the track: minimum z, as z is down
    subroutine rail_above(along, range_x, y, rail)
       type(strip), intent(in) :: along
-      !> [mm]
+      !> Ends of the stretch, lateral positions [mm]
       real(wp), intent(in) :: range_x(2), y(:)
       real(wp), intent(out) :: rail(:)
       real(wp), allocatable :: breaks(:)
@@ -141,11 +142,11 @@ contains
       end do
    end subroutine rail_above
 
-   !> The round wheel that a varying one lies within: of each line how far it reaches, and its largest radius
+   !> The round wheel that contains a varying one: for each line its range, and its maximum radius
    subroutine outline_of(along, outline)
       !> Sections of the wheel
       type(strip), intent(in) :: along
-      !> Points y, z and y, z for each line, shape (lines, 4) [mm]; unallocated where not all lines are there
+      !> Points y, z and y, z for each line, shape (lines, 4) [mm]; unallocated unless all lines are complete
       real(wp), allocatable, intent(out) :: outline(:, :)
       integer :: g, j
 
@@ -167,10 +168,10 @@ contains
       if (any(outline(:, 1) > outline(:, 3))) deallocate(outline)
    end subroutine outline_of
 
-   !> Lowest places of a round wheel over a stretch of track, as the least -z
+   !> Lowest positions of a round wheel over a stretch of the track, as minimum -z
    subroutine round_wheel_below(bodies, profile, range_x, y, below)
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Points y, z of its profile [mm], one or several in each row: shape (points, 2) or (points, 4)
+      !> Points y, z of its profile [mm], one or two per row: shape (points, 2) or (points, 4)
       real(wp), intent(in) :: profile(:, :)
       real(wp), intent(in) :: range_x(2), y(:)
       real(wp), intent(inout) :: below(:)
@@ -189,7 +190,7 @@ contains
       call lower_envelope(py, -pz, sagitta(bodies, range_x), y, below)
    end subroutine round_wheel_below
 
-   !> The same of a wheel that is out of round
+   !> Lowest positions of an out-of-round wheel over a stretch of the track, as minimum -z
    subroutine varying_wheel_below(bodies, range_x, y, below)
       type(wheel_rail_bodies), intent(in) :: bodies
       real(wp), intent(in) :: range_x(2), y(:)
@@ -199,7 +200,7 @@ contains
       integer :: i, k, m, first, last
 
       associate (along => bodies%wheel_strip, lines => bodies%wheel_strip%surface%lines)
-         ! angles at which the lines of the section at the bottom pass both ends of the stretch
+         ! angles at which the lines of the bottom section pass both ends of the stretch
          allocate(py(lines, 4*stations), pz(lines, 4*stations), angle(lines))
          range = range_x/bodies%placement%wheel_radius
          call stretch_hull(along%surface, [1.0_wp, 1.0_wp]*along%origin, wy, wz, first, last)
@@ -227,14 +228,14 @@ contains
       end associate
    end subroutine varying_wheel_below
 
-   !> Where the circles of a wheel's profile pass a place along the track
+   !> Angles at which the circles of a wheel's profile pass a position along the track
    subroutine find_angles(bodies, y, z, x, s)
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Of the profile [mm], and the place [mm]
+      !> Points of the profile, and the position [mm]
       real(wp), intent(in) :: y(:), z(:), x
       !> Sine of the angle from the bottom of the wheel
       real(wp), intent(out) :: s(:)
-      !> Every one is nearer by the product of roll and yaw
+      !> Number of iterations; each one reduces the error by the product of roll and yaw
       integer, parameter :: steps = 3
       integer :: step
 
@@ -252,9 +253,9 @@ contains
    !> Points on the circles of a wheel's profile, in track coordinates
    subroutine on_circles(bodies, y, z, s, track_y, track_z)
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Of the profile [mm], and the sine of the angle from the bottom
+      !> Points of the profile [mm], and sine of the angle from the bottom [-]
       real(wp), intent(in) :: y(:), z(:), s(:)
-      !> [mm]
+      !> Track coordinates y and z of the points [mm]
       real(wp), intent(out) :: track_y(:), track_z(:)
 
       associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
@@ -263,14 +264,14 @@ contains
       end associate
    end subroutine on_circles
 
-   !> Place of a station on a stretch [mm]
+   !> Position of a point on a stretch [mm]
    pure real(wp) function station(range_x, k)
       real(wp), intent(in) :: range_x(2)
       integer, intent(in) :: k
       station = range_x(1) + (k - 1)*(range_x(2) - range_x(1))/(stations - 1)
    end function station
 
-   !> How far circles of the wheel reach below the chords between stations [mm]
+   !> Sagitta of circles of the wheel below the chords between points [mm]
    real(wp) function sagitta(bodies, range_x)
       type(wheel_rail_bodies), intent(in) :: bodies
       real(wp), intent(in) :: range_x(2)
@@ -285,7 +286,7 @@ contains
    !> Points of a profile that does not vary, with short chords
    subroutine sample(curve, points)
       type(profile_curve), intent(in) :: curve
-      !> y, z, shape (points, 2) [mm]
+      !> Points y, z, shape (points, 2) [mm]
       real(wp), allocatable, intent(out) :: points(:, :)
       real(wp), allocatable :: s(:)
       integer :: i, k, n, parts
@@ -307,7 +308,7 @@ contains
       points = reshape([curve%y%value(s), curve%z%value(s)], [n, 2])
    end subroutine sample
 
-   !> Seen from other axes: origin (y, z) and roll angle, see `cut` of a surface
+   !> Transform points to other axes: origin (y, z) and roll angle, see `cut` of a surface
    pure subroutine see_from(axes, y, z)
       real(wp), intent(in) :: axes(3)
       real(wp), intent(inout) :: y(:, :), z(:, :)
@@ -319,13 +320,13 @@ contains
       z = cos(axes(3))*z - sin(axes(3))*before
    end subroutine see_from
 
-   !> The least z that a surface can have at lateral positions, where that is less than what is there already
+   !> Update the minimum z at lateral positions with a surface
    pure subroutine lower_envelope(y, z, extra, places, low)
       !> Control points, shape (points across, control points of each) [mm]
       real(wp), intent(in) :: y(:, :), z(:, :)
-      !> How far the surface may lie beyond the hull of the control points [mm]
+      !> Maximum distance of the surface from the hull of the control points [mm]
       real(wp), intent(in) :: extra
-      !> At even distances [mm]
+      !> Equidistant lateral positions [mm]
       real(wp), intent(in) :: places(:)
       real(wp), intent(inout) :: low(:)
       real(wp), dimension(size(y, 1)) :: my, mz, bend, left, right, top, slope, least

@@ -1,4 +1,4 @@
-!> The vertical gap at points of a mesh over the track, row by row
+!> Vertical gap at points of a mesh over the track, row by row
 module contact_wheelrail_gap_mesh
    use contact_base_kinds, only : wp
    use contact_wheelrail_bodies, only : find_wheel_row, wheel_rail_bodies
@@ -11,15 +11,15 @@ module contact_wheelrail_gap_mesh
 
 contains
 
-   !> Vertical gap at points of a mesh; the rail has sections at its places x
+   !> Vertical gap at points of a mesh; the rail has sections at the positions x
    subroutine fill(bodies, x, y, first, last, table)
-      !> Sections of rail and wheel, and where they are; sections that are needed are made
+      !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> Rising
+      !> Positions along the track and lateral positions, increasing [mm]
       real(wp), intent(in) :: x(:), y(:)
-      !> Points that are wanted in each row along the track, none if the last one is before the first; the others stay
+      !> First and last point to compute in each row along the track, none if last < first; other values are kept
       integer, intent(in) :: first(:), last(:)
-      !> Shape (x, y)
+      !> Gaps, shape (x, y) [mm]
       real(wp), intent(inout) :: table(:, :)
       type(frame) :: track, seen
       real(wp) :: wheel(size(x))
@@ -42,7 +42,7 @@ contains
       end do
    end subroutine fill
 
-   !> Height of the rail at points of a mesh, section after section
+   !> Height of the rail at points of a mesh, section by section
    subroutine fill_rail(bodies, x, y, first, last, table)
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> See `fill`
@@ -71,17 +71,17 @@ contains
       end do
    end subroutine fill_rail
 
-   !> Heights of the rail's section at a place where it has one
+   !> Heights of the rail's section at the position of a section
    subroutine rail_heights(bodies, x, y, z, found)
-      !> Sections of rail and wheel; those that are needed are made
+      !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> Place along the track [mm]
+      !> Position along the track [mm]
       real(wp), intent(in) :: x
-      !> Rising
+      !> Lateral positions, increasing [mm]
       real(wp), intent(in) :: y(:)
       !> Height at each y [mm], z down
       real(wp), intent(out) :: z(:)
-      !> Is there a visible point at this y?
+      !> Is there a visible point at this lateral position?
       logical, intent(out) :: found(:)
       integer :: k
 

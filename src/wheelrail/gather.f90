@@ -1,4 +1,4 @@
-!> Result of a pair from the solutions of its patches
+!> Result of wheel and rail from the solutions of the patches
 module contact_wheelrail_gather
    use contact_base_choices, only : contact_location, motion
    use contact_base_kinds, only : wp
@@ -17,13 +17,13 @@ module contact_wheelrail_gather
 
 contains
 
-   !> Collect the patches and sum up their forces
+   !> Collect the patches and sum their forces
    subroutine gather(problem, memory, result)
-      !> Placement and what is prescribed
+      !> Placement and prescribed quantities
       type(wheel_rail_problem), intent(in) :: problem
-      !> Solved patches, and where the bodies are
+      !> Solved patches, and positions of the bodies
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Gets patches, forces, moments, penetrations and status
+      !> Patches, forces, moments, penetrations and status are set
       type(wheel_rail_result), intent(inout) :: result
       real(wp) :: force(3), moment(3), axes(3, 3), local(3)
       integer :: k
@@ -82,7 +82,7 @@ contains
       end associate
    end subroutine gather
 
-   !> Place and forces of one patch
+   !> Position and forces of one patch
    subroutine describe_patch(geometry, slot, patch)
       type(wheel_rail_geometry), intent(in) :: geometry
       type(patch_slot), intent(inout) :: slot

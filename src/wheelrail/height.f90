@@ -1,9 +1,8 @@
-!> Height of the wheelset: prescribed, or that at which the vertical force acts
+!> Height of the wheelset: prescribed, or determined by the vertical force
 !>
-!> The search itself is that of contact_wheelrail_force_balance. Where tangential tractions do not change the
-!> pressures, only normal problems are solved on the way, with the tangential forces in a fixed ratio to the
-!> normal ones; the tangential problem comes last and corrects that ratio. References and grids belong to the
-!> height of each trial.
+!> The root search is in contact_wheelrail_force_balance. If tangential tractions do not affect the pressures, trials solve normal
+!> problems only, with a fixed ratio of tangential to normal forces; the tangential problem is solved last and corrects the ratio.
+!> References and grids are those of the height of each trial.
 module contact_wheelrail_height
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion
@@ -24,55 +23,55 @@ module contact_wheelrail_height
 
    public :: settle, out_of_sight, small_step
 
-   !> Tangential solutions in a search with ratios of friction that are kept; from one that misses the force by less than this part
-   !> of it a step leads to the next one, without trials in between
+   !> Maximum number of tangential solutions in a search with fixed friction ratios; if one misses the force by less than the
+   !> fraction `direct`, the next tangential solution follows after one step, without trials in between
    integer, parameter :: rounds_apart = 6
    real(wp), parameter :: direct = 0.02_wp
-   !> Tolerance of forces with friction in a ratio that is only estimated
+   !> Tolerance of the force with estimated friction ratios [-]
    real(wp), parameter :: estimated = 1.0e-3_wp
 
-   !> Steps of the force that are due to the grids, relative to the force
+   !> Steps of the force caused by changes of the grids, relative to the force [-]
    real(wp), parameter :: small_step = 1.0e-4_wp
 
-   !> The deepest first trial [mm]
+   !> Maximum penetration of the first trial [mm]
    real(wp), parameter :: deepest_guess = 5.0_wp
 
-   !> Forces below this value ask for a wheel that just touches [N]
+   !> Forces below this value are regarded as zero: the wheel just touches the rail [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
-   !> Least stiffness, relative to force over penetration, and least penetration [mm] for it, by which a missed force moves the
-   !> next guess: a contact of Hertz has 1.5
+   !> Lower bounds of the stiffness, relative to force over penetration, and of the penetration [mm], for the step that corrects a
+   !> missed force: a Hertzian contact has 1.5
    real(wp), parameter :: min_stiffness = 0.1_wp, min_penetration = 1.0e-6_wp
-   !> Part of the missed force that a round of the correction of friction leaves at most; otherwise its ratio does not settle
+   !> Maximum reduction factor of the missed force per correction of friction; otherwise the ratio does not converge
    real(wp), parameter :: good_progress = 0.5_wp
 
-   !> Width over which the curvature of the gap across the track is measured, as large as a patch [mm]; gaps that bend more than
-   !> the limit [1/mm] have a kink there
+   !> Width over which the curvature of the gap across the track is measured, of the order of a patch [mm]; maximum curvature
+   !> [1/mm], above which the gap has a kink
    real(wp), parameter :: bend_reach = 2.0_wp, max_bend = 10.0_wp
-   !> Least mean curvature [1/mm] of flat bodies, whose penetration by Hertz would be none
+   !> Minimum mean curvature [1/mm]; without curvature Hertz's theory gives zero penetration
    real(wp), parameter :: min_curvature = 1.0e-8_wp
 
-   !> Corrections of a guess by the width of the contact that it leads to
+   !> Number of corrections of an estimate by the width of the contact
    integer, parameter :: rounds_of_width = 3
 
-   !> Heights and deflections this far away are out of reach [mm]
+   !> Distance of heights and deflections beyond which there is no contact [mm]
    real(wp), parameter :: out_of_sight = 500.0_wp
 
 contains
 
-   !> Height and contact for the present deflection of the rail and the present pitch rate
+   !> Find height and contact for the present deflection of the rail and the present pitch rate
    subroutine settle(problem, memory, z, log, result, error)
-      !> What is asked: height or force, profiles, friction
+      !> The problem: height or force, profiles, friction
       type(wheel_rail_problem), intent(in) :: problem
-      !> Solved patches of the height that is found; estimates of former searches help
+      !> Patches are solved at the height found; results of earlier searches serve as estimates
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
-      !> Takes a line per trial, and warnings
+      !> Gets a line per trial, and warnings
       type(log_type), intent(inout) :: log
-      !> Says whether force and friction were found
+      !> Its status says whether force and friction were found
       type(wheel_rail_result), intent(inout) :: result
-      !> Allocated when a trial has no result
+      !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: target, spring
       character(len=12) :: wanted, touching
@@ -83,7 +82,7 @@ contains
       z = problem%spec%wheelset%z
       if (height_is_unknown) then
          z = 0.0_wp
-         ! a case that starts anew does not depend on those before it
+         ! a case that starts anew does not depend on previous cases
          if (memory%started .and. problem%use_previous) z = memory%z_ws
       end if
       call measure(problem, memory%geometry, z)
@@ -111,7 +110,7 @@ contains
             spring = 0.0_wp
             target = problem%spec%wheelset%fz
          else
-            ! the rail's springs give way by what the wheel does not penetrate
+            ! the rail's springs deflect by the difference between height and penetration
             spring = rail%kz
             target = rail%kz*(problem%spec%wheelset%z - touch) - rail%fz
          end if
@@ -130,15 +129,15 @@ contains
       end associate
    end subroutine settle
 
-   !> Search the height at which the vertical force acts
+   !> Find the height at which the vertical force acts
    !>
-   !> First without friction in the trials: the forces of friction follow the normal ones in the ratio of the last tangential
-   !> solution, which is corrected at every height found. Where that does not lead to the force, a new search begins with
-   !> friction in every trial; what it says is final.
+   !> At first without friction in the trials: tangential forces are in the ratio of the last tangential solution to the normal
+   !> forces; the ratio is corrected at every height found. If this does not converge, a new search includes friction in every
+   !> trial; its result is final.
    subroutine balance_forces(problem, memory, target, spring, z, log, result, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Prescribed force [N]: of the contact, and of a spring that is free of force at first touch, with its stiffness [N/mm]
+      !> Prescribed total force [N] of the contact and of a spring without force at first touch; stiffness of this spring [N/mm]
       real(wp), intent(in) :: target, spring
       !> Height found [mm]
       real(wp), intent(out) :: z
@@ -159,7 +158,7 @@ contains
       if (memory%geometry%penetration > 0.0_wp) search%guess = search%touch + memory%geometry%penetration
       z = search%guess
       if (problem%geometry_only) then
-         ! there are no forces to tell a better height
+         ! without forces there is no better height
          call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
          return
       end if
@@ -183,23 +182,23 @@ contains
       result%force_evaluations = result%force_evaluations + search%trials
       result%max_trials = max(result%max_trials, search%trials)
       result%force_error = vertical_force(memory) + spring*(z - search%touch) - target
-      call tell_missed_force(memory, search, log, result)
+      call report_missed_force(memory, search, log, result)
    end subroutine balance_forces
 
-   !> A search without friction in the trials, and tangential solutions at the height found and at those that they lead to
+   !> Search without friction in the trials, with tangential solutions at the heights found
    subroutine search_apart(problem, memory, search, is_settled, log, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Begun, with a guess; the next guess on exit
+      !> After `begin`, with the first estimate; on exit the next estimate
       type(height_search), intent(inout) :: search
-      !> Was the force found? Otherwise friction has to be in every trial
+      !> Was the force found? Otherwise friction must be included in every trial
       logical, intent(out) :: is_settled
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: first_guess, miss, last_miss, last_z, last_force, stiffer
       integer :: round
 
-      ! friction decouples from the pressures for bodies that are alike; by simplified theory it costs next to nothing
+      ! tangential tractions do not affect the pressures of similar bodies; with simplified theory they are cheap to compute
       is_settled = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled() &
          & .and. .not. allocated(problem%template%simplified)
       if (.not. is_settled) return
@@ -224,7 +223,7 @@ contains
             else
                search%z = search%guess
             end if
-            ! the tangential problem at the height found corrects the lateral forces
+            ! the tangential problem at the height found corrects the friction ratios
             call search%try(problem, memory, search%z, .true., log, error)
             if (allocated(error)) return
             call learn_shares(memory)
@@ -235,7 +234,7 @@ contains
             search%guess = search%z + (target - search%force) &
                & /max(stiffer*search%stiffness, min_stiffness*target/max(search%z - search%touch, min_penetration))
             if (search%guess <= search%bottom) search%guess = search%z
-            ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
+            ! on steep flanks friction carries a large part of the force, and its ratio does not converge
             is_settled = round < rounds_apart .and. miss < good_progress*last_miss .and. search%trials < maxnr/2
             if (.not. is_settled) return
             last_miss = miss
@@ -245,16 +244,16 @@ contains
       end associate
    end subroutine search_apart
 
-   !> A search with friction in every trial
+   !> Search with friction in every trial
    subroutine search_together(problem, memory, search, log, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Begun, with a guess
+      !> After `begin`, with the first estimate
       type(height_search), intent(inout) :: search
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      ! one trial is left for a last look at the best height
+      ! one trial is reserved for the final solution at the best height
       associate (settings => problem%template%settings)
          call search%run(problem, memory, .true., settings%eps, settings%maxnr - search%trials - 1, log, error)
       end associate
@@ -262,19 +261,19 @@ contains
       if (abs(search%balance%force - search%force) > 0.0_wp) call search%try(problem, memory, search%z, .true., log, error)
    end subroutine search_together
 
-   !> Warn of a force that was not met; a case that misses it by more than grids explain has not succeeded
-   subroutine tell_missed_force(memory, search, log, result)
+   !> Warn of a missed force; the case has failed if the deviation exceeds the effect of the grids
+   subroutine report_missed_force(memory, search, log, result)
       type(wheel_rail_memory), intent(in) :: memory
-      !> Ended
+      !> Finished search
       type(height_search), intent(in) :: search
       type(log_type), intent(inout) :: log
-      !> With `force_error`; gets the status
+      !> Result with `force_error`; its status is set
       type(wheel_rail_result), intent(inout) :: result
       character(len=:), allocatable :: why
       character(len=8) :: missed
 
       associate (target => search%target, tolerance => search%balance%tolerance)
-         ! grids follow the contact in whole elements, which leaves small steps in the force
+         ! grids change by whole elements, which causes small steps in the force
          if (abs(result%force_error) > max(tolerance, small_step*target)) then
             call explain(search%balance, target, sum_of_normal_forces(memory), why)
             call result%status%record_missed_force("vertical force", target, target + result%force_error, why)
@@ -285,9 +284,9 @@ contains
                &EPS: grids follow the contact in whole elements, and the force has steps of that size")
          end if
       end associate
-   end subroutine tell_missed_force
+   end subroutine report_missed_force
 
-   !> Say why the force was not reached
+   !> Reason why the force was not reached
    pure subroutine explain(balance, target, normal_forces, why)
       type(force_balance), intent(in) :: balance
       !> Prescribed force, and the sum of the normal forces of all patches [N]
@@ -319,7 +318,7 @@ contains
          & // real_text(normal_forces) // " N next to nothing remains"
    end subroutine explain
 
-   !> Penetration by Hertz's theory for the place of first touch [mm]
+   !> Penetration by Hertz's theory at the position of first touch [mm]
    real(wp) function penetration_guess(problem, memory, force) result(pen)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
@@ -331,7 +330,7 @@ contains
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
       pen = sphere(curvature(2))
       if (.not. problem%in_loop) return
-      ! the curvature is that over the width of the contact
+      ! curvature over the width of the contact
       lowest = minloc(memory%geometry%gap%gap, dim=1)
       do round = 1, rounds_of_width
          pen = sphere(bend_over(memory%geometry%gap, lowest, 0.5_wp*pen))
@@ -339,7 +338,7 @@ contains
 
    contains
 
-      !> Penetration of a sphere with the mean of the curvatures [mm]
+      !> Penetration of a body of revolution with the geometric mean of the curvatures [mm]
       pure real(wp) function sphere(b)
          !> Half the second derivative of the gap across the track [1/mm]
          real(wp), intent(in) :: b
@@ -349,12 +348,12 @@ contains
       end function sphere
    end function penetration_guess
 
-   !> Half the second derivative of a parabola that opens by as much over the same width as the gap [1/mm]
+   !> Half the second derivative of the parabola that has the width of the gap at a given opening [1/mm]
    pure real(wp) function bend_over(gap, lowest, opening) result(bend)
       type(gap_curve), intent(in) :: gap
-      !> Mesh point with the smallest gap
+      !> Index of the mesh point with the smallest gap
       integer, intent(in) :: lowest
-      !> [mm]
+      !> Difference of the gap to its minimum [mm]
       real(wp), intent(in) :: opening
       integer :: i, side
       real(wp) :: width, level
@@ -370,20 +369,20 @@ contains
          width = width + abs(gap%y(i) - gap%y(lowest))
          if (i > 1 .and. i < gap%n) width = width + gap%dy*(level - gap%gap(i))/(gap%gap(i + side) - gap%gap(i))
       end do
-      ! a gap that is smallest at its end has no width
+      ! a gap with its minimum at an end has no width
       bend = max_bend
       if (width > 0.0_wp) bend = min(max_bend, opening/(0.5_wp*width)**2)
    end function bend_over
 
-   !> How much larger elements may be in a search for a guess
+   !> Factor by which elements may be enlarged in a search for an estimate
    !>
-   !> A search that knows the last case, or the last solution of this one, needs none.
+   !> No such search is needed with results of the previous case, or of an earlier search of this one.
    integer function coarsening(problem, memory, penetration) result(coarser)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
-      !> Guess [mm]
+      !> Estimated penetration [mm]
       real(wp), intent(in) :: penetration
-      !> Elements across the overlap of the bodies
+      !> Minimum number of elements across the overlap of the bodies, and maximum factor
       real(wp), parameter :: enough = 14.0_wp
       real(wp), parameter :: largest = 6.0_wp
 
@@ -395,7 +394,7 @@ contains
       end associate
    end function coarsening
 
-   !> Half the second derivatives of the gap at its smallest place, along the track and across [1/mm]
+   !> Half the second derivatives of the gap at its minimum, along and across the track [1/mm]
    pure function curvatures(gap) result(curvature)
       type(gap_curve), intent(in) :: gap
       real(wp) :: curvature(2), bend
@@ -409,11 +408,11 @@ contains
       if (bend > 0.0_wp .and. bend < max_bend) curvature(2) = 0.5_wp*bend
    end function curvatures
 
-   !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel
+   !> Refuse bodies so soft that the contact would be as large as the wheel
    subroutine refuse_soft_bodies(radius, force, penetration, error)
-      !> Of the wheel [mm]
+      !> Radius of the wheel [mm]
       real(wp), intent(in) :: radius
-      !> Prescribed force [N], and the penetration that Hertz's theory expects [mm]
+      !> Prescribed force [N], and penetration by Hertz's theory [mm]
       real(wp), intent(in) :: force, penetration
       type(error_type), allocatable, intent(out) :: error
 

@@ -1,6 +1,6 @@
-!> A search for the height of the wheelset: trials of heights, and what they tell
+!> Search for the height of the wheelset: trials at different heights, and their evaluation
 !>
-!> The heights come from contact_wheelrail_force_balance, the forces from contact_wheelrail_trial.
+!> The heights are chosen by contact_wheelrail_force_balance, the forces are computed by contact_wheelrail_trial.
 module contact_wheelrail_height_search
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -19,26 +19,26 @@ module contact_wheelrail_height_search
 
    !> State of a search
    type :: height_search
-      !> Force to be reached [N], and the stiffness of a spring that is free of force at first touch [N/mm]
+      !> Prescribed force [N], and stiffness of a spring without force at first touch [N/mm]
       real(wp) :: target = 0.0_wp, spring = 0.0_wp
-      !> Height of first touch, lowest height for a wheel that is lifted off, guess for the next search, best height found [mm]
+      !> Height of first touch, minimum height of a lifted wheel, estimate for the next search, best height found [mm]
       real(wp) :: touch = 0.0_wp, bottom = 0.0_wp, guess = 0.0_wp, z = 0.0_wp
-      !> Force of the last trial [N] and its derivative to the height [N/mm]: 0 where the stiffness of the contacts is not known,
-      !> and with that of Hertz's contact in its place
+      !> Force of the last trial [N], and its derivatives with respect to the height [N/mm]: by the computed stiffness of the
+      !> contacts, 0 if not known, and with the stiffness of Hertzian contact as substitute
       real(wp) :: force = 0.0_wp, slope = 0.0_wp, stiffness = 0.0_wp
-      !> Trials so far
+      !> Number of trials so far
       integer :: trials = 0
       !> The last bracket
       type(force_balance) :: balance
-      !> What the last trial missed the force by, relative to it
+      !> Relative deviation of the force in the last trial [-]
       real(wp), private :: off = huge(1.0_wp)
-      !> The force relative to the normal forces where friction carries nearly all of these, otherwise 1
+      !> Ratio of the force to the normal forces if friction carries nearly all of these, otherwise 1 [-]
       real(wp), private :: small = 1.0_wp
-      !> Trials of the case before this search
+      !> Number of trials of the case before this search
       integer, private :: trials_before = 0
-      !> Are the pressures of all trials made sharp?
+      !> Are pressures solved more accurately in all trials?
       logical, private :: all_sharp = .false.
-      !> But for the first one, which only has to tell the next height?
+      !> Is this the first one of these trials, with lower accuracy, as another one follows?
       logical, private :: is_rough = .false.
    contains
       procedure :: begin
@@ -50,46 +50,47 @@ module contact_wheelrail_height_search
       procedure, private :: bracket
    end type height_search
 
-   !> A trial after one that missed the force by less than so many times EPS solves pressures to that part of EPS
+   !> If the last trial missed the force by less than `near_by` times EPS, pressures are solved to the fraction `sharper` of EPS
    real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
-   !> Force that a search with coarser elements misses at most, relative to it, and trials for that
+   !> Tolerance of the force in a search with coarse elements [-], and its maximum number of trials
    real(wp), parameter :: close_enough = 3.0e-2_wp
    integer, parameter :: few_trials = 5
-   !> Least part of the normal forces that pressures are made sharper for
+   !> Lower bound of the ratio `small`, by which the tolerance of pressures is reduced
    real(wp), parameter :: smallest = 1.0e-4_wp
-   !> A search that follows the last case: trials at most, part of EPS that it goes on to, parts of the missed force that a trial
-   !> leaves at most, within the tolerance and outside, and derivatives of the force that are believed, relative to those by the
-   !> stiffness
+   !> Search that follows the last case: maximum number of trials, fraction of EPS to be reached, maximum reduction factors of the
+   !> missed force per trial, within the tolerance and outside, and range of plausible derivatives of the force relative to those by
+   !> the stiffness
    integer, parameter :: max_followed = 7
    real(wp), parameter :: smooth = 0.02_wp, quick_progress = 0.2_wp, some_progress = 0.6_wp, least_stiff = 0.3_wp, &
       & most_stiff = 3.0_wp
-   !> A trial that misses the force by less than so many times EPS is the last one where a step to first order does the rest, which
-   !> leaves out how patches turn: that may make this part of EPS of the force
+   !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
+   !> rotation of patches: this effect may be at most `turned` times EPS of the force
    real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
-   !> Tangential tractions are made sharp to so many times the part of EPS of the pressures
+   !> Tolerance of tangential tractions relative to that of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
-   !> Parts of EPS that the first of these trials solves pressures and tractions to: it is not the last one
+   !> Tolerance of pressures and tractions in the first trial, relative to EPS: it is not the last one
    real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
-   !> A way between two heights that tells a derivative, relative to the penetration: on a shorter one grids that follow the
-   !> contact count, too. They leave steps of the force up to this part of it
+   !> Minimum difference of two heights for the computation of a derivative, relative to the penetration: for smaller ones the
+   !> change of grids is not negligible. It causes steps of the force up to this fraction of the force
    real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
-   !> Where the normal forces are so many times the prescribed force, friction carries nearly all of them
+   !> Ratio of normal forces to the prescribed force above which friction carries nearly all of them
    real(wp), parameter :: mostly_friction = 20.0_wp
-   !> A wheel whose force is exceeded at first touch is lifted off by so many approaches of its patches, and by this length [mm]
+   !> If the force is exceeded at first touch, the wheel is lifted by up to so many times the approach of its patches, at least by
+   !> this length [mm]
    real(wp), parameter :: lifted_approaches = 6.0_wp, lifted_length = 1.0e-6_wp
-   !> Greatest penetration that is tried, in radii of the wheel
+   !> Maximum penetration of trials, in radii of the wheel
    real(wp), parameter :: deepest = 1.1_wp
 
 contains
 
-   !> A search from the first touch on
+   !> Start a search at first touch
    pure subroutine begin(self, memory, target, spring, trials_before)
       class(height_search), intent(inout) :: self
-      !> With the gap at the present deflection of the rail
+      !> Geometry with the gap at the present deflection of the rail
       type(wheel_rail_memory), intent(in) :: memory
-      !> Force to be reached [N], positive, and the stiffness of a spring [N/mm]
+      !> Prescribed force [N], positive, and stiffness of a spring [N/mm]
       real(wp), intent(in) :: target, spring
-      !> Trials of this case so far, for the flow trace
+      !> Number of trials of this case so far, for the flow trace
       integer, intent(in) :: trials_before
 
       self%target = target
@@ -99,16 +100,16 @@ contains
       self%trials_before = trials_before
    end subroutine begin
 
-   !> A better guess, from a search of its own with coarser elements; nothing else of it stays
+   !> Improve the estimate by a separate search with coarse elements
    subroutine approach(self, problem, memory, coarser, log)
       class(height_search), intent(inout) :: self
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
       !> Patches of the trials; those of the next trial start anew
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Sides of its elements over those that are asked for
+      !> Sides of the coarse elements relative to the requested ones
       integer, intent(in) :: coarser
-      !> Takes the trace of the solvers
+      !> Gets the trace of the solvers
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
       type(height_search) :: coarse
@@ -118,36 +119,36 @@ contains
       memory%geometry%coarser = coarser
       call coarse%bracket(problem, memory, .false., close_enough, few_trials, log, error)
       memory%geometry%coarser = 1
-      ! an error would be that of the first trial, too
+      ! the first trial would fail with the same error
       if (allocated(error)) return
       if (coarse%balance%ended == balance_ending%reached .and. coarse%stiffness > 0.0_wp) &
          & self%guess = coarse%z + newton_step(coarse, coarse%stiffness)
    end subroutine approach
 
-   !> A search from a bracket of its own, from `guess` on; its best height is z
+   !> Search with a new bracket, starting from `guess`; its best height is z
    subroutine run(self, problem, memory, with_friction, eps, max_trials, log, error)
       class(height_search), intent(inout) :: self
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Patches of the trials; those of the last one stay
+      !> Patches of the trials; those of the last one are kept
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Solve the tangential problems in all trials, too?
+      !> Are the tangential problems solved in all trials?
       logical, intent(in) :: with_friction
       !> Relative tolerance of the force [-]
       real(wp), intent(in) :: eps
-      !> Trials after which it ends
+      !> Maximum number of trials
       integer, intent(in) :: max_trials
-      !> Takes the trace of the trials
+      !> Gets the trace of the trials
       type(log_type), intent(inout) :: log
-      !> Allocated when a trial has no result
+      !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       integer :: before, k
 
       before = self%trials
       call self%bracket(problem, memory, with_friction, eps, max_trials, log, error)
       if (allocated(error) .or. self%balance%ended /= balance_ending%above_touch) return
-      ! Elements overlap before the mesh of the gap does, by less than its width shows: the regions of the first touch stay
-      ! while the wheel is lifted off
+      ! elements overlap before the mesh of the gap does, within its resolution: the regions of first touch are kept while the wheel
+      ! is lifted
       memory%geometry%lowest_for_regions = self%touch + 2.0_wp*self%balance%resolution
       self%bottom = self%touch - lifted_length
       do k = 1, memory%used
@@ -157,25 +158,25 @@ contains
       call self%bracket(problem, memory, with_friction, eps, max_trials - (self%trials - before), log, error)
    end subroutine run
 
-   !> A search without bracket, with friction in every trial, from a guess that follows the last case
+   !> Search without bracket, with friction in every trial, from an estimate that follows the last case
    !>
-   !> Newton's method for F**(2/3). The derivative by the stiffness leaves out that steep patches turn and friction changes; what
-   !> two trials tell of the true one serves the next trials, and the next case. The force is met closer than within EPS: what is
-   !> missed would be noise between one case and the next. Where a step does not do well, the search is not settled, and nothing
-   !> is lost but time.
+   !> Newton's method for F**(2/3). The derivative by the stiffness neglects the rotation of steep patches and changes of friction;
+   !> the true derivative, estimated from two trials, serves for the next trials, and for the next case. The force is reached more
+   !> accurately than to EPS: the deviation would be noise between successive cases. If a step makes too little progress, the search
+   !> fails, and only its time is lost.
    subroutine follow(self, problem, memory, stiffer, is_settled, log, error)
       class(height_search), intent(inout) :: self
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Patches of the trials; those of the last one stay
+      !> Patches of the trials; those of the last one are kept
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Derivative of the force, relative to that by the stiffness [-]: last known, and found
+      !> Ratio of the derivative of the force to its value by the stiffness [-]: last known value on entry, found value on exit
       real(wp), intent(inout) :: stiffer
-      !> Was the force met? z is the height, or the best of those that were tried
+      !> Was the force reached? z is the height, or the best one that was tried
       logical, intent(out) :: is_settled
-      !> Takes the trace of the trials
+      !> Gets the trace of the trials
       type(log_type), intent(inout) :: log
-      !> Allocated when a trial has no result
+      !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
       logical :: is_plain, has_derivative
@@ -184,7 +185,7 @@ contains
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max_followed, forces_are_estimates=.false.)
       is_settled = .false.
-      ! formulas leave nothing to iterations, so that the first trial is as good as any
+      ! without iterations in the patches, the first trial is as accurate as any
       is_plain = .not. problem%template%solves_for_pressure() .and. allocated(problem%template%simplified)
       has_derivative = problem%template%solves_for_pressure() .and. .not. allocated(problem%template%simplified)
       self%all_sharp = .true.
@@ -223,7 +224,7 @@ contains
          last_z = z
          last_force = self%force
          z = z + newton_step(self, stiffer*self%stiffness)
-         ! between heights with less and with more force a chord leads on
+         ! interpolate linearly between a lower and a higher force
          if (max(low(1), high(1)) < huge(low) .and. .not. (z > low(1) .and. z < high(1))) &
             & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
          if (.not. z > self%touch) exit
@@ -234,22 +235,22 @@ contains
       self%guess = self%z
    end subroutine follow
 
-   !> Newton's step for F**(2/3) [mm]
+   !> Newton step for F**(2/3) [mm]
    pure real(wp) function newton_step(self, derivative)
-      !> With a positive force of the last trial
+      !> Search with positive force of the last trial
       class(height_search), intent(in) :: self
-      !> Of the force to the height [N/mm]
+      !> Derivative of the force with respect to the height [N/mm]
       real(wp), intent(in) :: derivative
       newton_step = self%force/(power*derivative)*((self%target/self%force)**power - 1.0_wp)
    end function newton_step
 
-   !> What two trials tell of the true derivative of the force
+   !> Estimate the true derivative of the force from two trials
    pure subroutine compare_stiffness(self, z, last_z, last_force, stiffer)
-      !> With force and stiffness of the last trial
+      !> Search with force and stiffness of the last trial
       class(height_search), intent(in) :: self
-      !> Heights of the last trial and of the one before it [mm], and the force of that one [N]
+      !> Heights of the last trial and of the one before [mm], and force of the latter [N]
       real(wp), intent(in) :: z, last_z, last_force
-      !> Derivative of the force, relative to that by the stiffness [-]; stays where they tell nothing
+      !> Ratio of the derivative of the force to its value by the stiffness [-]; not changed if the estimate is not plausible
       real(wp), intent(inout) :: stiffer
       real(wp) :: told
 
@@ -258,12 +259,12 @@ contains
       if (told > least_stiff .and. told < most_stiff) stiffer = told
    end subroutine compare_stiffness
 
-   !> Is a trial so near that a step to first order is the rest?
+   !> Is a linear extrapolation from the last trial accurate enough?
    pure logical function can_finish(self, miss, stiffer, has_derivative)
       type(height_search), intent(in) :: self
-      !> What the trial misses the force by [N], and the derivative of the force, relative to that by the stiffness [-]
+      !> Deviation of the force in the trial [N], and ratio of its derivative to the value by the stiffness [-]
       real(wp), intent(in) :: miss, stiffer
-      !> Are pressures and tractions those of the full theory? Others are not gone on from beyond EPS
+      !> Are pressures and tractions those of the full theory? Others are extrapolated only within EPS
       logical, intent(in) :: has_derivative
 
       associate (tolerance => self%balance%tolerance)
@@ -273,20 +274,20 @@ contains
       end associate
    end function can_finish
 
-   !> The last step of Newton's method to first order, where all patches can do it: from near to the force itself
+   !> Last Newton step as a linear extrapolation, if all patches allow it: to the prescribed force itself
    !>
-   !> From further away than EPS tractions are solved anew, and the force is met by a second step, which scales them.
+   !> If the deviation exceeds EPS, tractions are solved anew, and a second step scales them to the force.
    subroutine finish(self, memory, stiffer, z, log, is_done)
       type(height_search), intent(inout) :: self
-      !> Solved patches; get their forces at the new height
+      !> Solved patches; updated to the new height
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Derivative of the force, relative to that by the stiffness [-]
+      !> Ratio of the derivative of the force to its value by the stiffness [-]
       real(wp), intent(in) :: stiffer
-      !> Height of the last trial [mm]; the new one
+      !> Height of the last trial on entry, the new one on exit [mm]
       real(wp), intent(inout) :: z
-      !> Takes the trace of the solvers
+      !> Gets the trace of the solvers
       type(log_type), intent(inout) :: log
-      !> Is the force met? If not, another trial is needed, also where the tractions of a patch were not found
+      !> Was the force reached? Otherwise another trial is needed, also if the tractions of a patch were not found
       logical, intent(out) :: is_done
       logical :: is_far
       real(wp) :: step
@@ -302,7 +303,7 @@ contains
          step = (self%target - self%force)/(stiffer*self%stiffness)
          do k = 1, memory%used
             associate (slot => memory%slot(k), change => stiffer*memory%slot(k)%plane%axes(3, 3)*step)
-               ! what turns and moves with the height makes the force stiffer; the patch takes its part of it
+               ! rotation and displacement of patches increase the stiffness; the step of each patch includes this factor
                if (is_far) then
                   call step_with_tractions(slot%problem, change, slot%state, slot%workspace, log, slot%result)
                   if (.not. slot%result%tangential%succeeded()) return
@@ -320,16 +321,16 @@ contains
       end do
    end subroutine finish
 
-   !> Part of EPS that noise between cases is kept below
+   !> Accuracy of the force relative to EPS, to limit noise between cases [-]
    pure real(wp) function smooth_part(problem)
       type(wheel_rail_problem), intent(in) :: problem
-      !> Relative forces below this are round-off and what is left of iterations
+      !> Relative forces below this value are affected by round-off and residuals of iterations
       real(wp), parameter :: finest = 1.0e-8_wp
 
       smooth_part = min(1.0_wp, max(smooth, finest/problem%template%settings%eps))
    end function smooth_part
 
-   !> A search between two heights
+   !> Search with a bracket
    subroutine bracket(self, problem, memory, with_friction, eps, max_trials, log, error)
       class(height_search), intent(inout) :: self
       type(wheel_rail_problem), intent(in) :: problem
@@ -353,24 +354,24 @@ contains
       self%z = self%balance%z
    end subroutine bracket
 
-   !> Force and slope at a height; only the warnings of the last trial, or of one that fails, are those of the case
+   !> Compute force and slope at a height; of the warnings, those of the last trial, or of one that fails, are kept
    subroutine try(self, problem, memory, z, with_friction, log, error)
       class(height_search), intent(inout) :: self
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Gets the patches at this height
+      !> The patches at this height are solved
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm], z down
       real(wp), intent(in) :: z
-      !> Solve the tangential problems, too?
+      !> Are the tangential problems solved?
       logical, intent(in) :: with_friction
-      !> Takes the trace; warnings are held back
+      !> Gets the trace; warnings are held back
       type(log_type), intent(inout) :: log
-      !> Allocated when a patch has no result
+      !> Allocated if a patch has no result
       type(error_type), allocatable, intent(out) :: error
 
       call log%hold()
-      ! pressures within EPS of the last ones would be taken for those of this height
+      ! with tolerance EPS, pressures of the last trial would be accepted at a nearby height
       memory%geometry%pressure_eps = 1.0_wp
       if (self%off > problem%template%settings%eps .and. self%off*self%small < near_by*problem%template%settings%eps) &
          & memory%geometry%pressure_eps = sharper*self%small
@@ -389,7 +390,7 @@ contains
       end if
       self%force = vertical_force(memory) + self%spring*(z - self%touch)
       self%off = abs(self%force - self%target)/self%target
-      ! a small difference of large forces needs sharper ones
+      ! a small difference of large forces requires higher accuracy
       self%small = 1.0_wp
       if (sum_of_normal_forces(memory) > mostly_friction*self%target) &
          & self%small = max(smallest, self%target/sum_of_normal_forces(memory))
@@ -401,7 +402,7 @@ contains
    !> Line of the flow trace
    subroutine trace_trial(self, z, log)
       type(height_search), intent(in) :: self
-      !> [mm]
+      !> Height of the trial [mm]
       real(wp), intent(in) :: z
       type(log_type), intent(inout) :: log
       character(len=100) :: line
@@ -412,7 +413,7 @@ contains
       call log%trace(1, trim(line))
    end subroutine trace_trial
 
-   !> Normal forces of all patches [N]
+   !> Sum of the normal forces of all patches [N]
    pure real(wp) function sum_of_normal_forces(memory) result(total)
       !> Solved patches
       type(wheel_rail_memory), intent(in) :: memory

@@ -1,14 +1,14 @@
-!> Derivatives of the forces of the wheel on the rail to position and velocity of the wheelset
+!> Derivatives of the forces of the wheel on the rail with respect to position and velocity of the wheelset
 !>
-!> What changes with the position, and by what it is differentiated:
+!> Quantities that depend on the position, and their differentiation:
 !>
-!>    place and angle of the references    the search repeated on changed gaps    contact_wheelrail_reference_motion
-!>    undeformed distance                  in closed form                         contact_wheelrail_distance_motion
-!>    creepages                            central differences of their formula   here
-!>    pressures and tractions              linear systems                         contact_patch_derivatives
-!>    axes and levers of the forces        in closed form                         here
+!>    position and angle of the references   search repeated with changed gaps      contact_wheelrail_reference_motion
+!>    undeformed distance                    in closed form                         contact_wheelrail_distance_motion
+!>    creepages                              central differences of their formula   this module
+!>    pressures and tractions                linear systems                         contact_patch_derivatives
+!>    axes and levers of the forces          in closed form                         this module
 !>
-!> Contact areas and element divisions stay. With a prescribed vertical force the height follows from the others.
+!> Contact areas and element divisions are kept. With a prescribed vertical force the height is a function of the other inputs.
 module contact_wheelrail_jacobian
    use contact_base_choices, only : force_control, motion, variation
    use contact_base_kinds, only : wp
@@ -35,65 +35,65 @@ module contact_wheelrail_jacobian
       integer :: vs = 5, vy = 6, vroll = 7, vyaw = 8, vpitch = 9
       !> Vertical force [N]
       integer :: fz = 10
-      !> Their number
+      !> Number of inputs
       integer :: count = 10
    end type input_list
-   !> Columns
+   !> Columns of the matrix of derivatives
    type(input_list), parameter :: jacobian_input = input_list()
 
    type :: row_list
-      !> First of the forces on the rail and their moment about the rail marker, track axes
+      !> First component of force on the rail and its moment about the rail marker, in track axes
       integer :: on_rail = 1
-      !> First of the same about the wheel marker, wheelset axes
+      !> First component of force on the rail and its moment about the wheel marker, in wheelset axes
       integer :: on_wheel = 7
       !> Height of the wheelset
       integer :: z = 13
-      !> Their number
+      !> Number of rows
       integer :: count = 13
    end type row_list
-   !> Rows
+   !> Rows of the matrix of derivatives
    type(row_list), parameter :: jacobian_row = row_list()
 
    type :: state_list
-      !> The derivative; a derivative to one side, as a patch appears or vanishes here; there is none
+      !> Derivative; one-sided derivative, if a patch appears or vanishes here; no derivative
       integer :: exact = 0, one_sided = 1, none = 2
    end type state_list
-   !> What the derivative is
+   !> Validity of the derivatives
    type(state_list), parameter :: jacobian_state = state_list()
 
    !> Derivatives of a case
    type :: wheel_rail_jacobian
-      !> Member of jacobian_state, with the reason where it is not exact
+      !> Member of jacobian_state, with the reason unless it is exact
       integer :: state = 2
       character(len=:), allocatable :: reason
-      !> Right-hand pair, with velocities as they were given: rows of jacobian_row [N], [N mm], [mm] per unit of the columns
-      !> of jacobian_input
+      !> Derivatives for a right-hand pair, with velocities as given in the input: rows of jacobian_row [N], [N mm], [mm] per unit
+      !> of the columns of jacobian_input
       real(wp) :: values(13, 10) = 0.0_wp
-      !> Largest relative residual of the linear systems
+      !> Maximum relative residual of the linear systems [-]
       real(wp) :: reached = 0.0_wp
    end type wheel_rail_jacobian
 
-   !> Residual up to which derivatives count as found
+   !> Maximum relative residual that is accepted [-]
    real(wp), parameter :: good = 1.0e-4_wp
-   !> Steps of the central differences of creepages: displacements [mm], turns [rad], and velocities relative to that of
-   !> rolling; the formula is so smooth that errors are those of rounding, 1e-8 of the derivatives
+   !> Steps of the central differences of creepages: displacements [mm], rotations [rad], and velocities relative to the rolling
+   !> velocity; as the formula is smooth, errors are round-off, 1e-8 of the derivatives
    real(wp), parameter :: creepage_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-7_wp, 1.0e-7_wp], velocity_step = 1.0e-4_wp
-   !> Step of the contact angle for friction that depends on it [rad]
+   !> Step of the contact angle, for friction that depends on it [rad]
    real(wp), parameter :: angle_step = 1.0e-6_wp
-   !> A vertical stiffness below this one is none [N/mm]
+   !> Vertical stiffness below this value is regarded as zero [N/mm]
    real(wp), parameter :: no_stiffness = 1.0e-9_wp
 
 contains
 
    !> Derivatives at the last solution
    subroutine differentiate_wheel_rail(problem, memory, result, jacobian)
-      !> What was solved
+      !> The problem that was solved
       type(wheel_rail_problem), intent(in) :: problem
-      !> With that solution; scratch of its patches is used
+      !> The solution; work space of its patches is used
       type(wheel_rail_memory), intent(inout) :: memory
       !> Forces, height and status of that solution
       type(wheel_rail_result), intent(in) :: result
-      !> Gets the derivatives, or the reason why there are none
+      !> The derivatives are set, or the reason why there are none
       type(wheel_rail_jacobian), intent(inout) :: jacobian
       type(reference_motion), allocatable :: motions(:, :)
       real(wp) :: slope
@@ -115,7 +115,7 @@ contains
       end do
       call add_place_of_wheel(memory, result, jacobian%values)
       jacobian%values(jacobian_row%z, jacobian_input%z) = 1.0_wp
-      ! angles and lateral positions of the left side count the other way
+      ! on the left side of the track, lateral positions and angles have the opposite sign
       associate (v => jacobian%values, input => jacobian_input)
          v(:, [input%y, input%roll, input%yaw]) = side_sign(problem%spec)*v(:, [input%y, input%roll, input%yaw])
          if (problem%force_prescribed) then
@@ -127,7 +127,7 @@ contains
             v(jacobian_row%on_rail + 2, input%fz) = -1.0_wp
             v = v - matmul(v(:, input%z:input%z), v(jacobian_row%on_rail + 2:jacobian_row%on_rail + 2, :))/slope
             v(:, input%z) = 0.0_wp
-            ! this force is what is prescribed
+            ! the row of the prescribed force
             v(jacobian_row%on_rail + 2, :) = 0.0_wp
             v(jacobian_row%on_rail + 2, input%fz) = 1.0_wp
          end if
@@ -142,7 +142,7 @@ contains
       end if
    end subroutine differentiate_wheel_rail
 
-   !> Why there are no derivatives, blank for nothing
+   !> Reason why there are no derivatives; blank if there are
    subroutine find_obstacle(problem, memory, result, reason)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
@@ -170,12 +170,12 @@ contains
       if (len(reason) > 0) reason = "derivatives are not built for " // reason
    end subroutine find_obstacle
 
-   !> Part of one patch
+   !> Add the contribution of one patch
    subroutine add_patch(problem, memory, number, motions, jacobian)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), target, intent(inout) :: memory
       integer, intent(in) :: number
-      !> Of its reference
+      !> Motion of its reference per unit of each coordinate
       type(reference_motion), intent(in) :: motions(:)
       type(wheel_rail_jacobian), intent(inout) :: jacobian
       type(patch_derivatives) :: d
@@ -216,7 +216,7 @@ contains
 
       !> Coefficient of friction at a contact angle
       real(wp) function friction_at(angle) result(mu)
-         !> [rad]
+         !> Contact angle [rad]
          real(wp), intent(in) :: angle
 
          associate (set => parameters_at(problem, angle))
@@ -225,11 +225,11 @@ contains
       end function friction_at
    end subroutine add_patch
 
-   !> Displacements by pressures change where factors between parts do
+   !> Add the change of displacements by pressures that is due to interaction factors between parts
    subroutine add_interactions(slot, motions, distance)
       type(patch_slot), intent(inout) :: slot
       type(reference_motion), intent(in) :: motions(:)
-      !> What has the same effect is added
+      !> Change of the undeformed distance, to which equivalent changes of displacements are added [mm per unit]
       real(wp), contiguous, intent(inout) :: distance(:, :, :)
       real(wp), allocatable :: kept(:, :), u(:, :)
       integer :: k
@@ -246,13 +246,13 @@ contains
       slot%problem%parts%interaction = kept
    end subroutine add_interactions
 
-   !> Changes of force and moment of a patch, in the track, become those of the rows
+   !> Add the changes of force and moment of a patch, in track axes, to a column
    subroutine add_column(placement, plane, force, moment, old_force, shift, column)
       type(wheel_rail_placement), intent(in) :: placement
       type(frame), intent(in) :: plane
       !> Changes of force and moment about the reference [N, N mm per unit]
       real(wp), intent(in) :: force(3), moment(3)
-      !> Force of the patch [N], and how its reference moves [mm per unit]
+      !> Force of the patch [N], and motion of its reference [mm per unit]
       real(wp), intent(in) :: old_force(3), shift(3)
       real(wp), intent(inout) :: column(:)
       real(wp) :: about(3)
@@ -267,7 +267,7 @@ contains
       end associate
    end subroutine add_column
 
-   !> Rows of the wheel: its marker moves, and the axes of the wheelset turn
+   !> Rows of the wheel: add the motion of its marker and the rotation of the wheelset's axes
    subroutine add_place_of_wheel(memory, result, values)
       type(wheel_rail_memory), intent(in) :: memory
       type(wheel_rail_result), intent(in) :: result
@@ -281,7 +281,7 @@ contains
          do k = 1, coordinate%count
             turn = turn_of(placement, k)
             marker = displacement_at(placement, k, placement%wheel%origin)
-            ! of a vector with components v'A those change by v'(w x A) = (v x w)'A
+            ! a vector with components v'A changes by v'(w x A) = (v x w)'A
             values(row:row + 2, k) = values(row:row + 2, k) + matmul(cross(force, turn), placement%wheelset%axes)
             values(row + 3:row + 5, k) = values(row + 3:row + 5, k) &
                & + matmul(cross(moment, turn) - cross(marker, force), placement%wheelset%axes)
@@ -289,15 +289,15 @@ contains
       end associate
    end subroutine add_place_of_wheel
 
-   !> Changes of creepages and spin with position and velocities
+   !> Derivatives of creepages and spin with respect to position and velocities
    subroutine differentiate_creepages(problem, memory, slot, motions, approach, creepage)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
       type(patch_slot), intent(in) :: slot
       type(reference_motion), intent(in) :: motions(:)
-      !> Changes of the approach [mm per unit]
+      !> Derivatives of the approach [mm per unit]
       real(wp), intent(in) :: approach(:)
-      !> Shape (3, inputs)
+      !> Derivatives of CKSI, CETA, CPHI, shape (3, inputs)
       real(wp), intent(inout) :: creepage(:, :)
       type(wheel_rail_spec), allocatable :: spec
       real(wp) :: step, pitch_rate
@@ -318,7 +318,7 @@ contains
 
    contains
 
-      !> After a displacement
+      !> Creepages after a displacement
       function creepages_at(number, step) result(values)
          integer, intent(in) :: number
          real(wp), intent(in) :: step
@@ -333,7 +333,7 @@ contains
          end associate
       end function creepages_at
 
-      !> With another velocity
+      !> Creepages with another velocity
       function creepages_with(number, step) result(values)
          integer, intent(in) :: number
          real(wp), intent(in) :: step
@@ -359,7 +359,7 @@ contains
          end associate
       end function creepages_with
 
-      !> As `set_motion` of contact_wheelrail_patch_inputs
+      !> Creepages and spin, as in `set_motion` of contact_wheelrail_patch_inputs
       function creepages(placement, plane, approach) result(values)
          type(wheel_rail_placement), intent(in) :: placement
          type(frame), intent(in) :: plane

@@ -1,4 +1,4 @@
-!> Solution of one patch of a pair, and its forces on the rail
+!> Solution of one patch of wheel and rail, and its forces on the rail
 module contact_wheelrail_patch_solution
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type
@@ -22,20 +22,20 @@ contains
 
    !> Problem and solution of one patch
    subroutine solve_slot(problem, geometry, number, slot, with_friction, log, error)
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Where the bodies are, and what is known of friction
+      !> Positions of the bodies, and friction ratios found so far
       type(wheel_rail_geometry), intent(inout) :: geometry
-      !> Number of the patch
+      !> Index of the patch
       integer, intent(in) :: number
-      !> Its region on entry; gets problem, solution and forces
+      !> Region of the patch on entry; problem, solution and forces are set
       type(patch_slot), intent(inout) :: slot
-      !> Solve the tangential problem, too? It is solved in any case for a patch of which nothing is known while something
-      !> is known of others
+      !> Is the tangential problem solved? It is solved in any case for a patch without known friction ratio if the ratios of others
+      !> are known
       logical, intent(in) :: with_friction
-      !> Takes the trace of the solvers
+      !> Gets the trace of the solvers
       type(log_type), intent(inout) :: log
-      !> Allocated when the patch has no result
+      !> Allocated if the patch has no result
       type(error_type), allocatable, intent(out) :: error
       logical :: is_new, has_friction
 
@@ -68,7 +68,7 @@ contains
 
    !> Forces and moments of a solved patch in the axes of its plane
    subroutine find_forces(slot)
-      !> Solved
+      !> Solved patch
       type(patch_slot), intent(inout) :: slot
 
       if (allocated(slot%curve)) then
@@ -80,8 +80,8 @@ contains
       end if
    end subroutine find_forces
 
-   !> Does the patch continue one whose friction is known? Each of these is continued by one patch; a patch that took the
-   !> place of two of them is a new one
+   !> Find the nearest known friction ratio: each one is used by one patch; a patch is new if there is none, or if it replaces two
+   !> of them
    subroutine find_share(geometry, slot, is_new)
       type(wheel_rail_geometry), intent(inout) :: geometry
       type(patch_slot), intent(in) :: slot
@@ -105,7 +105,7 @@ contains
       if (nearest > 0) geometry%learned(nearest)%is_taken = .true.
    end subroutine find_share
 
-   !> Learn the friction of a patch, in place of what was known of places within its bounds
+   !> Store the friction ratio of a patch, instead of those at positions within its bounds
    subroutine add_share(geometry, slot)
       type(wheel_rail_geometry), intent(inout) :: geometry
       type(patch_slot), intent(in) :: slot
@@ -128,13 +128,13 @@ contains
          & is_taken=.true.)
    end subroutine add_share
 
-   !> Estimate and previous time step on the window of this solution
+   !> Estimate and previous time step on the grid of this solution
    !>
-   !> Within a case, and from a previous case when asked for, the last solution is the estimate. The
-   !> previous time step is that of the previous case in every solution of this one.
+   !> The last solution is the estimate, within a case, and from the previous case if requested. The previous time step is that of
+   !> the previous case in every solution of this one.
    subroutine link_slot(before, number, slot, error)
       type(carried_step), intent(in) :: before
-      !> Number of the patch
+      !> Index of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
@@ -143,10 +143,10 @@ contains
 
       associate (problem => slot%problem, state => slot%state)
          transient = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
-         ! what follows from formulas does not start from anything
+         ! without iterations no estimate is needed
          continues = state%started .and. problem%iterates() .and. same_elements(slot)
          if (continues) then
-            ! the window of the last solution, seen from the reference of this one
+            ! grid of the last solution, in coordinates of the reference of this one
             state%now%grid%xl = problem%grid%xl + (slot%solved_window%first(1) - slot%window%first(1))*problem%grid%dx
             state%now%grid%yl = problem%grid%yl + (slot%solved_window%first(2) - slot%window%first(2))*problem%grid%dy
          end if
@@ -174,7 +174,7 @@ contains
       end associate
    end subroutine link_slot
 
-   !> Were the elements of the last solution of the same size?
+   !> Did the last solution have elements of the same size?
    pure logical function same_elements(slot)
       type(patch_slot), intent(in) :: slot
       real(wp), parameter :: same = 1.0e-6_wp
@@ -184,18 +184,18 @@ contains
       end associate
    end function same_elements
 
-   !> Force of friction relative to the normal force at a place: learned nearby, or that of full sliding down the slope
+   !> Ratio of tangential to normal force at a position: known ratios nearby, combined with that of full sliding down the slope
    !>
-   !> Weights by the inverse square of the distance make it a smooth function of the place: patches that move while the
-   !> height is searched leave no jump in the force.
+   !> The weights decrease with the inverse square of the distance and make it a smooth function of the position: the motion of
+   !> patches during a height search does not cause jumps of the force.
    pure function share_at(problem, geometry, slot) result(share)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
       type(patch_slot), intent(in) :: slot
       real(wp) :: share(3)
-      !> Weight of the first estimate; what was learned weighs 1 halfway to where it ends
+      !> Weight of the ratio of full sliding; known ratios have weight 1 at half their range
       real(wp), parameter :: first_weight = 0.01_wp
-      !> Smallest relative distance that weights are made of: at the same place only what was learned there counts
+      !> Lower bound of relative distances in the weights: at the same position only the known ratio counts
       real(wp), parameter :: same_place = 1.0e-6_wp
       integer :: k
       real(wp) :: mu, weight, total, distance

@@ -1,7 +1,7 @@
-!> Where rail and wheel are in the track, and how they move
+!> Positions and motions of rail and wheel in the track
 !>
-!> Everything is that of a right-hand pair: for the left side of the track lateral positions, roll
-!> and yaw and their rates change sign on the way in.
+!> All quantities refer to a right-hand pair: for the left side of the track, lateral positions, roll and yaw and their rates change
+!> sign on input.
 module contact_wheelrail_placement
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -23,28 +23,28 @@ module contact_wheelrail_placement
       real(wp) :: roller_radius = 0.0_wp
    end type wheel_rail_placement
 
-   !> From this value on YTAPE says that there is no tape line [mm]
+   !> Values of YTAPE from this one on mean that there is no tape line [mm]
    real(wp), parameter :: no_tape = 999.0_wp
 
 contains
 
    !> -1 for the left side of the track, 1 for the right one
    pure real(wp) function side_sign(wheel_rail)
-      !> Its side of the track counts
+      !> Wheel and rail; the side of the track is used
       type(wheel_rail_spec), intent(in) :: wheel_rail
       side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
 
    !> Top of the canted rail and its gauge point
    !>
-   !> The gauge face is where the profile, from its gauge end on, comes to lie less than the gauge height
-   !> below the top; the gauge point is the innermost point above that.
+   !> The gauge face begins where the profile, followed from its gauge-side end, is less than the gauge height below the top; the
+   !> gauge point is the innermost point above that height.
    subroutine gauge_point(rail, cant, height, top_z, gauge_y)
       !> Profile in the rail's own coordinates
       type(profile_curve), intent(in) :: rail
       !> Cant [rad] and gauge height [mm]
       real(wp), intent(in) :: cant, height
-      !> z of the top and y of the gauge point in axes through the profile's origin that are parallel to the track [mm]
+      !> z of the top and y of the gauge point [mm], in axes parallel to the track with origin at the profile's origin
       real(wp), intent(out) :: top_z, gauge_y
       type(profile_curve) :: canted
       real(wp) :: s_top, s, low, high, y
@@ -62,7 +62,7 @@ contains
          end do
          s = nodes(first)
          if (first > 1) then
-            ! the crossing of the gauge line, by bisection: z falls monotonically enough between two points
+            ! find the intersection with the gauge line by bisection: z is monotone between two points
             low = nodes(first - 1)
             high = nodes(first)
             do while (high - low > 4.0_wp*spacing(max(abs(low), abs(high))))
@@ -85,7 +85,7 @@ contains
       end associate
    end subroutine gauge_point
 
-   !> Smallest y around a point of the profile, not before a given place
+   !> Minimum y near a point of the profile, from a given position on
    pure real(wp) function innermost(curve, s, start) result(y)
       type(profile_curve), intent(in) :: curve
       real(wp), intent(in) :: s, start
@@ -103,19 +103,19 @@ contains
       if (abs(place - s) <= 1.0_wp .and. place >= start) y = min(y, curve%y%value(place))
    end function innermost
 
-   !> Frames of a pair for a height of the wheelset
+   !> Frames of wheel and rail for a given height of the wheelset
    subroutine place_wheel_rail(wheel_rail, wheel, top_z, gauge_y, z_ws, deflection, placement)
-      !> Track, deviations of the rail, and position of the wheelset, as they were given for the side of the track
+      !> Track, deviations of the rail, and position of the wheelset, with the signs of the input
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Profile of the wheel in its own coordinates; its radius is measured there
+      !> Profile of the wheel in its own coordinates; defines the radius at the tape line
       type(profile_curve), intent(in) :: wheel
-      !> From gauge_point; not used with absolute placement
+      !> Results of gauge_point; not used with absolute placement
       real(wp), intent(in) :: top_z, gauge_y
       !> Height of the wheelset [mm], z down
       real(wp), intent(in) :: z_ws
-      !> Lateral and vertical deflection of a massless rail [mm], right-hand pair
+      !> Lateral and vertical deflection of a massless rail [mm], for a right-hand pair
       real(wp), intent(in) :: deflection(2)
-      !> Frames of rail, wheelset and wheel in track coordinates, right-hand side
+      !> Frames of rail, wheelset and wheel in track coordinates, for a right-hand pair
       type(wheel_rail_placement), intent(out) :: placement
       type(frame) :: wheel_in_set
       real(wp) :: s, y, z, tape
@@ -145,9 +145,9 @@ contains
 
    !> Motion of the rail, or of the roller about its axle
    pure function rail_motion(wheel_rail, placement) result(motion)
-      !> Velocities of rail and roller, as they were given
+      !> Velocities of rail and roller, with the signs of the input
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Where the bodies are
+      !> Positions of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       type(rigid_motion) :: motion
       real(wp) :: s, yaw_rate
@@ -168,11 +168,11 @@ contains
       end associate
    end function rail_motion
 
-   !> Motion of the wheel: that of the wheelset, and its flexible deviations, which turn about the origin of the wheel profile
+   !> Motion of the wheel: that of the wheelset plus the rates of its flexible deviations, about the origin of the wheel profile
    pure function wheel_motion(wheel_rail, placement, pitch_rate) result(motion)
-      !> Velocities of wheelset and wheel, as they were given
+      !> Velocities of wheelset and wheel, with the signs of the input
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Where the bodies are
+      !> Positions of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Pitch rate of the wheelset [rad/s]
       real(wp), intent(in) :: pitch_rate
@@ -185,7 +185,7 @@ contains
          motion%rotation = matmul(axes, [s*w%vroll, pitch_rate, s*w%vyaw])
          motion%velocity = [merge(0.0_wp, w%vs, wheel_rail%roller), s*w%vy, w%vz]
          if (.not. any(abs(w%flexible_rate) > 0.0_wp)) return
-         ! the flexible deviations are those of the origin of the wheel profile, and so are their rates
+         ! flexible deviations and their rates refer to the origin of the wheel profile
          lever = placement%wheel%origin - placement%wheelset%origin
          flexible = matmul(axes, [s*w%flexible_rate(4), w%flexible_rate(6), s*w%flexible_rate(5)])
          motion%rotation = motion%rotation + flexible

@@ -1,4 +1,4 @@
-!> What is asked for a wheel on a rail, and what follows from it without looking at the contact
+!> The problem of a wheel on a rail, and quantities that follow from it without contact search
 module contact_wheelrail_problem
    use contact_base_choices, only : contact_location, force_control, motion, time_link, variation
    use contact_base_kinds, only : wp
@@ -15,62 +15,63 @@ module contact_wheelrail_problem
    public :: wheel_rail_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, &
       & rate_of_pure_rolling
 
-   !> Viscoelastic bodies, rail and wheel; see `set_viscoelastic` of contact_elastic_model
+   !> Viscoelastic rail and wheel; see `set_viscoelastic` of contact_elastic_model
    type :: relaxing_bodies
-      !> Poisson ratios [-], instantaneous moduli [N/mm2], late over instantaneous compliance minus 1 [-]
+      !> Poisson ratios [-], instantaneous moduli of rigidity [N/mm2], ratio of late to instantaneous compliance minus 1 [-]
       real(wp) :: poiss(2), gg(2), ratio(2)
       !> Relaxation times [s]
       real(wp) :: time(2)
    end type relaxing_bodies
 
-   !> What is asked for a pair
+   !> The problem of a wheel on a rail
    type :: wheel_rail_problem
       type(wheel_rail_spec) :: spec
       !> Prepared profiles in their own coordinates
       type(profile_curve) :: rail, wheel
-      !> A rail that varies along the track, a wheel that is out of round; then the profile is that of the first slice
+      !> A rail that varies along the track, a wheel that is out of round; unallocated otherwise. The profile above is then that of
+      !> the first slice
       type(profile_surface), allocatable :: rail_surface, wheel_surface
-      !> Settings that all patches share: material, friction, motion, solvers
+      !> Settings common to all patches: material, friction, motion, solvers
       type(patch_problem) :: template
-      !> Viscoelastic bodies: the compliance of a patch follows from its rolling velocity; unallocated for other materials
+      !> Viscoelastic bodies, whose compliance depends on the rolling velocity of a patch; unallocated for other materials
       type(relaxing_bodies), allocatable :: relaxation
       !> Is the vertical force prescribed? Otherwise the height of the wheelset
       logical :: force_prescribed = .false.
-      !> What is found besides, member of force_control: nothing, the pitch rate, or the deflection of the rail
+      !> Additional unknown, member of force_control: none, the pitch rate, or the deflection of the rail
       integer :: force = force_control%creepages
-      !> Only search for contact?
+      !> Contact search only?
       logical :: geometry_only = .false.
-      !> Shall the errors of the totals be estimated?
+      !> Are errors of the totals estimated?
       logical :: estimates_errors = .false.
-      !> What the case may take; the deadline stands in the template, too
+      !> Limits of time and memory; the deadline is also in the template
       type(case_limits) :: limits
-      !> Start from the previous case?
+      !> Does the solution start from the previous case?
       logical :: use_previous = .false.
-      !> Is the case one of a loop over time, in which the last ones are starting values, whatever it continues? The answer does
-      !> not depend on them beyond the tolerance, but figures behind it do
+      !> Is the case one of a loop over time, where the last cases give estimates, independent of `link`? The result does not depend
+      !> on them within the tolerance, but its last digits do
       logical :: in_loop = .false.
-      !> How the case continues the previous one, member of time_link
+      !> Relation to the previous case, member of time_link
       integer :: link = time_link%initiate
       !> Power of the interpenetration in the weights of the contact reference
       integer :: weight_power = 2
-      !> Distance of a step relative to the length of an element [-]
+      !> Distance travelled per step, relative to the length of an element [-]
       real(wp) :: relative_step = 1.0_wp
-      !> How friction varies, member of variation, and its law, member of friction_model
+      !> Variation of friction over the rail, member of variation, and friction law, member of friction_model
       integer :: variation = variation%none, friction_law = friction_model%coulomb
-      !> Parameters at control points: angles [rad] or positions along the track [mm], rising
+      !> Control points of friction: contact angles [rad] or positions along the track [mm], increasing; parameters at these points
       real(wp), allocatable :: control_point(:)
       type(friction_set), allocatable :: control(:)
-      !> The rail's part of the compliance of both bodies [-]
+      !> Fraction of the compliance of both bodies due to the rail [-]
       real(wp) :: rail_share = 0.5_wp
-      !> Elements of a patch at most
+      !> Maximum number of elements of a patch
       integer :: max_elements = 20000
    end type wheel_rail_problem
 
 contains
 
-   !> Pitch rate at which the circumference of the wheel is as fast as the rail [rad/s]
+   !> Pitch rate at which the circumferential velocity of the wheel equals the rolling velocity [rad/s]
    pure real(wp) function rate_of_pure_rolling(problem) result(rate)
-      !> Velocity, nominal radius of the wheel, and that of a roller
+      !> Rolling velocity, nominal radius of the wheel, and that of a roller
       type(wheel_rail_problem), intent(in) :: problem
 
       associate (wheel_rail => problem%spec)
@@ -82,32 +83,32 @@ contains
       end associate
    end function rate_of_pure_rolling
 
-   !> Do the elements stand on the lattice of the pair, as a transient motion needs it?
+   !> Are the elements aligned with the lattice of wheel and rail, as transient motions require?
    pure logical function keeps_lattice(problem) result(keeps)
       !> Motion of the bodies
       type(wheel_rail_problem), intent(in) :: problem
       keeps = problem%template%motion == motion%shift .or. problem%template%motion == motion%transient_rolling
    end function keeps_lattice
 
-   !> Do distances and slip of a patch follow a reference surface row by row?
+   !> Do distances and slip of a patch refer to a curved reference surface, row by row?
    pure logical function follows_surface(problem) result(follows)
-      !> Member of contact_reference, and the kind of bodies
+      !> Member of contact_reference, and type of the bodies
       type(wheel_rail_problem), intent(in) :: problem
       follows = any(problem%spec%search%location == [contact_location%conformal, contact_location%locus_extended])
    end function follows_surface
 
-   !> Does friction follow the inclination of the rail within a patch?
+   !> Does friction vary with the inclination of the rail within a patch?
    pure logical function friction_by_row(problem) result(by_row)
-      !> Control points of friction, and where they count
+      !> Control points of friction, and their use
       type(wheel_rail_problem), intent(in) :: problem
       by_row = problem%variation == variation%by_angle .and. problem%spec%search%location == contact_location%conformal
    end function friction_by_row
 
-   !> Parameters between control points, by linear interpolation; constant beyond them
+   !> Parameters of friction between control points, by linear interpolation; constant beyond them
    pure function parameters_at(problem, position) result(parameters)
-      !> Control points and the parameters there
+      !> Control points of friction and their parameters
       type(wheel_rail_problem), intent(in) :: problem
-      !> [rad] or [mm]
+      !> Contact angle [rad] or position along the track [mm]
       real(wp), intent(in) :: position
       type(friction_set) :: parameters
       real(wp) :: t

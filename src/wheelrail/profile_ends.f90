@@ -1,8 +1,8 @@
-!> Contact that ends where a profile ends, and ends of profiles that touch where no patch is
+!> Contact that reaches the end of a profile, and ends of profiles that are in contact outside the patches
 !>
-!> Beyond the last point of a profile nothing is known: contact that would go on there is cut off, and its pressures are those
-!> of a sharp edge. The search follows places where surfaces can share a tangent plane. The edge at which the wheel's profile
-!> ends needs none: ahead of the axle or behind it the edge of a yawed wheel may stand within the rail where no patch is.
+!> A profile is unknown beyond its last point: contact that would continue there is cut off, and its pressures are those at a sharp
+!> edge. The contact search finds positions where the surfaces can have a common tangent plane. The edge at the end of the wheel's
+!> profile does not need one: ahead of or behind the axle, the edge of a yawed wheel may be within the rail outside all patches.
 module contact_wheelrail_profile_ends
    use contact_base_choices, only : force_control
    use contact_base_constants, only : excluded_threshold, pi
@@ -23,24 +23,24 @@ module contact_wheelrail_profile_ends
 
    public :: depth_within, find_buried_ends, find_spot_beside, mark_profile_ends
 
-   !> Undeformed distances above this value stand for a surface that is missing [mm]; those above excluded_threshold for
-   !> elements that may not touch, whatever the surfaces do
+   !> Undeformed distances above this value mean that a surface is missing [mm]; those above excluded_threshold that the element is
+   !> excluded from contact
    real(wp), parameter :: missing = 500.0_wp
 
 contains
 
-   !> Which ends of the profiles contact reaches: in the next element along y a surface is missing, and the end is near;
-   !> where none is near, the surface goes on unseen
+   !> Find the ends of the profiles that contact reaches: a surface is missing in the next element along y, and an end is nearby; if
+   !> no end is near, the surface continues but is hidden
    subroutine mark_profile_ends(problem, geometry, slot, border)
       !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
-      !> Where the bodies are
+      !> Positions of the bodies
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> Solved
+      !> Solved patch
       type(patch_slot), intent(in) :: slot
       !> `surface_end`, `hidden` and `pressure` are set; body 1 is the rail
       type(border_contact), intent(inout) :: border
-      !> Elements between the centre of the element without surface and the end, at most
+      !> Maximum distance of the end from the centre of the element without surface, in elements
       real(wp), parameter :: nearest = 2.0_wp
       real(wp) :: ends(2, 2, 2), distance(2, 2)
       integer :: found(2), ix, iy, next, side
@@ -75,35 +75,36 @@ contains
       end associate
    end subroutine mark_profile_ends
 
-   !> Ends of the wheel's profile that stand within the rail outside of all patches
+   !> Find ends of the wheel's profile that are within the rail outside all patches
    !>
-   !> The circle of each end is sampled as far as it may reach below the top of the rail, and finely around its deepest point.
+   !> The circle of each end is sampled as far as it may be below the top of the rail, and refined at its deepest point.
    subroutine find_buried_ends(problem, memory, buried)
       !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
-      !> With patches that are solved
+      !> Solved patches
       type(wheel_rail_memory), intent(in) :: memory
-      !> Ends of the lower and the higher y
+      !> Ends at the lower and at the higher y
       type(buried_end), intent(out) :: buried(2)
 
       if (has_own_section(problem)) then
-         call look_for_ends(problem, memory, section_at(problem, memory%geometry, 0.0_wp), buried)
+         call search_ends(problem, memory, section_at(problem, memory%geometry, 0.0_wp), buried)
       else
-         call look_for_ends(problem, memory, memory%geometry%rail_in_track, buried)
+         call search_ends(problem, memory, memory%geometry%rail_in_track, buried)
       end if
    end subroutine find_buried_ends
 
-   !> The same with the section of the rail at the axle
-   subroutine look_for_ends(problem, memory, rail, buried)
+   !> Find the ends within the rail, starting from the section of the rail at the axle
+   subroutine search_ends(problem, memory, rail, buried)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
-      !> In track coordinates
+      !> Section of the rail in track coordinates
       type(profile_curve), intent(in) :: rail
       type(buried_end), intent(inout) :: buried(2)
-      !> Angle to both sides [rad], steps on a prismatic rail and on one that varies [mm], points to refine, and how often
+      !> Maximum angle to both sides [rad]; steps on a prismatic rail and on one that varies [mm]; number of points per refinement,
+      !> and number of refinements
       real(wp), parameter :: furthest = pi/6.0_wp, fine = 1.0_wp, coarse = 5.0_wp
       integer, parameter :: parts = 10, rounds = 3
-      !> Less depth is rounding [mm]
+      !> Depths below this value are round-off [mm]
       real(wp), parameter :: least = 1.0e-5_wp
       type(profile_curve) :: section
       type(slice_pair) :: slices
@@ -123,7 +124,7 @@ contains
          end if
          do k = 1, 2
             end = wheel_end(problem, geometry, k, 0.0_wp)
-            ! heights are those of the axle at this end, and the radius times the cosine of the angle from the lowest point
+            ! height of the axle at this end, and radius times cosine of the angle from the lowest point
             middle = atan2(wheel%axes(3, 1), wheel%axes(3, 3))
             reach = hypot(wheel%axes(3, 1), wheel%axes(3, 3))*(r0 + end(2))
             half = (top - (wheel%origin(3) + wheel%axes(3, 2)*end(1) - wheel%axes(3, 3)*r0))/reach
@@ -133,10 +134,10 @@ contains
             n = ceiling(half*(r0 + end(2))/step)
             buried(k)%depth = -huge(1.0_wp)
             angle = middle
-            call look_around(half/max(n, 1), n)
+            call sample_circle(half/max(n, 1), n)
             do round = 1, rounds
                middle = angle
-               call look_around(half/max(n, 1)/parts**round, parts)
+               call sample_circle(half/max(n, 1)/parts**round, parts)
             end do
             if (buried(k)%depth < least) then
                buried(k)%depth = 0.0_wp
@@ -150,9 +151,9 @@ contains
 
    contains
 
-      !> Does the circle come to where the rail is?
+      !> Is the circle within the lateral range of the rail?
       logical function passes(y_range)
-         !> Of the rail [mm]
+         !> Lateral range of the rail [mm]
          real(wp), intent(in) :: y_range(2)
          real(wp) :: y(3), place(3)
          integer :: m
@@ -164,9 +165,9 @@ contains
          passes = maxval(y) > y_range(1) .and. minval(y) < y_range(2)
       end function passes
 
-      !> Remember the deepest of some points to both sides of the middle
-      subroutine look_around(step, count)
-         !> [rad]
+      !> Find the deepest one of points at equal angles on both sides of the middle
+      subroutine sample_circle(step, count)
+         !> Angle between points [rad]
          real(wp), intent(in) :: step
          integer, intent(in) :: count
          real(wp) :: place(3), depth
@@ -189,8 +190,8 @@ contains
             buried(k) = buried_end(depth, place)
             angle = middle + m*step
          end do
-      end subroutine look_around
-   end subroutine look_for_ends
+      end subroutine sample_circle
+   end subroutine search_ends
 
    !> Point on the circle of an end of the wheel's profile, in track coordinates [mm]
    subroutine find_on_circle(problem, geometry, k, angle, end, place)
@@ -198,9 +199,9 @@ contains
       type(wheel_rail_geometry), intent(in) :: geometry
       !> End of the profile, 1 or 2
       integer, intent(in) :: k
-      !> From the lowest point of the wheel [rad]
+      !> Angle from the lowest point of the wheel [rad]
       real(wp), intent(in) :: angle
-      !> The end in coordinates of the profile [mm]; found anew where the wheel varies
+      !> The end in coordinates of the profile [mm]; updated if the wheel varies
       real(wp), intent(inout) :: end(2)
       real(wp), intent(out) :: place(3)
       real(wp) :: radius
@@ -210,16 +211,16 @@ contains
       place = geometry%placement%wheel%to_parent([radius*sin(angle), end(1), radius*cos(angle) - geometry%placement%wheel_radius])
    end subroutine find_on_circle
 
-   !> Overlap outside of all patches: where the gap has a smallest value of its own along the track, the search keeps the smallest
-   !> of them at each lateral position
+   !> Find overlap outside all patches: where the gap has several minima along the track, the contact search keeps the lowest one at
+   !> each lateral position
    subroutine find_spot_beside(problem, memory, beside)
       !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
-      !> With patches that are solved
+      !> Solved patches
       type(wheel_rail_memory), intent(in) :: memory
-      !> The deepest one, vertically
+      !> The overlap with maximum vertical depth
       type(buried_end), intent(out) :: beside
-      !> Less is rounding [mm]
+      !> Depths below this value are round-off [mm]
       real(wp), parameter :: least = 1.0e-5_wp
       type(profile_curve) :: rail
       real(wp) :: depth, place(3), before, behind
@@ -251,14 +252,14 @@ contains
       end associate
    end subroutine find_spot_beside
 
-   !> How far a point is below the surface of a section of the rail [mm]; negative above it, and where there is no surface above
+   !> Depth of a point below the surface of a section of the rail [mm]; negative above it, and where there is no surface above
    pure function depth_within(rail, point) result(depth)
       !> Section of the rail in track coordinates
       type(profile_curve), intent(in) :: rail
-      !> y and z [mm]
+      !> Coordinates y and z [mm]
       real(wp), intent(in) :: point(2)
       real(wp) :: depth
-      !> Newton steps to the nearest point, from a chord
+      !> Number of Newton steps from the nearest chord to the nearest point
       integer, parameter :: steps = 4
       real(wp) :: s, y(2), z(2), t, distance, least, nearest, y_s, z_s, side
       integer :: i
@@ -294,15 +295,15 @@ contains
          end do
       end associate
       call rail%point(nearest, y(1), z(1), y_s, z_s)
-      ! the solid is to the right of the curve, below it where y rises; a point to its left is beneath an overhang
+      ! the material is to the right of the curve, below it where y increases; a point to its left is below an overhang
       side = (point(2) - z(1))*y_s - (point(1) - y(1))*z_s
       depth = sign(min(least, hypot(point(1) - y(1), point(2) - z(1))), side)
    end function depth_within
 
-   !> Is a point in the part of the surfaces above which a patch has elements?
+   !> Is a point within the range of surfaces that is covered by the elements of a patch?
    pure logical function holds(slot, point)
       type(patch_slot), intent(in) :: slot
-      !> In track coordinates [mm]
+      !> Point in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: local(3)
 
@@ -322,7 +323,7 @@ contains
    subroutine find_ends(problem, geometry, point, ends)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> Where the sections of bodies that vary are taken, in track coordinates [mm]
+      !> Position of the sections of bodies that vary, in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp), intent(out) :: ends(2, 2, 2)
       type(profile_curve) :: rail
@@ -337,17 +338,17 @@ contains
       end do
    end subroutine find_ends
 
-   !> Is the section of the rail another one than that in which the gap was measured?
+   !> Does the present section of the rail differ from that of the gap?
    pure logical function has_own_section(problem)
       type(wheel_rail_problem), intent(in) :: problem
       has_own_section = allocated(problem%rail_surface) .or. problem%force == force_control%massless_rail
    end function has_own_section
 
-   !> The section of the rail where it is now, in track coordinates: springs have lowered it since the gap was measured
+   !> Section of the rail in its present position, in track coordinates: springs may have lowered it since the gap was measured
    function section_at(problem, geometry, x) result(rail)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> In track coordinates; does not matter to a prismatic rail [mm]
+      !> Position in track coordinates [mm]; not used for a prismatic rail
       real(wp), intent(in) :: x
       type(profile_curve) :: rail
 
@@ -358,10 +359,11 @@ contains
       end if
    end function section_at
 
-   !> A point of the track in the sections of rail and wheel through it, twice each [mm]: (y z, both ends, rail and wheel)
+   !> Point of the track in the coordinates of the sections of rail and wheel through it, for both ends [mm]: (y z, both ends, rail
+   !> and wheel)
    pure function in_sections(geometry, point) result(sections)
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> In track coordinates [mm]
+      !> Point in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: sections(2, 2, 2)
       real(wp) :: local(3)
@@ -373,10 +375,10 @@ contains
       end associate
    end function in_sections
 
-   !> A point of the track in the rail's section: a roller is seen in the half plane through its axle
+   !> Point of the track in the coordinates of the rail's section; for a roller, in the half plane through its axle
    pure function in_rail_section(geometry, point) result(section)
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> In track coordinates [mm]
+      !> Point in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: section(2)
 
@@ -386,13 +388,13 @@ contains
       end associate
    end function in_rail_section
 
-   !> y and z of an end of the wheel's profile [mm], in its section at an angle
+   !> Coordinates y and z of an end of the wheel's profile [mm], in the section at an angle
    function wheel_end(problem, geometry, k, angle) result(point)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
       !> See `end_of`
       integer, intent(in) :: k
-      !> From the lowest point of the wheel; does not matter to a round one [rad]
+      !> Angle from the lowest point of the wheel [rad]; not used for a round wheel
       real(wp), intent(in) :: angle
       real(wp) :: point(2)
       real(wp), allocatable :: y(:, :), z(:, :)
@@ -413,10 +415,10 @@ contains
       end if
    end function wheel_end
 
-   !> y and z of an end of a profile [mm]
+   !> Coordinates y and z of an end of a profile [mm]
    pure function end_of(curve, k) result(point)
       type(profile_curve), intent(in) :: curve
-      !> 1: the end of the lower y, 2: the other one
+      !> 1: end at the lower y, 2: end at the higher y
       integer, intent(in) :: k
       real(wp) :: point(2)
       real(wp) :: range(2), y(2), z(2), slope(2)

@@ -1,4 +1,4 @@
-!> Where points of profiles are in the track, as the last case left it
+!> Positions of points of profiles in the track in the last case
 module contact_wheelrail_profile_places
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -13,15 +13,15 @@ module contact_wheelrail_profile_places
 
 contains
 
-   !> Points of a profile in the track, y on the side of the wheel; all y, then all z [mm]
+   !> Positions of points of a profile in the track, y with the sign of the wheel's side; all y, then all z [mm]
    function places_in_track(spec, result, is_wheel, y, z) result(list)
-      !> For the side of the track
+      !> Side of the track
       type(wheel_rail_spec), intent(in) :: spec
-      !> Of the last case
+      !> Result of the last case
       type(wheel_rail_result), intent(in) :: result
-      !> Of the wheel? Otherwise of the rail
+      !> Profile of the wheel? Otherwise of the rail
       logical, intent(in) :: is_wheel
-      !> On the profile [mm]
+      !> Points on the profile [mm]
       real(wp), intent(in) :: y(:), z(:)
       real(wp) :: list(2*size(y))
       type(frame) :: body
@@ -40,12 +40,11 @@ contains
       end do
    end function places_in_track
 
-   !> The innermost point within the gauge height, y, z; offsets of the profile in the track, y, z; the point at gauge
-   !> height, y, z [mm]
+   !> Innermost point within the gauge height, y, z; offsets of the profile in the track, y, z; point at gauge height, y, z [mm]
    function gauge_places(spec, result, curve) result(list)
       !> Gauge height, cant, and the side of the track
       type(wheel_rail_spec), intent(in) :: spec
-      !> Of the last case
+      !> Result of the last case
       type(wheel_rail_result), intent(in) :: result
       !> Profile of the rail
       type(profile_curve), intent(in) :: curve
@@ -62,7 +61,7 @@ contains
       list(5:6) = [canted%y%value(s_at_height), canted%z%value(s_at_height)]
    end function gauge_places
 
-   !> Arc length at which a rail rises above a height for the first time
+   !> First arc length at which the profile is above a height (z down)
    pure real(wp) function first_crossing(curve, height) result(s)
       type(profile_curve), intent(in) :: curve
       real(wp), intent(in) :: height
@@ -88,7 +87,7 @@ contains
       end associate
    end function first_crossing
 
-   !> Height of the point of the gauge face with a given y: where it crosses the gauge height, or the nearest node
+   !> Height of the point of the gauge face with a given y: intersection with the gauge height, or the nearest node
    pure real(wp) function height_at(curve, s_at_height, y) result(z)
       type(profile_curve), intent(in) :: curve
       real(wp), intent(in) :: s_at_height, y

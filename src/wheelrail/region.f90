@@ -1,6 +1,6 @@
 !> One region of contact between wheel and rail: reference, weight and bounds of a stretch of interpenetration
 !>
-!> The reference is the mean of position and surface angle, weighted by a power of the interpenetration.
+!> The reference is the mean of position and surface angle, weighted with a power of the interpenetration.
 module contact_wheelrail_region
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -16,7 +16,7 @@ module contact_wheelrail_region
       real(wp) :: x(2) = 0.0_wp, y(2) = 0.0_wp, z(2) = 0.0_wp
    end type region_box
 
-   !> One contact problem, or a near miss
+   !> A contact region, or a near miss
    type :: contact_region
       type(region_box) :: box
       !> Reference: position [mm] in track coordinates and surface angle [rad]
@@ -29,38 +29,38 @@ module contact_wheelrail_region
       real(wp) :: gap = 0.0_wp
       !> Lateral position of the deepest point of a single stretch of interpenetration [mm]
       real(wp) :: seed = 0.0_wp
-      !> Those of the stretches that it was joined of; unallocated for a single one, see `seeds_of`
+      !> Lateral positions of the deepest points of several joined stretches; unallocated for a single one, see `seeds_of`
       real(wp), allocatable :: seeds(:)
-      !> Where the overlap of other regions begins, x and y in track coordinates [mm]: a grid does not grow beyond it
+      !> Beginning of the overlap of other regions, in x and y, in track coordinates [mm]: grids are not extended beyond it
       real(wp) :: others_x(2) = [-huge(1.0_wp), huge(1.0_wp)], others_y(2) = [-huge(1.0_wp), huge(1.0_wp)]
       !> Do the bodies interpenetrate?
       logical :: touches = .false.
-      !> Parts of a blended patch with their bounds; unallocated otherwise, see `parts_of`
+      !> Parts of a blended patch with their bounds; unallocated for other patches, see `parts_of`
       type(region_box), allocatable :: part(:)
-      !> How much pressures of one part act on another, 0...1, shape (parts, parts); allocated with the parts
+      !> Interaction factors of the pressures of the parts, 0...1, shape (parts, parts); allocated with the parts
       real(wp), allocatable :: interaction(:, :)
    end type contact_region
 
-   !> Gaps beyond this value do not take part in the search [mm]
+   !> Gaps above this value are ignored in the search [mm]
    real(wp), parameter :: far_away = 777.0_wp
-   !> Least weight of a mesh point; below that of the lightest contact, as points that weigh alike move its reference
+   !> Minimum weight of a mesh point; below that of the smallest contact, as points of equal weight shift its reference
    real(wp), parameter :: min_weight = 1.0e-60_wp
-   !> Least gap of a near miss [mm]: interpolation between mesh points does not make a contact of it
+   !> Minimum gap of a near miss [mm]: interpolation between mesh points does not make it a contact
    real(wp), parameter :: open_gap = 1.0e-10_wp
 
 contains
 
    !> Reference, weight and bounds of a stretch of interpenetration
    pure subroutine describe(gap, g, first, last, weight_power, region)
-      !> Mesh, and the table of bodies that vary
+      !> Mesh, and the table for bodies that vary
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm], shape (n)
       real(wp), intent(in) :: g(:)
-      !> The points with g < 0
+      !> First and last point with g < 0
       integer, intent(in) :: first, last
       !> Power of the interpenetration in the weights, 1 or 2
       integer, intent(in) :: weight_power
-      !> Gets bounds, reference, weight, and the deepest point
+      !> Bounds, reference, weight, and deepest point are set
       type(contact_region), intent(out) :: region
       real(wp) :: w, x, total, extent(2), x_low, x_high
       integer :: i
@@ -92,16 +92,16 @@ contains
       region%box%y(2) = zero_crossing(gap, g, last, last + 1)
       region%box%z(1) = height_at(gap, region%box%y(1), first)
       region%box%z(2) = height_at(gap, region%box%y(2), last)
-      ! a patch that reaches the end of the profile: as long on that side as on the other one
+      ! if a patch reaches the end of the profile, its bounds are made symmetric about the reference
       if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
       if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
       call find_deepest(gap, g, first, last, region%gap, region%deepest)
       region%seed = region%deepest(2)
    end subroutine describe
 
-   !> Lateral positions of the deepest points of all stretches of interpenetration of a region [mm]
+   !> Lateral positions of the deepest points of all stretches of interpenetration in a region [mm]
    pure function seeds_of(region) result(seeds)
-      !> Of one stretch, or joined of several
+      !> Region with one stretch, or several joined ones
       type(contact_region), intent(in) :: region
       real(wp), allocatable :: seeds(:)
 
@@ -112,7 +112,7 @@ contains
       end if
    end function seeds_of
 
-   !> Parts of a region with their bounds: itself where it is not blended
+   !> Parts of a region with their bounds; the region itself if it is not blended
    pure function parts_of(region) result(parts)
       !> Blended or not
       type(contact_region), intent(in) :: region
@@ -127,17 +127,17 @@ contains
 
    !> Reference, weight and bounds of a contact that is small compared with the mesh, from the parabola through three points
    !>
-   !> A region stays as it is where there is no such parabola, or where it does not reach below zero.
+   !> A region is not changed if there is no such parabola, or if it is positive everywhere.
    pure subroutine describe_small(gap, g, first, last, weight_power, region)
       !> Mesh and curvature along the track
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm], shape (n)
       real(wp), intent(in) :: g(:)
-      !> The points with g < 0, or a point with a lower gap than its neighbours
+      !> First and last point with g < 0, or a point with a lower gap than its neighbours
       integer, intent(in) :: first, last
       !> Power of the interpenetration in the weights, 1 or 2
       integer, intent(in) :: weight_power
-      !> With the description by mesh points
+      !> Region as described by mesh points on entry; updated
       type(contact_region), intent(inout) :: region
       real(wp) :: lowest, place(3), bend, half, w, x, extent(2)
       integer :: i
@@ -163,23 +163,23 @@ contains
       region%gap = lowest
       region%deepest = place
       region%seed = place(2)
-      ! the weights of all lateral positions, integrated: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
+      ! integral of the weights over all lateral positions: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
       region%weight = max(min_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
       region%box%x = extent
       region%box%y = place(2) + [-half, half]
       region%box%z = gap%z(i) + (region%box%y - gap%y(i))*(gap%z(i + 1) - gap%z(i - 1))/(2.0_wp*gap%dy)
    end subroutine describe_small
 
-   !> Weight of the interpenetration along the track at one lateral position, round wheel: c - kappa (x - x_locus)**2
+   !> Weight of the interpenetration along the track at one lateral position, for a round wheel: c - kappa (x - x_locus)**2
    pure subroutine weigh_parabola(gap, i, c, power, weight, x, extent)
       type(gap_curve), intent(in) :: gap
       integer, intent(in) :: i
-      !> Largest interpenetration [mm]
+      !> Maximum interpenetration [mm]
       real(wp), intent(in) :: c
       !> Power of the interpenetration that is integrated, 1 or 2
       integer, intent(in) :: power
       real(wp), intent(out) :: weight
-      !> Its centre, and where it begins and ends [mm]
+      !> Centre of the interpenetration, and its start and end [mm]
       real(wp), intent(out) :: x, extent(2)
       real(wp) :: t
 
@@ -193,17 +193,17 @@ contains
       extent = x + [-t, t]
    end subroutine weigh_parabola
 
-   !> The same from a table of gaps along the track, by its sum; ends on straight lines between places
+   !> The same from a table of gaps along the track, as a sum; ends by linear interpolation
    !>
-   !> A stretch with few points of the table is summed up at places between them, too, on curves through four points:
-   !> else the centre of a contact that is as short as the steps of the table would be that of one or two points.
+   !> A stretch with few points of the table is summed at positions in between, too, on curves through four points: otherwise the
+   !> centre of a contact as short as the steps of the table would be at one or two points.
    pure subroutine weigh_table(places, g, locus, power, weight, x, extent)
       real(wp), intent(in) :: places(:), g(:)
-      !> Place of the smallest gap [mm], for a stretch too short for the table
+      !> Position of the smallest gap [mm], for a stretch that is too short for the table
       real(wp), intent(in) :: locus
       integer, intent(in) :: power
       real(wp), intent(out) :: weight, x, extent(2)
-      !> Stretches with fewer points of the table are refined, and how much
+      !> Number of points of the table below which a stretch is refined, and refinement factor
       integer, parameter :: few = 16, parts = 16
       real(wp) :: moment, step, before, now, depth, place, rise, bend(2)
       integer :: i, k, n, first, last, inside
@@ -221,7 +221,7 @@ contains
          last = i
       end do
       if (inside == 0) then
-         ! the curve may dip below zero beside the smallest value although that is positive
+         ! the curve may be negative beside the smallest value although that is positive
          first = minloc(g, 1)
          last = first
       end if
@@ -244,7 +244,7 @@ contains
                moment = moment + depth*(place - locus)*step
                extent = [min(extent(1), place), max(extent(2), place)]
             end if
-            ! where the gap vanishes between the place before and this one
+            ! position between the last two where the gap vanishes
             if (min(before, now) < 0.0_wp .and. max(before, now) >= 0.0_wp .and. max(before, now) <= far_away) then
                place = place - step*now/(now - before)
                extent = [min(extent(1), place), max(extent(2), place)]
@@ -255,15 +255,15 @@ contains
       if (weight > 0.0_wp) x = locus + moment/weight
    end subroutine weigh_table
 
-   !> The curve between two points of a table: the cubic with the slopes of parabolas, straight where there is no further point
+   !> Curve between two points of a table: cubic with the slopes of parabolas, straight next to an end
    pure subroutine find_shape(g, i, missing, rise, bend)
       !> Gaps [mm]
       real(wp), intent(in) :: g(:)
-      !> The first of both points
+      !> Index of the first point
       integer, intent(in) :: i
-      !> Is a surface missing at one of them?
+      !> Is a surface missing at one of the points?
       logical, intent(out) :: missing
-      !> Difference of both gaps, and second differences at both [mm]
+      !> Difference of the gaps, and second differences at both points [mm]
       real(wp), intent(out) :: rise, bend(2)
 
       missing = max(g(i), g(i + 1)) > far_away
@@ -279,14 +279,14 @@ contains
       if (i + 2 > size(g)) bend(2) = bend(1)
    end subroutine find_shape
 
-   !> Gap between two points of a table; beside a missing surface that of the nearer one
+   !> Gap between two points of a table; next to a missing surface that of the nearer point
    pure real(wp) function between(start, end_, missing, rise, bend, t)
       !> Gaps at both points [mm]
       real(wp), intent(in) :: start, end_
       !> From `find_shape`
       logical, intent(in) :: missing
       real(wp), intent(in) :: rise, bend(2)
-      !> Share of the way from one to the other
+      !> Position between the points, 0...1
       real(wp), intent(in) :: t
 
       if (missing) then
@@ -296,7 +296,7 @@ contains
       end if
    end function between
 
-   !> Lateral position where the gap vanishes between a point inside and its neighbour outside
+   !> Lateral position where the gap vanishes between a point of overlap and its neighbour outside
    pure real(wp) function zero_crossing(gap, g, inside, outside) result(y)
       type(gap_curve), intent(in) :: gap
       real(wp), intent(in) :: g(:)
@@ -327,13 +327,13 @@ contains
       z = gap%z(i) + (gap%z(j) - gap%z(i))*(y - gap%y(i))/(gap%y(j) - gap%y(i))
    end function height_at
 
-   !> Smallest gap of a stretch, between mesh points by a parabola, and its place
+   !> Smallest gap of a stretch, between mesh points by a parabola, and its position
    pure subroutine find_deepest(gap, g, first, last, lowest, place)
       !> Mesh and curvature along the track
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm], shape (n)
       real(wp), intent(in) :: g(:)
-      !> Mesh points between which the smallest gap is looked for
+      !> First and last mesh point of the stretch
       integer, intent(in) :: first, last
       !> The smallest gap, between mesh points by a parabola [mm]
       real(wp), intent(out) :: lowest
@@ -355,7 +355,7 @@ contains
       place = place + abs(shift)*([gap%x(next), gap%y(next), gap%alpha(next)] - place)
    end subroutine find_deepest
 
-   !> A place where the bodies nearly touch
+   !> A position where the bodies nearly touch
    pure subroutine describe_miss(gap, g, i, region)
       !> Mesh, with heights and inclinations of the rail
       type(gap_curve), intent(in) :: gap
@@ -363,7 +363,7 @@ contains
       real(wp), intent(in) :: g(:)
       !> Mesh point with a lower gap than its neighbours
       integer, intent(in) :: i
-      !> Gets its reference at this point, and the least weight
+      !> Reference at this point, and minimum weight
       type(contact_region), intent(out) :: region
 
       region%x = gap%x(i)

@@ -10,16 +10,16 @@ module contact_wheelrail_region_joins
 
    public :: avoid_vertical, join_regions, refer_to_deepest, shift_near_misses, side_by_side, sort_regions, turn_regions
 
-   !> Exponent of the decrease of interaction with the distance of blended parts
+   !> Exponent of the decrease of the interaction factor with the distance of blended parts
    real(wp), parameter :: blend_exponent = 0.8_wp
-   !> Angles nearer than this to a vertical plane are moved away from it [rad]
+   !> Minimum difference of contact angles to a vertical plane [rad]
    real(wp), parameter :: upright = 1.0e-3_wp
 
 contains
 
-   !> Field side (large y) first
+   !> Sort regions, field side (large y) first
    subroutine sort_regions(regions)
-      !> Brought into the order of falling y of their references, field side first
+      !> Sorted by decreasing y of their references
       type(contact_region), intent(inout) :: regions(:)
       type(contact_region) :: moved
       integer :: i, j
@@ -36,10 +36,10 @@ contains
       end do
    end subroutine sort_regions
 
-   !> Distance of two regions, the first one on the field side [mm]; where they are beside each other along the track, along it
+   !> Distance of two regions, the first one on the field side [mm]; along the track if they overlap laterally
    pure real(wp) function distance(field, gauge, along_track)
       type(region_box), intent(in) :: field, gauge
-      !> Count the distance along the track, too?
+      !> Include the distance along the track?
       logical, intent(in) :: along_track
       real(wp) :: d(3)
 
@@ -52,20 +52,20 @@ contains
       distance = norm2(d)
    end function distance
 
-   !> Have two regions lateral positions in common?
+   !> Do two regions overlap laterally?
    pure logical function side_by_side(a, b)
-      !> Bounds of two regions, of which those across the track are compared [mm]
+      !> Bounds of two regions; the lateral ones are compared [mm]
       type(region_box), intent(in) :: a, b
       side_by_side = a%y(1) < b%y(2) .and. b%y(1) < a%y(2)
    end function side_by_side
 
-   !> First combine what is near, then blend what is not far
+   !> Combine regions at small distance, then blend those at medium distance
    subroutine join_regions(search, regions, n)
       !> Distances and angles at which regions are joined
       type(search_spec), intent(in) :: search
-      !> The first n; those that are close enough become one
+      !> The first n are in use; those that are close enough are joined
       type(contact_region), intent(inout) :: regions(:)
-      !> Their number
+      !> Number of regions
       integer, intent(inout) :: n
 
       call join_within(search%d_comb, .false.)
@@ -73,11 +73,12 @@ contains
 
    contains
 
-      !> Join neighbours until none are near each other: across the track those that follow each other, and along it
+      !> Join regions until none are close to each other: successive ones across the track, and those that overlap laterally along
+      !> it
       subroutine join_within(furthest, blend)
-         !> Distance [mm]
+         !> Maximum distance [mm]
          real(wp), intent(in) :: furthest
-         !> Do the parts stay known?
+         !> Keep the description of the parts?
          logical, intent(in) :: blend
          integer :: i, j
 
@@ -99,11 +100,11 @@ contains
          end do
       end subroutine join_within
 
-      !> Make one region of two
+      !> Replace two regions by one
       subroutine join(i, j, blend)
-         !> Their numbers, i < j
+         !> Indices of the regions, i < j
          integer, intent(in) :: i, j
-         !> Do the parts stay known?
+         !> Keep the description of the parts?
          logical, intent(in) :: blend
          type(contact_region) :: both
          real(wp) :: w(2)
@@ -134,7 +135,7 @@ contains
       end subroutine join
    end subroutine join_regions
 
-   !> How much pressures of one part act on the others: fully when near, not at all when far
+   !> Interaction factors between the pressures of parts: 1 up to the combining distance, decreasing to 0 at the separating distance
    pure function interactions(part, search) result(factor)
       type(region_box), intent(in) :: part(:)
       type(search_spec), intent(in) :: search
@@ -153,13 +154,13 @@ contains
       end do
    end function interactions
 
-   !> A patch grows towards a place that is about to touch, so that a second contact opens smoothly
+   !> Extend the bounds of regions towards near misses, so that a second contact appears smoothly
    subroutine shift_near_misses(search, misses, regions)
-      !> Distances at which a miss moves the reference of a region
+      !> Maximum gap and distance of misses that have an effect
       type(search_spec), intent(in) :: search
-      !> Near misses by rising gap
+      !> Near misses by increasing gap
       type(contact_region), intent(in) :: misses(:)
-      !> Their references move towards misses that are near
+      !> Their bounds are extended towards near misses
       type(contact_region), intent(inout) :: regions(:)
       real(wp) :: share
       integer :: i, k
@@ -177,11 +178,11 @@ contains
       end do
    end subroutine shift_near_misses
 
-   !> Planes of neighbouring patches turn towards a common one as they come closer
+   !> Rotate the planes of neighbouring regions towards a common one with decreasing distance
    subroutine turn_regions(search, regions)
-      !> Angles at which regions keep their own, and the distance at which they turn
+      !> Distances and angle between which planes are rotated
       type(search_spec), intent(in) :: search
-      !> Their angles move towards each other
+      !> Their angles are changed towards each other
       type(contact_region), intent(inout) :: regions(:)
       real(wp) :: d, common, share
       integer :: i
@@ -198,9 +199,9 @@ contains
       end do
    end subroutine turn_regions
 
-   !> The deepest point of each region becomes its reference
+   !> Move the reference of each region to its deepest point
    pure subroutine refer_to_deepest(regions)
-      !> Reference and angle become those of the deepest point
+      !> Reference and angle are set to those of the deepest point
       type(contact_region), intent(inout) :: regions(:)
       integer :: i
 
@@ -211,9 +212,9 @@ contains
       end do
    end subroutine refer_to_deepest
 
-   !> Planes that are nearly vertical are turned away from it
+   !> Rotate planes that are nearly vertical
    subroutine avoid_vertical(regions)
-      !> Angles too near to a vertical plane are moved away from it
+      !> Angles are kept at a minimum difference to vertical planes
       type(contact_region), intent(inout) :: regions(:)
       integer :: i
 

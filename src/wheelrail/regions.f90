@@ -1,9 +1,8 @@
-!> From the gap between wheel and rail to contact patches
+!> Contact regions from the gap between wheel and rail
 !>
-!> Every stretch where the bodies interpenetrate becomes a region with a reference (contact_wheelrail_region): the mean of
-!> position and surface angle, weighted by the square of the interpenetration, for a wheel that is round along the track.
-!> Instead of the mean, the deepest point and the surface angle there can be the reference. Regions close to each other are
-!> joined (contact_wheelrail_region_joins).
+!> Every stretch of interpenetration is a region with a reference (contact_wheelrail_region): the mean of position and surface
+!> angle, weighted by default with the square of the interpenetration, for a wheel that is round along the track. Alternatively the
+!> reference is the deepest point with its surface angle. Regions close to each other are joined (contact_wheelrail_region_joins).
 module contact_wheelrail_regions
    use contact_base_choices, only : contact_location
    use contact_base_kinds, only : wp
@@ -18,27 +17,27 @@ module contact_wheelrail_regions
 
    public :: collect_regions, find_regions, found_regions, remove_region, smallest_gap
 
-   !> What a search for regions finds; its arrays are kept from one search to the next
+   !> Results of a search for regions; arrays are kept from one search to the next
    type :: found_regions
-      !> The regions 1...n, field side first, and near misses 1...n_misses by rising gap; there may be room for more
+      !> Numbers of regions, field side first, and of near misses by increasing gap; the arrays may be larger
       integer :: n = 0, n_misses = 0
       type(contact_region), allocatable :: region(:), miss(:)
       !> Gap at the present height [mm]
       real(wp), allocatable, private :: lowered(:)
    end type found_regions
 
-   !> A contact of so few mesh points is described by the parabola through the gap around its deepest point
+   !> Contacts of at most this number of mesh points are described by the parabola through the gap around the deepest point
    integer, parameter :: few_points = 4
-   !> Near misses that are kept, and regions that there is room for at first
+   !> Maximum number of near misses, and initial number of regions
    integer, parameter :: max_misses = 2, few_regions = 4
 
 contains
 
    !> Smallest gap, at mesh points and between them [mm]
    pure recursive real(wp) function smallest_gap(gap, closer) result(smallest)
-      !> Gaps at the mesh points, and where the table was looked at
+      !> Gaps at the mesh points, and the table for bodies that vary
       type(gap_curve), intent(in) :: gap
-      !> Smallest gaps that need a finer mesh, see `measure_gap`
+      !> Gaps on finer meshes near local minima, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
       real(wp) :: lowest, place(3)
       integer :: i, k
@@ -58,21 +57,21 @@ contains
       end do
    end function smallest_gap
 
-   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first, as arrays of their own
+   !> Find regions for a wheel that is lower by dz than that of the gap, field side first, as new arrays
    subroutine find_regions(gap, dz, search, weight_power, regions, misses, closer)
-      !> Mesh, gaps, and the table of bodies that vary
+      !> Mesh, gaps, and the table for bodies that vary
       type(gap_curve), intent(in) :: gap
-      !> [mm]
+      !> Change of the height [mm], positive downwards
       real(wp), intent(in) :: dz
       !> Distances and angles at which regions are joined or separated
       type(search_spec), intent(in) :: search
       !> Weights by the square (2) or the first power (1) of the interpenetration
       integer, intent(in) :: weight_power
-      !> One per patch
+      !> Regions, one per patch
       type(contact_region), allocatable, intent(out) :: regions(:)
-      !> Near misses by rising gap
+      !> Near misses by increasing gap
       type(contact_region), allocatable, intent(out) :: misses(:)
-      !> Smallest gaps that need a finer mesh, see `measure_gap`
+      !> Gaps on finer meshes near local minima, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
       type(found_regions) :: found
 
@@ -82,19 +81,19 @@ contains
       misses(:) = found%miss(:found%n_misses)
    end subroutine find_regions
 
-   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
+   !> Find regions for a wheel that is lower by dz than that of the gap, field side first
    subroutine collect_regions(gap, dz, search, weight_power, found, closer)
-      !> Mesh, gaps, and the table of bodies that vary
+      !> Mesh, gaps, and the table for bodies that vary
       type(gap_curve), intent(in) :: gap
-      !> [mm]
+      !> Change of the height [mm], positive downwards
       real(wp), intent(in) :: dz
       !> Distances and angles at which regions are joined or separated
       type(search_spec), intent(in) :: search
       !> Weights by the square (2) or the first power (1) of the interpenetration
       integer, intent(in) :: weight_power
-      !> Gets one region per patch, and near misses
+      !> One region per patch, and near misses
       type(found_regions), intent(inout) :: found
-      !> Smallest gaps that need a finer mesh, see `measure_gap`
+      !> Gaps on finer meshes near local minima, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
       integer :: i
 
@@ -119,11 +118,11 @@ contains
             call turn_regions(search, regions)
          end if
          call avoid_vertical(regions)
-         call leave_room(regions)
+         call set_limits(regions)
       end associate
    end subroutine collect_regions
 
-   !> Add a region to those that were found
+   !> Add a region to the list
    subroutine add_region(found, region)
       type(found_regions), intent(inout) :: found
       type(contact_region), intent(in) :: region
@@ -138,11 +137,11 @@ contains
       found%region(found%n) = region
    end subroutine add_region
 
-   !> Leave a region out
+   !> Remove a region from the list
    subroutine remove_region(found, k)
-      !> Has one region less afterwards
+      !> List of regions
       type(found_regions), intent(inout) :: found
-      !> Its number
+      !> Index of the region
       integer, intent(in) :: k
       integer :: i
 
@@ -152,8 +151,8 @@ contains
       end do
    end subroutine remove_region
 
-   !> Tell every region where others begin: overlap that belongs to two patches would carry its load twice
-   pure subroutine leave_room(regions)
+   !> Set the positions where other regions begin: the load of overlap that belongs to two patches would be counted twice
+   pure subroutine set_limits(regions)
       type(contact_region), intent(inout) :: regions(:)
       integer :: i, j
 
@@ -171,17 +170,17 @@ contains
             end associate
          end do
       end do
-   end subroutine leave_room
+   end subroutine set_limits
 
-   !> One region per stretch of interpenetration, or per spot where it falls apart along the track; the nearest misses
+   !> One region per stretch of interpenetration, or per spot if it is divided along the track; the nearest misses
    recursive subroutine preliminary_regions(gap, g, weight_power, found, closer)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
       integer, intent(in) :: weight_power
-      !> Regions and misses are added
+      !> List to which regions and misses are added
       type(found_regions), intent(inout) :: found
-      !> Smallest gaps that need a finer mesh
+      !> Gaps on finer meshes near local minima
       type(gap_curve), intent(in), optional :: closer(:)
       type(contact_region) :: region
       type(spot), allocatable :: spots(:)
@@ -233,15 +232,15 @@ contains
       end do
    end subroutine preliminary_regions
 
-   !> What a finer mesh shows between two points of this one, where there is one
+   !> Add regions from a finer mesh between two points, if there is one
    recursive subroutine look_closer(gap, g, first, last, weight_power, found, is_closer, closer)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
-      !> The points with g < 0, or a point with a lower gap than its neighbours
+      !> First and last point with g < 0, or a point with a lower gap than its neighbours
       integer, intent(in) :: first, last
       integer, intent(in) :: weight_power
-      !> Those of the finer mesh are added
+      !> List to which regions of the finer mesh are added
       type(found_regions), intent(inout) :: found
       !> Is there a finer mesh?
       logical, intent(out) :: is_closer
@@ -255,10 +254,10 @@ contains
       if (is_closer) call add_finer(closer(k), g(i) - gap%gap(i), gap%y(first - 1), gap%y(last + 1), weight_power, found)
    end subroutine look_closer
 
-   !> Regions and misses that a finer mesh shows between two points of a coarse one
+   !> Add regions and misses of a finer mesh between two points of a coarse one
    recursive subroutine add_finer(near, lower, low, high, weight_power, found)
       type(gap_curve), intent(in) :: near
-      !> Added to its gaps; lateral positions of the two points [mm]
+      !> Change of its gaps; lateral positions of the two points [mm]
       real(wp), intent(in) :: lower, low, high
       integer, intent(in) :: weight_power
       type(found_regions), intent(inout) :: found
@@ -283,7 +282,7 @@ contains
       is_minimum = g(i) <= g(i - 1) .and. g(i) < g(i + 1) .and. g(i - 1) >= 0.0_wp .and. g(i + 1) >= 0.0_wp
    end function is_minimum
 
-   !> Keep the nearest ones, by rising gap
+   !> Keep the nearest misses, by increasing gap
    subroutine keep_miss(found, region)
       type(found_regions), intent(inout) :: found
       type(contact_region), intent(in) :: region

@@ -1,7 +1,7 @@
-!> What is known of one wheel on one rail after the solution
+!> Result of the solution for one wheel on one rail
 !>
-!> Right-hand pair throughout: for a wheel on the left side of the track this is the mirror
-!> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
+!> All quantities refer to a right-hand pair: for a wheel on the left side of the track this is the mirror image, which output
+!> mirrors back. Track coordinates: x along the track, y to the right, z down.
 module contact_wheelrail_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_accuracy_report, only : accuracy_report
@@ -17,34 +17,34 @@ module contact_wheelrail_result
 
    public :: buried_end, wheel_rail_result, wheel_rail_patch, profile_points, in_element_coordinates, moment_about_elements
 
-   !> One contact patch of the pair
+   !> One contact patch of wheel and rail
    type :: wheel_rail_patch
       !> Contact reference in track coordinates [mm], contact angle [rad]
       real(wp) :: x = 0.0_wp, y = 0.0_wp, z = 0.0_wp, delta = 0.0_wp
-      !> The same in the rail profile's coordinates [mm], angle relative to the rail [rad]
+      !> Contact reference in the rail profile's coordinates [mm], contact angle relative to the rail [rad]
       real(wp) :: y_rail = 0.0_wp, z_rail = 0.0_wp, delta_rail = 0.0_wp
-      !> The same in the wheel profile's coordinates [mm]
+      !> Contact reference in the wheel profile's coordinates [mm]
       real(wp) :: x_wheel = 0.0_wp, y_wheel = 0.0_wp, z_wheel = 0.0_wp
-      !> Contact reference in the coordinates of the elements of a transient case, which stand on the rail [mm]; 0
-      !> where the reference is the origin of the elements
+      !> Contact reference in the coordinates of the elements of a transient case, which are fixed to the rail [mm]; 0 if the
+      !> reference is the origin of the elements
       real(wp) :: grid_reference(2) = 0.0_wp
-      !> Patches of the previous case from which this one continues; empty for a new one
+      !> Patches of the previous case that this one continues; empty for a new patch
       integer, allocatable :: previous(:)
-      !> Curved reference of conformal contact: y, z [mm] and angle [rad] per grid row in track coordinates,
-      !> shape (3, my); unallocated for flat contact
+      !> Curved reference of conformal contact: y, z [mm] and angle [rad] per grid row in track coordinates, shape (3, my);
+      !> unallocated for flat contact
       real(wp), allocatable :: curve(:, :)
-      !> Sum of the local normal tractions of conformal contact [N]
+      !> Sum of the normal tractions of conformal contact, each in the axes of its row [N]
       real(wp) :: tilde_fn = 0.0_wp
-      !> Where friction varies over the rail: its parameters in this patch, one set or one per row; otherwise unallocated
+      !> Parameters of friction in this patch, one set or one per row, if friction varies over the rail; otherwise unallocated
       type(friction_set), allocatable :: friction(:)
-      !> Does friction vary inside the patch?
+      !> Does friction vary within the patch?
       logical :: friction_varies = .false.
-      !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches,
-      !> rotated row by row for conformal ones
+      !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches, transformed row by row
+      !> for conformal ones
       real(wp) :: force(3) = 0.0_wp
       !> Moment about the reference in the same axes [N mm]
       real(wp) :: moment(3) = 0.0_wp
-      !> Tractions, slip, totals in the axes of the patch
+      !> Tractions, slip and totals in the axes of the patch
       type(patch_result) :: contact
    contains
       !> All totals of the patch, for outputs
@@ -57,73 +57,72 @@ module contact_wheelrail_result
       real(wp), allocatable :: s(:), x(:), y(:), z(:)
    end type profile_points
 
-   !> A place where the bodies overlap and no patch is: an end of the wheel's profile, or another place along the track
+   !> Overlap of the bodies outside all patches: an end of the wheel's profile, or another position along the track
    type :: buried_end
       !> Depth below the surface of the rail [mm]; 0: none
       real(wp) :: depth = 0.0_wp
-      !> Where it is deepest, in track coordinates [mm]
+      !> Position of the maximum depth, in track coordinates [mm]
       real(wp) :: place(3) = 0.0_wp
-      !> Is it farther along the track than contact is sought?
+      !> Is it outside the range of the contact search along the track?
       logical :: beyond_reach = .false.
    end type buried_end
 
-   !> The pair
+   !> Result of wheel and rail
    type :: wheel_rail_result
-      !> How the case ended: its patches, and the searches for prescribed forces
+      !> Status of the case: its patches, and the searches for prescribed forces
       type(case_status) :: status
-      !> Combined modulus [N/mm2], Poisson ratio [-], difference parameter [-]
+      !> Combined modulus of rigidity [N/mm2], Poisson ratio [-], difference parameter [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
       !> Height of the wheelset [mm] and pitch rate [rad/s], prescribed or found
       real(wp) :: z_ws = 0.0_wp, vpitch = 0.0_wp
       !> Deflection of a massless rail [mm]
       real(wp) :: dy_defl = 0.0_wp, dz_defl = 0.0_wp
-      !> Smallest gap in vertical direction [mm]; negative: penetration
+      !> Smallest vertical gap [mm]; negative: penetration
       real(wp) :: smallest_gap = 0.0_wp
-      !> Total force on the rail [N] in track and wheelset axes
+      !> Total force on the rail [N], in track and wheelset axes
       real(wp) :: force_track(3) = 0.0_wp, force_wheelset(3) = 0.0_wp
-      !> Total moment on the rail [N mm] about the rail marker in track axes, about the wheel marker in wheelset axes
+      !> Total moment on the rail [N mm], about the rail marker in track axes, and about the wheel marker in wheelset axes
       real(wp) :: moment_rail(3) = 0.0_wp, moment_wheel(3) = 0.0_wp
       !> Rail marker in the track: y, z [mm], roll [rad]
       real(wp) :: rail_y = 0.0_wp, rail_z = 0.0_wp, rail_roll = 0.0_wp
-      !> Wheel marker in the track: x, y, z [mm], roll, yaw [rad]; lateral place of the wheel profile in the wheelset [mm]
+      !> Wheel marker in the track: x, y, z [mm], roll, yaw [rad]; lateral position of the wheel profile in the wheelset [mm]
       real(wp) :: wheel_x = 0.0_wp, wheel_y = 0.0_wp, wheel_z = 0.0_wp, wheel_roll = 0.0_wp, wheel_yaw = 0.0_wp
       real(wp) :: wheel_offset = 0.0_wp
-      !> Contact patches, field side first; of size zero without contact
+      !> Contact patches, field side first; size zero without contact
       type(wheel_rail_patch), allocatable :: patches(:)
-      !> Ends of the wheel's profile within the rail, which carry no load here: those of the lower and the higher y
+      !> Ends of the wheel's profile within the rail, which carry no load in this model: at the lower and the higher y
       type(buried_end) :: buried(2)
-      !> Overlap at another place along the track, at a lateral position with contact: a search that keeps one place for each
-      !> lateral position leaves it out
+      !> Overlap at another position along the track, at a lateral position with contact: omitted by a search that keeps one
+      !> position per lateral position
       type(buried_end) :: beside
-      !> Profiles as used; filled when the output level asks for them
+      !> Profiles as used; set if the output level requests them
       type(profile_points) :: rail_profile, wheel_profile
-      !> Evaluations of the total force, and how far it is from the prescribed one [N]
+      !> Number of evaluations of the total force, and its deviation from the prescribed one [N]
       integer :: force_evaluations = 0
-      !> Heights tried in one search for the vertical force: largest number of this case
+      !> Maximum number of trials in one search for the vertical force in this case
       integer :: max_trials = 0
       real(wp) :: force_error = 0.0_wp
-      !> Estimated error of each row of `totals` in its unit, NaN without an estimate; unallocated when not asked for
+      !> Estimated error of each row of `totals` in its unit, NaN without estimate; unallocated if not requested
       real(wp), allocatable :: errors(:)
-      !> What became of the accuracy that was asked for; unallocated when none was
+      !> Report on the requested accuracy; unallocated if none was requested
       type(accuracy_report), allocatable :: accuracy
    contains
       !> All totals, for outputs
       procedure :: totals => wheel_rail_totals
-      !> Where rail and wheel are, for outputs
+      !> Positions of rail and wheel, for outputs
       procedure :: markers
-      !> Are all totals, and those of the patches, finite numbers?
+      !> Are all totals, and those of the patches, finite?
       procedure :: has_finite_totals
    end type wheel_rail_result
 
 contains
 
-   !> Forces of wheel on rail that all patches make together, and the positions that were found, in the order in which they are
-   !> written
+   !> Total forces of the wheel on the rail, and positions that were found, in the order in which they are written
    pure subroutine wheel_rail_totals(self, pair, list)
       class(wheel_rail_result), intent(in) :: self
-      !> For the side of the track and the position of the wheelset, which is that of its side
+      !> Side of the track and position of the wheelset, with the sign of its side
       type(wheel_rail_spec), intent(in) :: pair
-      !> Emptied, then filled with the rows of wheel and rail
+      !> List to fill with the rows of wheel and rail; previous rows are removed
       type(total_list), intent(inout) :: list
 
       call list%start(pair%left)
@@ -139,7 +138,7 @@ contains
          & law=error_law%friction)
       call list%add("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), orientation%along, &
          & law=error_law%friction)
-      ! moments are axial vectors: the mirror changes the sign of their x and z components
+      ! moments are axial vectors: mirroring changes the sign of their x and z components
       call list%add("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), orientation%across, &
          & law=error_law%friction)
       call list%add("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), orientation%along, &
@@ -164,12 +163,12 @@ contains
       call list%count("force_trials", "heights tried in a search for the vertical force, at most", self%max_trials)
    end subroutine wheel_rail_totals
 
-   !> Where rail and wheel are, in track coordinates
+   !> Positions of rail and wheel, in track coordinates
    pure subroutine markers(self, left, list)
       class(wheel_rail_result), intent(in) :: self
       !> Is this a wheel on the left side of the track?
       logical, intent(in) :: left
-      !> Emptied, then filled with the rows of both markers
+      !> List to fill with the rows of both markers; previous rows are removed
       type(total_list), intent(inout) :: list
 
       call list%start(left)
@@ -184,10 +183,10 @@ contains
       call list%add("ynom_whl", "mm", "origin of the profile from the middle of the wheelset, outwards", self%wheel_offset)
    end subroutine markers
 
-   !> All totals of a patch: those of the contact, and where its reference is
+   !> All totals of a patch: those of the contact, and the position of its reference
    pure subroutine patch_totals(self, list, left)
       class(wheel_rail_patch), intent(in) :: self
-      !> Emptied, then filled with the rows of the patch
+      !> List to fill with the rows of the patch; previous rows are removed
       type(total_list), intent(inout) :: list
       !> Is this a wheel on the left side of the track?
       logical, intent(in) :: left
@@ -207,12 +206,12 @@ contains
          & in_files=.false.)
       call list%add("y_elem", "mm", "contact reference in the coordinates of the elements", self%grid_reference(2), &
          & orientation%side, in_files=.false.)
-      ! steps share the elements, not the contact reference
+      ! successive time steps have common elements, but not a common contact reference
       if (self%contact%motion == motion%shift .or. self%contact%motion == motion%transient_rolling) &
          & call list%add("mz_elem", "N mm", "moment about the normal through the origin of the elements, MN of the .out file", &
          & moment_about_elements(self, self%contact%fx, self%contact%fy, self%contact%mz), orientation%across)
       if (.not. allocated(self%curve)) return
-      ! FN, FX and FY are plain sums of the tractions then
+      ! with a curved reference FN, FX and FY are sums of tractions with different axes
       call list%add("bar_fn", "N", "normal force of a curved patch, axes of the contact reference", self%force(3))
       call list%add("bar_fx", "N", "longitudinal force of a curved patch, axes of the contact reference", self%force(1), &
          & orientation%along)
@@ -234,9 +233,9 @@ contains
       end do
    end function has_finite_totals
 
-   !> The solution of a patch on its grid with the origin of the elements: in a transient case that is not the reference
+   !> Solution of a patch with the origin of its elements as reference, which differs from the contact reference in transient cases
    pure function in_element_coordinates(patch) result(contact)
-      !> Patch with the origin of its elements
+      !> Patch whose grid refers to the origin of its elements
       type(wheel_rail_patch), intent(in) :: patch
       type(patch_result) :: contact
 
@@ -247,11 +246,11 @@ contains
       end associate
    end function in_element_coordinates
 
-   !> Moment about the normal through the origin of the elements, from that about the contact reference
+   !> Moment about the normal through the origin of the elements, from that about the contact reference [N mm]
    pure real(wp) function moment_about_elements(patch, fx, fy, mz) result(moment)
-      !> Patch with the origin of its elements
+      !> Patch with the position of its reference in element coordinates
       type(wheel_rail_patch), intent(in) :: patch
-      !> Tangential forces [N] and the moment about the contact reference [N mm]
+      !> Tangential forces [N] and moment about the contact reference [N mm]
       real(wp), intent(in) :: fx, fy, mz
 
       moment = mz + patch%grid_reference(1)*fy - patch%grid_reference(2)*fx

@@ -1,4 +1,4 @@
-!> One wheel on one rail: contact patches, their solutions, total forces
+!> Solution for one wheel on one rail: contact patches and total forces
 module contact_wheelrail_solve
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, is_fastrip, motion, pressure_model, time_link
@@ -26,17 +26,17 @@ module contact_wheelrail_solve
 
 contains
 
-   !> Solve one case of a pair
+   !> Solve one case of wheel and rail
    subroutine solve_wheel_rail(problem, memory, log, result, error)
-      !> Everything that is asked
+      !> Complete description of the problem
       type(wheel_rail_problem), intent(in) :: problem
-      !> Carried from case to case: patches, forces of friction, heights
+      !> State kept from case to case: patches, friction ratios, heights
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Takes the trace, and warnings
+      !> Gets the trace, and warnings
       type(log_type), intent(inout) :: log
       !> Patches, forces, position, and the status of the case
       type(wheel_rail_result), intent(inout) :: result
-      !> Allocated when the case has no result
+      !> Allocated if the case has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z
       integer :: k
@@ -60,7 +60,7 @@ contains
       end if
       if (problem%force /= force_control%massless_rail) memory%geometry%deflection = 0.0_wp
       if (problem%force /= force_control%longitudinal_force) memory%geometry%pitch_rate = problem%spec%wheelset%vpitch
-      call note_rail(problem, memory%geometry)
+      call reset_for_new_rail(problem, memory%geometry)
       if (problem%spec%track%gaught > 0.0_wp) call find_gauge_point(problem, memory%geometry)
       if (problem%geometry_only .or. problem%force == force_control%creepages) then
          call settle(problem, memory, z, log, result, error)
@@ -81,7 +81,7 @@ contains
             end associate
          end do
       end if
-      call judge_direction(problem, memory%geometry%pitch_rate, log)
+      call warn_of_direction(problem, memory%geometry%pitch_rate, log)
       if (problem%in_loop) call memory%course%note(problem%spec%wheelset, merge(problem%spec%wheelset%fz, 0.0_wp, &
          & problem%force_prescribed .and. result%status%is_solved()), memory%geometry%penetration)
       memory%z_ws = z
@@ -109,8 +109,8 @@ contains
       call gather(problem, memory, result)
    end subroutine solve_wheel_rail
 
-   !> What was found for the rail of the last case is of no use for another one
-   subroutine note_rail(problem, geometry)
+   !> Reset data that are stored for the rail profile if it has changed
+   subroutine reset_for_new_rail(problem, geometry)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
 
@@ -118,9 +118,9 @@ contains
       geometry%known = problem%rail
       geometry%known_ds = 0.0_wp
       geometry%gauged_height = 0.0_wp
-   end subroutine note_rail
+   end subroutine reset_for_new_rail
 
-   !> The gauge point of the rail, unless it is that of the last case
+   !> Find the gauge point of the rail, unless it is that of the last case
    subroutine find_gauge_point(problem, geometry)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
@@ -133,7 +133,7 @@ contains
       end associate
    end subroutine find_gauge_point
 
-   !> Is the case one of a loop, and what is sought the height alone?
+   !> Is the case one of a loop, with the height as its only unknown?
    pure logical function seeks_height_alone(problem) result(alone)
       type(wheel_rail_problem), intent(in) :: problem
 
@@ -142,7 +142,7 @@ contains
       if (alone) alone = has_one_height(problem%template)
    end function seeks_height_alone
 
-   !> Is the last case near enough for starting values?
+   !> Is the last case near enough for its results to be estimates?
    pure logical function follows_last(problem, memory) result(follows)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
@@ -151,19 +151,20 @@ contains
       if (follows) follows = memory%course%is_near(problem%spec%wheelset)
    end function follows_last
 
-   !> Is there one height that carries a force? FaStrip and ANALYN have steps, where the last case would decide among two
+   !> Does the height have a unique solution? FaStrip and ANALYN have jumps of the force, where the last case would decide between
+   !> two
    pure logical function has_one_height(template)
-      !> What all patches have in common
+      !> Settings common to all patches
       type(patch_problem), intent(in) :: template
 
       has_one_height = template%pressure /= pressure_model%analyn
       if (allocated(template%simplified)) has_one_height = has_one_height .and. .not. is_fastrip(template%simplified%choice)
    end function has_one_height
 
-   !> Warn of a wheel that turns against its direction of travel
-   subroutine judge_direction(problem, pitch_rate, log)
+   !> Warn of a wheel that rotates against its direction of travel
+   subroutine warn_of_direction(problem, pitch_rate, log)
       type(wheel_rail_problem), intent(in) :: problem
-      !> Pitch rate of the wheelset, given or found [rad/s]
+      !> Pitch rate of the wheelset, prescribed or found [rad/s]
       real(wp), intent(in) :: pitch_rate
       type(log_type), intent(inout) :: log
       character(len=:), allocatable :: travel
@@ -177,9 +178,9 @@ contains
       end if
       call log%warning("the wheel turns against " // travel // " it rolls at about VPITCH = " &
          & // real_text(rate_of_pure_rolling(problem)) // " rad/s, and VPITCH = " // real_text(pitch_rate) // " rad/s")
-   end subroutine judge_direction
+   end subroutine warn_of_direction
 
-   !> What the case continues from, according to its link to the previous one
+   !> Set the previous time step, according to the relation to the previous case
    subroutine begin_step(problem, memory, log)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
@@ -199,7 +200,7 @@ contains
          end select
          geometry%travel = problem%spec%wheelset%s
          if (problem%spec%roller) geometry%travel = geometry%before%travel + problem%spec%wheelset%rpitch*problem%spec%track%nomradr
-         ! solutions on another lattice are no estimates
+         ! solutions on another lattice are not used as estimates
          if (problem%template%motion /= memory%motion) memory%slot%state%started = .false.
          memory%motion = problem%template%motion
          call geometry%before%set_frame(follows_rail=problem%template%motion == motion%shift)
@@ -209,7 +210,7 @@ contains
       end associate
    end subroutine begin_step
 
-   !> Keep the tractions of this case for the next one
+   !> Store the tractions of this case for the next one
    subroutine keep_time_step(problem, memory)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory

@@ -1,7 +1,7 @@
-!> Interpenetration that falls apart along the track, as below the two ends of a wheel flat
+!> Interpenetration that is divided along the track, as below the two ends of a wheel flat
 !>
-!> Where the gap is known over a mesh, points with interpenetration that touch each other, also at corners, are one spot.
-!> A stretch of lateral positions that holds several spots is divided into gap curves of one spot each.
+!> On a mesh, points with interpenetration that are neighbours, also diagonally, form one spot. A stretch of lateral positions with
+!> several spots is divided into gap curves with one spot each.
 module contact_wheelrail_spots
    use contact_base_kinds, only : wp
    use contact_wheelrail_gap, only : gap_curve, no_surface, smallest_in_row
@@ -12,9 +12,9 @@ module contact_wheelrail_spots
 
    !> One of several spots
    type :: spot
-      !> The gap without the interpenetration of the others
+      !> Gap without the interpenetration of other spots
       type(gap_curve) :: gap
-      !> Smallest gap per lateral position at the present height [mm]
+      !> Smallest gap at each lateral position at the present height [mm]
       real(wp), allocatable :: g(:)
       !> First and last lateral position with interpenetration
       integer :: first = 0, last = 0
@@ -22,15 +22,15 @@ module contact_wheelrail_spots
 
 contains
 
-   !> The spots of a stretch; none when it holds only one
+   !> The spots of a stretch; none if it has a single one
    subroutine separate_spots(gap, g, first, last, spots)
-      !> With its table
+      !> Gap with its table
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
-      !> The lateral positions with g < 0
+      !> First and last lateral position with g < 0
       integer, intent(in) :: first, last
-      !> One part of the gap for each, in the order in which they are met along y
+      !> One gap per spot, in the order of y
       type(spot), allocatable, intent(out) :: spots(:)
       integer, allocatable :: label(:, :)
       integer :: i, k, n
@@ -42,7 +42,7 @@ contains
       allocate(label(size(gap%x_table), first:last))
       do i = first, last
          label(:, i) = merge(-1, 0, gap%table(:, i) + (g(i) - gap%gap(i)) < 0.0_wp)
-         ! a stretch too short for the table is at the place of the smallest gap
+         ! a stretch that is too short for the table is at the position of the smallest gap
          if (all(label(:, i) == 0)) label(minloc(abs(gap%x_table - gap%x(i)), 1), i) = -1
       end do
       call number_spots(label, n)
@@ -58,9 +58,10 @@ contains
       end do
    end subroutine separate_spots
 
-   !> Does every lateral position have one run of interpenetration, which touches that of its neighbour? Other spots are numbered
+   !> Does every lateral position have one contiguous interval of interpenetration, connected to that of its neighbour? Otherwise
+   !> spots are numbered
    pure logical function is_one_spot(gap, g, first, last)
-      !> As for `separate_spots`
+      !> See `separate_spots`
       type(gap_curve), intent(in) :: gap
       real(wp), intent(in) :: g(:)
       integer, intent(in) :: first, last
@@ -87,7 +88,7 @@ contains
       is_one_spot = .true.
    end function is_one_spot
 
-   !> Number the points of each spot, 1...n, in place of -1
+   !> Number the points of each spot, 1...n, replacing -1
    pure subroutine number_spots(label, n)
       integer, intent(inout) :: label(:, :)
       integer, intent(out) :: n
@@ -119,23 +120,23 @@ contains
       end do
    end subroutine number_spots
 
-   !> The gap without the interpenetration of the other spots
+   !> The gap without the interpenetration of other spots
    pure subroutine take_spot(gap, g, label, start, k, own)
       type(gap_curve), intent(in) :: gap
       real(wp), intent(in) :: g(:)
-      !> Lateral position of its first row
+      !> Lateral position of the first row of the labels
       integer, intent(in) :: start
-      !> Numbers of spots on the table, from the first lateral position of the stretch on
+      !> Spot numbers on the table, from the first lateral position of the stretch
       integer, intent(in) :: label(:, start:)
       integer, intent(in) :: k
-      !> With its first and last lateral position
+      !> Spot with its first and last lateral position; its gap is set
       type(spot), intent(inout) :: own
       integer :: i, beside, low, high
 
       own%gap = gap
       own%g = g
       do i = max(start, own%first - 1), min(ubound(label, 2), own%last + 1)
-         ! beyond the ends of the spot the gap is that beside its last row
+         ! beyond the ends of the spot, the x range is that of its last row
          beside = min(max(i, own%first), own%last)
          low = max(1, findloc(label(:, beside) == k, .true., 1) - 1)
          high = min(size(label, 1), findloc(label(:, beside) == k, .true., 1, back=.true.) + 1)

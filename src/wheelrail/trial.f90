@@ -1,4 +1,4 @@
-!> All patches at a height of the wheelset
+!> Evaluation of all patches at a height of the wheelset
 module contact_wheelrail_trial
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
@@ -19,19 +19,19 @@ module contact_wheelrail_trial
 
 contains
 
-   !> Patches and their solutions at a height
+   !> Find the patches at a height, and solve them
    subroutine evaluate(problem, memory, z, with_friction, log, error)
-      !> What is asked for wheel and rail
+      !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Gets patches and solutions in the slots 1...used
+      !> Patches and solutions are stored in the slots 1...used
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm], z down
       real(wp), intent(in) :: z
-      !> Solve the tangential problems, too?
+      !> Are the tangential problems solved?
       logical, intent(in) :: with_friction
-      !> Takes the trace of the solvers, and warnings
+      !> Gets the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
-      !> Allocated when a patch has no result
+      !> Allocated if a patch has no result
       type(error_type), allocatable, intent(out) :: error
       type(lattice_box) :: boxes(max_patches)
       character(len=15) :: name
@@ -39,7 +39,7 @@ contains
 
       call problem%limits%deadline%check("in the search for contact", error)
       if (allocated(error)) return
-      ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
+      ! a gap that was measured for less penetration is measured again, with a margin for the next trials
       if (z - memory%geometry%touch > memory%geometry%gap%depth) &
          & call measure(problem, memory%geometry, memory%geometry%gap_height, 1.5_wp*(z - memory%geometry%touch))
       call place(problem, memory%geometry, z)
@@ -75,16 +75,16 @@ contains
       end do
    end subroutine evaluate
 
-   !> Say that the plane of a patch does not follow the surfaces: on a rail that varies along the track it has the inclination of
-   !> the section below the axle, unless asked otherwise
+   !> Warn that the plane of a patch is not tangent to the surfaces: on a rail that varies along the track it has the inclination of
+   !> the section below the axle, unless requested otherwise
    subroutine warn_of_angle(problem, geometry, region, name, log)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
       type(contact_region), intent(in) :: region
-      !> What messages call the patch
+      !> Name of the patch in messages
       character(len=*), intent(in) :: name
       type(log_type), intent(inout) :: log
-      !> A lateral force of half a per cent of the normal force [rad]
+      !> Minimum angle for a warning [rad]: it gives a lateral force of half a per cent of the normal force
       real(wp), parameter :: noticeable = 5.0e-3_wp
       real(wp) :: turn
       character(len=400) :: text
@@ -98,12 +98,12 @@ contains
       call log%warning(name // trim(text))
    end subroutine warn_of_angle
 
-   !> Say that elements of a patch stand where no slice describes the rail. A wheel that is given on a part of the turn is
-   !> meant to go on as at its last slice
+   !> Warn that elements of a patch are outside the slices of the rail. There is no warning for a wheel with slices on a part of the
+   !> circumference, which is continued with its last slice on purpose
    subroutine warn_beyond_slices(problem, slot, name, log)
       type(wheel_rail_problem), intent(in) :: problem
       type(patch_slot), intent(in) :: slot
-      !> What messages call the patch
+      !> Name of the patch in messages
       character(len=*), intent(in) :: name
       type(log_type), intent(inout) :: log
       real(wp) :: s(2)
@@ -119,7 +119,7 @@ contains
       call log%warning(name // trim(text))
    end subroutine warn_beyond_slices
 
-   !> Bring the slots into the order of the regions, so that each one continues its own solution
+   !> Assign slots to regions such that each one continues its own solution
    subroutine match_slots(memory, regions)
       type(wheel_rail_memory), intent(inout) :: memory
       type(contact_region), intent(in) :: regions(:)
@@ -132,7 +132,7 @@ contains
          do j = k, memory%used
             associate (old => memory%slot(j)%region%box, new => regions(k)%box)
                overlap = min(old%y(2), new%y(2)) - max(old%y(1), new%y(1))
-               ! spots beside each other along the track are told apart by what they have in common there
+               ! spots that follow each other along the track are distinguished by their overlap along it
                overlap = overlap*(1.0_wp + max(0.0_wp, min(old%x(2), new%x(2)) - max(old%x(1), new%x(1))))
             end associate
             if (overlap <= largest) cycle
@@ -147,7 +147,7 @@ contains
       end do
    end subroutine match_slots
 
-   !> Two slots change their memories
+   !> Exchange the states of two slots
    subroutine exchange(a, b)
       type(patch_slot), intent(inout) :: a, b
       type(patch_state) :: state
@@ -161,9 +161,9 @@ contains
       b%solved_window = window
    end subroutine exchange
 
-   !> Remember the forces of friction of all patches
+   !> Store the friction ratios of all patches
    subroutine learn_shares(memory)
-      !> Solved patches on entry; what was found is kept with its place in `geometry%learned`
+      !> Solved patches on entry; the ratios are stored with their positions in `geometry%learned`
       type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 

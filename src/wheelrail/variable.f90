@@ -1,8 +1,8 @@
 !> Contact search and undeformed distance for a rail that varies along the track or a wheel that is out of round
 !>
-!> The gap is a function of two coordinates. At each lateral position its smallest value along the track, and the
-!> place where it is, take the part of the contact locus; what remains of the search is the same. The
-!> table of gaps also tells how far regions extend along the track.
+!> The gap is a function of two coordinates. At each lateral position, its minimum along the track and the position of this minimum
+!> replace the contact locus of round bodies; the rest of the search is the same. The table of gaps also gives the extent of regions
+!> along the track.
 module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
@@ -18,32 +18,32 @@ module contact_wheelrail_variable
 
    public :: measure_variable_gap, turn_of_rail, variable_distance
 
-   !> Fine mesh along the track [mm], about: where the rail varies its points stand on sections
+   !> Approximate step of the fine mesh along the track [mm]; if the rail varies, its points are at sections
    real(wp), parameter :: fine_x = 0.5_wp
-   !> Coarse mesh in fine steps, along the track and across it
+   !> Step of the coarse mesh in steps of the fine mesh, along the track and across it
    integer, parameter :: coarse = 8
-   !> Gaps are found on the fine mesh up to this above the smallest [mm]: as much as most wheels penetrate rails. Elsewhere
-   !> they are interpolated, with errors of about a hundredth of a millimetre
+   !> Gaps are computed on the fine mesh up to this value above the smallest one [mm]: the maximum penetration of most wheels.
+   !> Elsewhere they are interpolated, with errors of about a hundredth of a millimetre
    real(wp), parameter :: min_depth = 0.2_wp
-   !> Prismatic bodies may be nearer to each other inside a coarse cell than at its corners by this [mm]; the contact locus tells
-   !> where they are nearer still
+   !> Maximum decrease of the gap of prismatic bodies within a coarse cell, below its corners [mm]; larger decreases are found by
+   !> the contact locus
    real(wp), parameter :: hidden = 0.1_wp
-   !> Lateral mesh relative to the elements
+   !> Step of the lateral mesh relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
 
 contains
 
-   !> Gap table and, for each lateral position, its smallest value
+   !> Table of gaps and, for each lateral position, its minimum
    subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth)
-      !> Sections of rail and wheel, and where they are; sections that are needed are made
+      !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
-      !> Are weights of regions to come from the table? Otherwise it is kept to see what they leave out
+      !> Are weights of regions computed from the table? Otherwise it is kept to detect regions that were omitted
       logical, intent(in) :: weighs_table
-      !> Gets mesh, gaps and table; its arrays are kept when they have the right size
+      !> Mesh, gaps and table are set; arrays of equal size are reused
       type(gap_curve), intent(inout) :: gap
-      !> Penetration that will be asked for [mm], if it is known to be large
+      !> Penetration to be expected [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
       real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:), least(:)
       integer, allocatable :: first(:), last(:)
@@ -57,7 +57,8 @@ contains
       if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
       origin = bodies%placement%wheel%origin(1)
       along = search_reach(bodies)
-      ! of prismatic bodies the locus is known: a flank may come near in less than a coarse cell, and far from the wheel
+      ! the locus of prismatic bodies is known: on a flank the gap may be small within less than a coarse cell, and far from the
+      ! axle
       prismatic = .not. (allocated(bodies%rail_strip) .or. allocated(bodies%wheel_strip))
       if (prismatic) then
          call measure_gap(bodies%rail, bodies%wheel, bodies%placement, ds, locus)
@@ -107,13 +108,13 @@ contains
       end if
    end subroutine measure_variable_gap
 
-   !> Of each row along the track what is from the first to the last cell that may be near: prismatic bodies
+   !> Choose in each row along the track the range of cells whose gap may be small, for prismatic bodies
    subroutine choose_by_corners(gap, locus, xc, corner, first, last)
-      !> With its rows and its depth, and that of the contact locus
+      !> Gap with its rows and depth, and gap of the contact locus
       type(gap_curve), intent(in) :: gap, locus
-      !> Places along the track and gaps of the coarse mesh [mm], shape (x, y)
+      !> Positions along the track and gaps of the coarse mesh [mm], shape (x, y)
       real(wp), intent(in) :: xc(:), corner(:, :)
-      !> Numbers on the fine mesh, which begins with the coarse one; on entry no point is chosen
+      !> First and last point on the fine mesh, whose first point is that of the coarse mesh; none is chosen on entry
       integer, intent(inout) :: first(:), last(:)
       real(wp) :: limit
       integer :: ic, jc, j, nxc
@@ -138,20 +139,21 @@ contains
       end do
    end subroutine choose_by_corners
 
-   !> The same of bodies that vary, by lower bounds of the gap: what is left out is farther away, whatever its shape
+   !> The same for bodies that vary, by lower bounds of the gap, which hold for any shape
    subroutine choose_by_bounds(bodies, gap, xc, smallest, first, last, least)
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> With its rows and its depth; `far` and `far_place` are set
+      !> Gap with its rows and depth; `far` and `far_place` are set
       type(gap_curve), intent(inout) :: gap
-      !> Places of the coarse mesh along the track [mm]
+      !> Positions of the coarse mesh along the track [mm]
       real(wp), intent(in) :: xc(:)
-      !> A gap that is known [mm]
+      !> Upper bound of the smallest gap [mm]
       real(wp), intent(in) :: smallest
       !> See `choose_by_corners`
       integer, intent(inout) :: first(:), last(:)
-      !> Lower bounds of the gaps of rows [mm]
+      !> Lower bounds of the gap in each row [mm]
       real(wp), intent(inout) :: least(:)
-      !> How often a smaller gap is looked for where the bound is lowest, and by how much it may be larger than the bound [mm]
+      !> Maximum number of cells with lowest bound that are evaluated to find a smaller gap, and accepted difference of gap and
+      !> bound [mm]
       integer, parameter :: tries = 20
       real(wp), parameter :: near_enough = 0.05_wp
       real(wp), allocatable :: low(:, :)
@@ -180,13 +182,13 @@ contains
 
    contains
 
-      !> Beyond the reach of the search on one side: the smallest gap, if it is one that may close
+      !> Smallest gap on one side outside the range of the search, if it may close
       subroutine look_beyond(side)
-         !> Sign along the track
+         !> Side along the track, -1 or 1
          integer, intent(in) :: side
-         !> Cells are as long as so many of the coarse mesh; in most cases the first ones are enough
+         !> Length of cells in cells of the coarse mesh, in two attempts; usually the first one is sufficient
          integer, parameter :: together(2) = [8, 2]
-         !> An overlap is told as it is found after so many cells more
+         !> Number of further cells that are evaluated after an overlap was found
          integer, parameter :: enough = 5
          real(wp), allocatable :: edges(:), beyond(:, :)
          integer :: n, i, k
@@ -211,21 +213,21 @@ contains
       end subroutine look_beyond
    end subroutine choose_by_bounds
 
-   !> Gaps of cells whose bound is lowest, until none can be smaller than what is known, or enough cells were looked at
+   !> Evaluate the gap in cells with lowest bounds, until no smaller gap is possible, or the maximum number of cells is reached
    subroutine look_closer(bodies, edges, y, low, step, margin, most, smallest, place, without_swings)
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> Ends of cells, and rows [mm]
+      !> Ends of the cells, and positions of the rows [mm]
       real(wp), intent(in) :: edges(:), y(:)
-      !> Lower bounds [mm], shape (cells, rows)
+      !> Lower bounds of the gap [mm], shape (cells, rows)
       real(wp), intent(in) :: low(:, :)
-      !> Fine mesh along the track; gaps that are smaller by less than the margin do not matter [mm]
+      !> Step of the fine mesh along the track; improvements of the smallest gap below the margin are ignored [mm]
       real(wp), intent(in) :: step, margin
-      !> Cells that are looked at after one that is nearer than `smallest`; with a margin in all
+      !> Maximum number of cells after the first one below `smallest`; with a margin, of all cells
       integer, intent(in) :: most
-      !> What is known on entry, what is found on exit [mm], and its place x, y if it is smaller
+      !> Smallest known gap on entry, smallest gap found on exit [mm], and its position x, y if it is smaller
       real(wp), intent(inout) :: smallest
       real(wp), intent(inout) :: place(2)
-      !> Leave out what a rail makes of sudden changes between slices? It was told when the rail was read
+      !> Exclude overshoot of a rail at sudden changes between slices? A warning was given when the rail was read
       logical, intent(in) :: without_swings
       type(slice_pair) :: slices
       real(wp) :: waiting(size(low, 1), size(low, 2)), least(size(low, 2))
@@ -244,7 +246,7 @@ contains
          cell(2) = minloc(least, 1)
          if (least(cell(2)) >= min(smallest - margin, 0.5_wp*no_surface)) exit
          cell(1) = minloc(waiting(:, cell(2)), 1)
-         ! most sections are made for nothing, so a few come first
+         ! most sections are used only once, so a coarser step is tried first
          do stride = merge(few, 1, mod(n, few) == 0), 1, -(few - 1)
             x = edges(cell(1)) + [(i*step, i=0, n, stride)]
             row = no_surface
@@ -269,10 +271,10 @@ contains
       end do
    end subroutine look_closer
 
-   !> Lateral range of a rail that varies: of its sections at some places
+   !> Lateral range of a rail that varies, from its sections at some positions
    function lateral_range(bodies, x) result(range)
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> [mm]
+      !> Positions along the track [mm]
       real(wp), intent(in) :: x(:)
       real(wp) :: range(2), one(2)
       integer :: i, k
@@ -295,14 +297,14 @@ contains
       if (range(1) > range(2)) range = 0.0_wp
    end function lateral_range
 
-   !> Lateral positions that a rail has between its sections and beyond their range, in whole steps
+   !> Extend the lateral range to positions that a rail has between its sections, in whole steps
    subroutine widen_rows(along, range_x, step, range)
       type(strip), intent(in) :: along
-      !> Of the track [mm], and the step [mm]
+      !> Range along the track [mm], and lateral step [mm]
       real(wp), intent(in) :: range_x(2), step
-      !> In track coordinates [mm]
+      !> Lateral range in track coordinates [mm]
       real(wp), intent(inout) :: range(2)
-      !> Boxes are a little wider than what they hold: less than this part of a step is left out
+      !> Bounding boxes are slightly larger than the surface: extensions by less than this fraction of a step are ignored
       real(wp), parameter :: least = 0.1_wp
       real(wp) :: wide(2), top
 
@@ -311,14 +313,14 @@ contains
       range(2) = range(2) + step*max(0, ceiling((wide(2) - range(2))/step - least))
    end subroutine widen_rows
 
-   !> Place and value of the smallest gap along the track at each lateral position; the rail there
+   !> Position and value of the smallest gap along the track at each lateral position, and height and inclination of the rail there
    subroutine find_smallest(bodies, gap, table, first, last, xc, corner)
       type(wheel_rail_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
-      !> Gaps of the fine mesh [mm], shape (x, y), and where they are in each row
+      !> Gaps on the fine mesh [mm], shape (x, y), and first and last point in each row
       real(wp), intent(in) :: table(:, :)
       integer, intent(in) :: first(:), last(:)
-      !> Places along the track and gaps of the coarse mesh [mm], shape (x, y), for rows without points
+      !> Positions along the track and gaps of the coarse mesh [mm], shape (x, y), for rows without points
       real(wp), intent(in) :: xc(:), corner(:, :)
       type(frame) :: track, seen
       real(wp) :: place, wheel
@@ -351,7 +353,7 @@ contains
    !> Smallest gap between two rows of the coarse mesh
    pure subroutine smallest_between(x, corner, row, place, lowest)
       real(wp), intent(in) :: x(:), corner(:, :)
-      !> Counted from 0 at the first one
+      !> Position of the row, in coarse steps from the first one
       real(wp), intent(in) :: row
       real(wp), intent(out) :: place, lowest
       real(wp) :: g(size(x)), t
@@ -366,10 +368,10 @@ contains
       lowest = g(i)
    end subroutine smallest_between
 
-   !> Inclinations of the rail across the track at the places of the smallest gap [rad], by differences; one-sided at ends
+   !> Inclinations of the rail across the track at the positions of the smallest gap [rad], by finite differences; one-sided at ends
    !>
-   !> They belong to the section of the contact: wheel and rail share their tangent there, and the plane of a patch holds
-   !> the direction of the track. The section below the axle is taken on request only (doc/theory/wheel_rail.md).
+   !> They are those of the section at the contact: wheel and rail have a common tangent there, and the plane of a patch contains
+   !> the direction of the track. The section below the axle is used on request only (doc/theory/wheel_rail.md).
    subroutine find_inclinations(bodies, gap)
       type(wheel_rail_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
@@ -397,13 +399,13 @@ contains
       end do
    end subroutine find_inclinations
 
-   !> How much more the rail is inclined at a place of contact than in the section below the axle [rad]; 0 where either is missing
+   !> Inclination of the rail at a position of contact minus that in the section below the axle [rad]; 0 if either is missing
    real(wp) function turn_of_rail(bodies, x, y) result(turn)
-      !> Sections of rail and wheel, and where they are; sections that are needed are made
+      !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
-      !> The place in track coordinates [mm]
+      !> Position in track coordinates [mm]
       real(wp), intent(in) :: x, y
-      !> Distance of the points whose heights are compared [mm]
+      !> Distance of the points of the finite differences [mm]
       real(wp), parameter :: step = 0.1_wp
       real(wp) :: height(2, 2), place, slope
       logical :: there(2, 2)
@@ -420,21 +422,21 @@ contains
       if (all(there)) turn = atan((height(2, 2) - height(1, 2))/step) - atan((height(2, 1) - height(1, 1))/step)
    end function turn_of_rail
 
-   !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
+   !> Distance of the undeformed bodies above a plane [mm], shifted to a minimum of zero, and the approach
    subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)
-      !> Sections of rail and wheel, and where they are; sections that are needed are made
+      !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
       !> See `settle_distance`
       logical, intent(in) :: joined
-      !> Centres of the elements
+      !> Grid of elements
       type(potential_contact), intent(in) :: grid
-      !> Shape (mx, my)
+      !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> See `settle_distance`
       real(wp), intent(out) :: approach
-      !> Elements that are left out, as for `settle_distance`
+      !> Number of excluded elements, see `settle_distance`
       integer, intent(out) :: strangers
       type(frame) :: seen
       real(wp) :: x(grid%mx), n_wheel(grid%mx), n_rail(grid%mx)

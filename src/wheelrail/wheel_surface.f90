@@ -1,6 +1,6 @@
-!> Where lines meet the surface of a round wheel
+!> Intersection of lines with the surface of a round wheel
 !>
-!> Found by Newton's method for place on the profile and height above a plane, so that the height is as smooth as the profile.
+!> Newton's method for the position on the profile and the height above a plane; the height is as smooth as the profile.
 module contact_wheelrail_wheel_surface
    use contact_base_kinds, only : wp
    use contact_numeric_spline, only : piece_of
@@ -11,31 +11,31 @@ module contact_wheelrail_wheel_surface
 
    public :: row_from_estimates, wheel_height, wheel_row
 
-   !> Of a step of Newton's method, relative to the radius: what remains after it is of the order of its square
+   !> Tolerance of a Newton step, relative to the radius: the remaining error is of the order of its square
    real(wp), parameter :: tolerance = 1.0e-8_wp
-   !> Points of a row that are found at once
+   !> Number of points of a row that are solved together
    integer, parameter :: together = 8
 
 contains
 
-   !> Heights n of the wheel's surface over a row of points (x, s) of the plane
+   !> Heights n of the wheel's surface above a row of points (x, s) of the plane
    !>
-   !> Places and heights follow parabolas closely along the track: each point starts from the three before it, where possible
-   !> together with the next ones.
+   !> Positions and heights are nearly parabolic along the track: the estimate for each point is extrapolated from the last three
+   !> points, if possible for several points at once.
    pure subroutine wheel_row(wheel, radius, seen, x, s, start, place, n, found)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
       real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
+      !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
-      !> At even distances
+      !> Positions in the plane [mm], x equidistant
       real(wp), intent(in) :: x(:), s
-      !> Place on the profile and height: estimates for the first point
+      !> Estimates for the first point: position on the profile and height [mm]
       real(wp), intent(in) :: start(2)
-      !> Place on the profile and height of each point [mm], where they are found
+      !> Position on the profile and height of each point [mm], where they are found
       real(wp), intent(out) :: place(:), n(:)
-      !> Does the line along n meet the wheel there?
+      !> Does the line along n intersect the wheel?
       logical, intent(out) :: found(:)
       real(wp) :: after, bend(2), change(2)
       integer :: alone, i, k, known, piece
@@ -86,19 +86,19 @@ contains
       end do
    end subroutine wheel_row
 
-   !> A row with estimates for all of its points
+   !> A row with estimates for all points
    pure subroutine row_from_estimates(wheel, radius, seen, x, s, place, n, found)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
       real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
+      !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
       !> Positions in the plane [mm]
       real(wp), intent(in) :: x(:), s
-      !> Place on the profile and height of each point [mm], estimates on entry
+      !> Position on the profile and height of each point [mm], estimates on entry
       real(wp), intent(inout) :: place(:), n(:)
-      !> Does the line along n meet the wheel there?
+      !> Does the line along n intersect the wheel?
       logical, intent(out) :: found(:)
       real(wp), dimension(together) :: some_x, some_place, some_n
       integer :: i, k, last, piece
@@ -107,7 +107,7 @@ contains
       piece = 1
       do i = 1, size(x), together
          last = min(i + together - 1, size(x))
-         ! at the end of the row the last point stands for those that are missing
+         ! beyond the end of the row the last point is repeated
          do k = 1, together
             some_x(k) = x(min(i + k - 1, last))
             some_place(k) = place(min(i + k - 1, last))
@@ -128,22 +128,22 @@ contains
       end do
    end subroutine row_from_estimates
 
-   !> Some points of a row at once, all on one piece of the profile, by Newton's method
+   !> Solve several points of a row at once by Newton's method, if all of them are on one piece of the profile
    !>
-   !> Their equations do not wait for each other. Nothing is changed where one of the points needs more than this.
+   !> Their equations are independent and vectorise. Nothing is changed if one of the points does not converge in this way.
    pure subroutine meet_together(wheel, radius, seen, x, s, piece, place, n, done)
       !> See `wheel_row`
       type(profile_curve), intent(in) :: wheel
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: x(together), s
-      !> Piece of the profile that holds the estimates
+      !> Piece of the profile that contains the estimates
       integer, intent(in) :: piece
-      !> Place on the profile and height over each point [mm]: estimates on entry, solutions on exit
+      !> Position on the profile and height above each point [mm]: estimates on entry, solutions on exit
       real(wp), intent(inout) :: place(together), n(together)
-      !> Are all of them found?
+      !> Are all points found?
       logical, intent(out) :: done
-      !> Part of the radius that a point is away from the axle's plane at most, where it is not looked at by itself
+      !> Maximum distance of a point from the plane through the axle, relative to the radius; points beyond it are solved one by one
       real(wp), parameter :: near = 0.5_wp
       integer, parameter :: most_steps = 4
       real(wp), dimension(together) :: p, h, t, q1, q2, q3, y_s, z_s, r, depth, f1, f2, j21, j22, det
@@ -179,7 +179,7 @@ contains
             done = all(abs(det) > 0.0_wp)
             if (.not. done) return
             do i = 1, together
-               ! steps of place and height
+               ! steps of position and height
                t(i) = (f1(i)*j22(i) - along(2)*f2(i))/det(i)
                f2(i) = (-y_s(i)*f2(i) - f1(i)*j21(i))/det(i)
                p(i) = p(i) - t(i)
@@ -195,19 +195,19 @@ contains
       n = h
    end subroutine meet_together
 
-   !> Height n of the wheel's surface over a point (x, s) of the plane
+   !> Height n of the wheel's surface above a point (x, s) of the plane
    pure subroutine wheel_height(wheel, radius, seen, x, s, place, n, found)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Of the wheel at the origin of its profile [mm]
+      !> Radius of the wheel at the origin of its profile [mm]
       real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
+      !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
       !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
-      !> Estimates on entry, solution on exit
+      !> Position on the profile and height [mm]: estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
-      !> Does the line along n meet the wheel?
+      !> Does the line along n intersect the wheel?
       logical, intent(out) :: found
       integer :: piece
 
@@ -215,24 +215,24 @@ contains
       call meet_wheel(wheel, radius, seen%origin + seen%axes(:, 1)*x + seen%axes(:, 2)*s, seen%axes(:, 3), piece, place, n, found)
    end subroutine wheel_height
 
-   !> Where a line meets the surface of the wheel, in the wheel's coordinates
+   !> Intersection of a line with the surface of the wheel, in wheel coordinates
    !>
-   !> Unknown are the place on the profile and the distance n along the line: the point lies at the profile's lateral
-   !> position, and on the circle that this place describes.
+   !> Unknowns are the position on the profile and the distance n along the line: the point is at the lateral position of the
+   !> profile, and on the circle of this position.
    pure subroutine meet_wheel(wheel, radius, point, k, piece, place, n, found)
       type(profile_curve), intent(in) :: wheel
-      !> Of the wheel at the origin of its profile [mm]
+      !> Radius of the wheel at the origin of its profile [mm]
       real(wp), intent(in) :: radius
-      !> A point of the line [mm] and its direction
+      !> A point on the line [mm], and its direction
       real(wp), intent(in) :: point(3), k(3)
-      !> A piece of the profile to begin with; on exit that of the place
+      !> Estimate of the piece of the profile on entry, piece of the solution on exit
       integer, intent(inout) :: piece
-      !> Estimates on entry, solution on exit
+      !> Position on the profile and distance along the line [mm]: estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
       logical, intent(out) :: found
       real(wp) :: q(3), y, z, y_s, z_s, r, depth, f(2), j(2, 2), det, step(2), last
       integer :: iteration, pieces, beyond
-      !> Steps in a row that leave the profile, until the line is taken to miss it
+      !> Number of successive steps beyond the end of the profile after which the line is taken to miss it
       integer, parameter :: max_beyond = 4
 
       found = .false.
@@ -258,7 +258,7 @@ contains
             det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
             if (.not. abs(det) > 0.0_wp) return
             step = [f(1)*j(2, 2) - j(1, 2)*f(2), j(1, 1)*f(2) - f(1)*j(2, 1)]/det
-            ! not further than profiles bend
+            ! steps are limited because of the curvature of profiles
             step(1) = min(max(step(1), -5.0_wp), 5.0_wp)
             place = place - step(1)
             n = n - step(2)
@@ -271,7 +271,7 @@ contains
       end associate
    end subroutine meet_wheel
 
-   !> The piece that holds a place, near another piece or not
+   !> The piece that contains a position, starting from another piece
    pure integer function next_piece(nodes, piece, place) result(next)
       real(wp), intent(in) :: nodes(:), place
       integer, intent(in) :: piece
