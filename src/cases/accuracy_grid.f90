@@ -1,4 +1,5 @@
-!> The grids of an accuracy that was asked for: elements along both sides of the window, of the first grid and of the next ones
+!> Grids for a requested accuracy: numbers of elements along both sides of the potential contact, of the first grid and of the next
+!> ones
 module contact_cases_accuracy_grid
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : grid_form
@@ -12,27 +13,27 @@ module contact_cases_accuracy_grid
 
    public :: first_counts, is_worth, level_grid, next_counts, set_elements, sides_of_window, stay_below
 
-   !> A grid, and what cases are solved with on it
+   !> A grid and its solver tolerance
    type :: level_grid
-      !> Elements along x and y, and sides of the window [mm], 0 where these follow from Hertz's solution
+      !> Numbers of elements along x and y, and sides of the potential contact [mm], 0 if these follow from Hertz's solution
       integer :: counts(2) = 0
       real(wp) :: lengths(2) = 0.0_wp
-      !> Tolerance of the solvers
+      !> Tolerance of the solvers [-]
       real(wp) :: eps = 0.0_wp
    end type level_grid
 
-   !> Part of a given window, along each side, that contact takes before anything is known of it
+   !> Fraction of a given potential contact, along each side, that contact is assumed to fill before the first solution
    real(wp), parameter :: usual_share = 0.75_wp
-   !> A grid that has less than this factor more elements than the one before brings nothing
+   !> Minimum ratio of the number of elements to that of the previous grid; otherwise a new grid is not worth its cost
    real(wp), parameter :: worth = 1.3_wp
 
 contains
 
-   !> Sides of a window that is given; 0 where it follows from Hertz's solution
+   !> Sides of a given potential contact; 0 if it follows from Hertz's solution
    pure function sides_of_window(grid) result(lengths)
-      !> As the case describes it
+      !> Grid of the case
       type(grid_spec), intent(in) :: grid
-      !> [mm]
+      !> Sides [mm]
       real(wp) :: lengths(2)
 
       lengths = 0.0_wp
@@ -46,15 +47,15 @@ contains
       end select
    end function sides_of_window
 
-   !> Elements along both sides of the window of the first grid
+   !> Numbers of elements along both sides of the first grid
    pure subroutine first_counts(grid, across, lengths, counts)
-      !> As the case describes it
+      !> Grid of the case
       type(grid_spec), intent(in) :: grid
-      !> Elements across the contact
+      !> Requested number of elements across the contact
       real(wp), intent(in) :: across
-      !> Sides of the window [mm], 0 where they are not known yet
+      !> Sides of the potential contact [mm], 0 if not yet known
       real(wp), intent(out) :: lengths(2)
-      !> Elements along x and y
+      !> Numbers of elements along x and y
       integer, intent(out) :: counts(2)
       real(wp) :: sides(2)
 
@@ -67,17 +68,17 @@ contains
       end if
    end subroutine first_counts
 
-   !> Elements of the next grid, from where contact is
+   !> Numbers of elements of the next grid, from the position of the contact area
    pure subroutine next_counts(result, report, order, fixed, counts)
-      !> Of the present grid
+      !> Result on the present grid
       type(patch_result), intent(in) :: result
-      !> Its estimate, and what is asked
+      !> Its estimated error, and the requested one
       type(accuracy_report), intent(in) :: report
-      !> Of the error
+      !> Order of the error
       real(wp), intent(in) :: order
-      !> Numbers that stay, 0 for others
+      !> Numbers of elements that must not change, 0 for others
       integer, intent(in) :: fixed(2)
-      !> Elements along x and y
+      !> Numbers of elements along x and y
       integer, intent(out) :: counts(2)
       type(bounding_box) :: box
       real(wp) :: across(2), sides(2), size(2)
@@ -90,19 +91,19 @@ contains
       end if
       if (any(fixed > 0)) across = maxval(across, mask=fixed == 0)
       call shorten_aspect(across*size, finer_across(minval(across), report%estimated, report%asked, order), sides)
-      ! a direction with many elements already keeps them
+      ! a direction with many elements keeps its number
       sides = min(sides, size)
       counts = ceiling([result%grid%mx, result%grid%my]*size/sides)
       where (fixed > 0) counts = fixed
    end subroutine next_counts
 
-   !> Fewer elements where there are more than allowed
+   !> Reduce the numbers of elements if there are more than allowed
    pure subroutine stay_below(most, fixed, counts)
-      !> Allowed in all
+      !> Maximum total number of elements
       real(wp), intent(in) :: most
-      !> Numbers that stay, 0 for others
+      !> Numbers of elements that must not change, 0 for others
       integer, intent(in) :: fixed(2)
-      !> Elements along x and y
+      !> Numbers of elements along x and y
       integer, intent(inout) :: counts(2)
       real(wp) :: ratio
 
@@ -112,21 +113,21 @@ contains
       where (fixed == 0) counts = max(1, int(ratio*counts))
    end subroutine stay_below
 
-   !> Has the next grid enough more elements?
+   !> Does the next grid have sufficiently more elements?
    pure logical function is_worth(counts, next)
-      !> Elements of both grids
+      !> Numbers of elements of both grids
       integer, intent(in) :: counts(2), next(2)
 
       is_worth = real(next(1), wp)*next(2) >= worth*real(counts(1), wp)*counts(2)
    end function is_worth
 
-   !> The numbers of elements of a grid, in the same window
+   !> Set the numbers of elements of a grid in the same potential contact
    pure subroutine set_elements(grid, counts, lengths)
-      !> As the case describes it
+      !> Grid of the case
       type(grid_spec), intent(inout) :: grid
-      !> Elements along x and y
+      !> Numbers of elements along x and y
       integer, intent(in) :: counts(2)
-      !> Sides of the window [mm]; not used where it follows from Hertz's solution
+      !> Sides of the potential contact [mm]; not used if it follows from Hertz's solution
       real(wp), intent(in) :: lengths(2)
       real(wp) :: corner(2), sides(2)
 

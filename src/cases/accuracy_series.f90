@@ -1,7 +1,7 @@
-!> Cases that continue one another, each to an accuracy that was asked for
+!> Series of cases that continue one another, each with a requested accuracy
 !>
-!> Tractions of the case before stand on the elements of that case. So all cases of a series have the same elements; where one of
-!> them needs finer ones, those before it are solved once more. See doc/theory/accuracy.md.
+!> The tractions of the previous case are defined on its elements. All cases of a series therefore have the same elements; if one of
+!> them needs finer elements, the preceding ones are solved again. See doc/theory/accuracy.md.
 module contact_cases_accuracy_series
    use contact_base_choices, only : motion, time_link
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -13,29 +13,29 @@ module contact_cases_accuracy_series
 
    public :: accuracy_series, has_history
 
-   !> The cases of a series, as they were asked for, and the grid that all of them stand on
+   !> The cases of a series, as requested, and their common grid
    type :: accuracy_series
-      !> The first `used` ones are filled
+      !> Cases; the first `used` ones are in use
       type(case_spec), allocatable :: steps(:)
       integer :: used = 0
-      !> That of the solution that the session holds, without elements: it holds none of this series
+      !> Grid of the solution that the session holds; without elements if it holds none of this series
       type(level_grid) :: grid
    contains
-      !> Forget all cases
+      !> Remove all cases
       procedure :: clear
-      !> Take in a case that is solved, behind those that it continues
+      !> Add a solved case after those that it continues
       procedure :: take
-      !> Number of the cases before one that continues the series
+      !> Number of preceding cases that a case continues
       procedure :: before
       !> Does the session hold the solution that a case continues, on this grid?
       procedure :: is_at
-      !> Refuse a case that the series cannot be continued with, by name
+      !> Refuse a case that cannot continue the series, with the reason
       procedure :: refuse
    end type accuracy_series
 
 contains
 
-   !> Does what is solved depend on the case before?
+   !> Does the solution depend on the previous case?
    pure logical function has_history(spec)
       type(case_spec), intent(in) :: spec
 
@@ -51,9 +51,9 @@ contains
 
    subroutine take(self, spec, grid)
       class(accuracy_series), intent(inout) :: self
-      !> As it was asked for
+      !> Case as requested
       type(case_spec), intent(in) :: spec
-      !> That of the solution
+      !> Grid of the solution
       type(level_grid), intent(in) :: grid
       type(case_spec), allocatable :: longer(:)
       integer :: k, link
@@ -61,7 +61,7 @@ contains
       k = self%before(spec) + 1
       link = time_link%initiate
       if (has_history(spec)) link = spec%link
-      ! a repeated step takes the place of the one before
+      ! a repeated step replaces the previous one
       if (link == time_link%repeat_step) link = self%steps(k)%link
       if (.not. allocated(self%steps)) allocate(self%steps(8))
       if (k > size(self%steps)) then
@@ -88,10 +88,10 @@ contains
    pure logical function is_at(self, spec, grid)
       class(accuracy_series), intent(in) :: self
       type(case_spec), intent(in) :: spec
-      !> That of the next solution
+      !> Grid of the next solution
       type(level_grid), intent(in) :: grid
 
-      ! a repeated step goes on from where the one before went on from
+      ! a repeated step starts from the same state as the previous one
       is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%grid%counts == grid%counts) &
          & .and. self%grid%eps <= grid%eps .and. all(is_same(self%grid%lengths, grid%lengths)))
    end function is_at
@@ -99,7 +99,7 @@ contains
    subroutine refuse(self, spec, error)
       class(accuracy_series), intent(in) :: self
       type(case_spec), intent(in) :: spec
-      !> Allocated when it does not go
+      !> Allocated if the case cannot continue the series
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: why
 
@@ -116,7 +116,7 @@ contains
          & error_kind%unsupported)
    end subroutine refuse
 
-   !> Do two cases describe the same window?
+   !> Do two cases have the same potential contact?
    pure logical function is_same_window(first, other) result(same)
       type(grid_spec), intent(in) :: first, other
       type(grid_spec) :: a, b
@@ -130,10 +130,10 @@ contains
       same = all(is_same([a%xl, a%yl, a%xc1, a%yc1], [b%xl, b%yl, b%xc1, b%yc1]))
    end function is_same_window
 
-   !> Are two numbers the same within round-off?
+   !> Are two numbers equal within round-off?
    elemental logical function is_same(a, b)
       real(wp), intent(in) :: a, b
-      !> Relative; sums and products of numbers of the input
+      !> Relative difference; for sums and products of input values [-]
       real(wp), parameter :: slack = 1.0e-9_wp
 
       is_same = abs(a - b) <= slack*max(abs(a), abs(b))

@@ -1,8 +1,8 @@
-!> Simplified methods in place of the full theory, where their error is known and below what is asked, and only by permission
+!> Simplified methods that replace the full theory if their error is known to be below the requested one, and if the user allows it
 !>
-!> Errors are the largest of FX, FY, MZ, FN or approach, and creepages that are found, over random ellipses with semi-axes of 1/5 to
-!> 5 to each other, from adhesion to full sliding, against the full theory on fine grids: tests/accuracy/approximate.py, with some
-!> room above the largest that was seen. See doc/theory/accuracy.md.
+!> Errors are the maximum of those of FX, FY, MZ, FN or approach, and creepages that are found, over random ellipses with ratios of
+!> semi-axes from 1/5 to 5, from adhesion to full sliding, compared with the full theory on fine grids:
+!> tests/accuracy/approximate.py, with a margin above the largest value found. See doc/theory/accuracy.md.
 module contact_cases_approximate_methods
    use contact_base_accuracy_report, only : longest_method
    use contact_base_choices, only : force_control, kernel_model, material_model, motion, pressure_model, slip_source, variation
@@ -19,35 +19,36 @@ module contact_cases_approximate_methods
 
    public :: approximate_method, choose_method, take_method
 
-   !> What may take the place of the full theory where an accuracy is asked for: words of the readable format and the command line
+   !> Values of the option that allows simplified methods with a requested accuracy: words of the readable format and the command
+   !> line
    character(len=*), parameter, public :: allowances(2) = [character(len=11) :: "nothing", "approximate"]
 
-   !> Kinds of contact that errors are known for
+   !> Kinds of contact with known errors
    type :: kind_list
-      !> None: what is not measured is not chosen
+      !> Unknown: no method is chosen
       integer :: unknown = 0
       !> Pressures only
       integer :: normal = 1
-      !> Steady rolling with given creepages: without spin; with less of it than creepage; with more
+      !> Steady rolling with given creepages: without spin; with less spin than creepage; with more spin
       integer :: no_spin = 2, little_spin = 3, much_spin = 4
-      !> Steady rolling with given forces, and without spin
+      !> Steady rolling with given forces and without spin
       integer :: forces = 5
    end type kind_list
    type(kind_list), parameter :: kind_of_contact = kind_list()
 
-   !> A method on a grid, and its largest error in contacts of a kind
+   !> A method on a grid, and its maximum error for a kind of contact
    type :: measured_method
       !> Member of kind_of_contact
       integer :: kind = 0
-      !> Member of material_model: elastic where there are pressures only
+      !> Member of material_model; elastic for pressures only
       integer :: model = material_model%elastic
-      !> Elements along each side of the ellipse
+      !> Number of elements across the ellipse in each direction
       integer :: elements = 20
-      !> Largest relative error of the forces [-]
+      !> Maximum relative error of the forces [-]
       real(wp) :: error = 0.0_wp
    end type measured_method
 
-   !> What was measured; the first one of a kind that is exact enough is chosen, which is the quickest
+   !> Measured errors; for each kind, methods are in order of increasing time, and the first one that is accurate enough is chosen
    type(measured_method), parameter :: measured(*) = [ &
       & measured_method(kind_of_contact%normal, material_model%elastic, 20, 1.0e-5_wp), &
       & measured_method(kind_of_contact%no_spin, material_model%fastrip, 20, 0.055_wp), &
@@ -55,35 +56,36 @@ module contact_cases_approximate_methods
       & measured_method(kind_of_contact%much_spin, material_model%fastsim, 40, 0.12_wp), &
       & measured_method(kind_of_contact%forces, material_model%fastrip, 20, 0.09_wp)]
 
-   !> Ratios of semi-axes that were measured
+   !> Range of ratios of semi-axes in the measurement
    real(wp), parameter :: largest_ratio = 5.0_wp
-   !> Spin over spin and creepage, spin times the root of a b: what counts as none, and what as much
+   !> Bounds for the ratio of spin to spin and creepage, with spin times sqrt(a b): below the first one there is no spin, above the
+   !> second one much
    real(wp), parameter :: no_share = 1.0e-6_wp, much_share = 0.5_wp
-   !> Sines of angles of rolling that are along x
+   !> Sine of the maximum angle between rolling direction and x axis
    real(wp), parameter :: along_x = 1.0e-6_wp
 
-   !> What was chosen
+   !> Method that was chosen
    type :: approximate_method
-      !> Is there one?
+      !> Is there a suitable method?
       logical :: found = .false.
       type(measured_method) :: method
-      !> What is told, with blanks behind: the method and its error, or why there is none
+      !> Text for the log, blank-padded: the method and its error, or why there is none
       character(len=longest_method) :: words = ""
    end type approximate_method
 
 contains
 
-   !> The quickest method whose error is known to be below what is asked
+   !> Choose the fastest method whose error is known to be below the requested one
    subroutine choose_method(spec, chosen)
-      !> With an accuracy; of either module
+      !> Case with a requested accuracy, of either module
       type(case_spec), intent(in) :: spec
-      !> A method, or why there is none
+      !> A method, or the reason why there is none
       type(approximate_method), intent(out) :: chosen
       character(len=:), allocatable :: why
       integer :: kind, k
       real(wp) :: best
 
-      call judge(spec, kind, why)
+      call find_kind(spec, kind, why)
       best = huge(best)
       do k = 1, size(measured)
          if (measured(k)%kind /= kind) cycle
@@ -104,20 +106,20 @@ contains
       end if
    end subroutine choose_method
 
-   !> Kind of a contact, or why no error is known for it
-   subroutine judge(spec, kind, why)
+   !> Kind of a contact, or reason why no error is known for it
+   subroutine find_kind(spec, kind, why)
       type(case_spec), intent(in) :: spec
       !> Member of kind_of_contact
       integer, intent(out) :: kind
-      !> Where the kind is unknown
+      !> Reason; set if the kind is unknown
       character(len=:), allocatable, intent(out) :: why
 
       kind = kind_of_contact%unknown
       why = trim(reason_against(spec))
-      if (why == "") call judge_ellipse(spec, kind, why)
-   end subroutine judge
+      if (why == "") call find_kind_of_ellipse(spec, kind, why)
+   end subroutine find_kind
 
-   !> Why errors are not known for a case, whatever its ellipse, with blanks behind; blank where they may be
+   !> Reason why errors are not known for a case, independent of its ellipse, blank-padded; blank if there is none
    function reason_against(spec) result(why)
       type(case_spec), intent(in) :: spec
       character(len=longest_method) :: why
@@ -151,12 +153,12 @@ contains
       end if
    end function reason_against
 
-   !> Kind of a contact by its ellipse, its motion and its spin
-   subroutine judge_ellipse(spec, kind, why)
+   !> Kind of a contact by its ellipse, motion and spin
+   subroutine find_kind_of_ellipse(spec, kind, why)
       type(case_spec), intent(in) :: spec
       !> Member of kind_of_contact
       integer, intent(out) :: kind
-      !> Where the kind is unknown
+      !> Reason; set if the kind is unknown
       character(len=:), allocatable, intent(inout) :: why
       type(hertz_result), allocatable :: hertz
       type(error_type), allocatable :: error
@@ -186,9 +188,9 @@ contains
       kind = kind_of_contact%no_spin
       if (share > no_share) kind = kind_of_contact%little_spin
       if (share > much_share) kind = kind_of_contact%much_spin
-   end subroutine judge_ellipse
+   end subroutine find_kind_of_ellipse
 
-   !> Name of a method, with blanks behind
+   !> Name of a method, blank-padded
    pure function name_of(method) result(name)
       type(measured_method), intent(in) :: method
       character(len=18) :: name
@@ -203,7 +205,7 @@ contains
       end select
    end function name_of
 
-   !> A kind of contact in words, with blanks behind
+   !> Description of a kind of contact, blank-padded
    pure function title_of(kind) result(title)
       !> Member of kind_of_contact
       integer, intent(in) :: kind
@@ -214,11 +216,11 @@ contains
       title = titles(kind)
    end function title_of
 
-   !> Make the choice part of a case
+   !> Apply the chosen method to a case
    pure subroutine take_method(chosen, spec)
-      !> Found
+      !> Method that was found
       type(approximate_method), intent(in) :: chosen
-      !> Gets the method, its pressures and its elements
+      !> Material model, pressures and elements are set
       type(case_spec), intent(inout) :: spec
 
       spec%pressure = pressure_model%elliptical

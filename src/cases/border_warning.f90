@@ -1,4 +1,4 @@
-!> Contact at the border of the potential contact or at the end of a profile, in words; what grid would be enough
+!> Warnings about contact at the border of the potential contact or at the end of a profile, with a sufficient grid
 module contact_cases_border_warning
    use contact_base_choices, only : motion, pressure_model, time_link
    use contact_base_error, only : error_type
@@ -22,15 +22,15 @@ module contact_cases_border_warning
 
    public :: beside_words, border_words, buried_words, is_same, warn_of_border, warn_of_buried_ends
 
-   !> Names of the ends of profiles by their y in a right-hand pair; the inner one is that towards the middle of the track
+   !> Names of the ends of profiles in increasing y of a right-hand pair; the inner end is next to the middle of the track
    character(len=5), parameter :: end_names(2) = ["inner", "outer"]
 
-   !> Longest text of `buried_words`
+   !> Maximum length of the result of `buried_words`
    integer, parameter :: buried_length = 160
 
-   !> Elements along each side of the grid on which the extent of the contact is estimated
+   !> Number of elements along each side of the grid on which the extent of the contact is estimated
    integer, parameter :: coarse = 40
-   !> Free elements beside the contact that a grid should have
+   !> Number of exterior elements beside the contact area that a grid should have
    integer, parameter :: spare = 2
 
 contains
@@ -38,14 +38,15 @@ contains
    !> Warn of contact that is cut off
    subroutine warn_of_border(spec, problem, result, log, patch, advised)
       type(case_spec), intent(in) :: spec
-      !> As it was solved
+      !> The problem that was solved
       type(patch_problem), intent(in) :: problem
-      !> Solved, with its `border`
+      !> Solution with `border`
       type(patch_result), intent(in) :: result
       type(log_type), intent(inout) :: log
-      !> Number of the contact patch of wheel and rail; absent for one contact problem
+      !> Index of the contact patch of wheel and rail; absent for module 3
       integer, intent(in), optional :: patch
-      !> Grid in whose place a larger one was named last, which takes some milliseconds: not again until it changes
+      !> Grid for which a larger one was recommended last: as the estimate takes some milliseconds, it is not repeated for the same
+      !> grid
       type(potential_contact), intent(inout), optional :: advised
       character(len=:), allocatable :: text, places, enough
       character(len=*), parameter :: cut_off = ": it is cut off, and pressures and forces are those of a smaller contact area"
@@ -59,7 +60,7 @@ contains
             if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
             call log%warning(text)
          else if (is_same(advised, problem%grid)) then
-            ! nothing more is built, as this may come with every case of a table
+            ! no further text is built, as this may occur in every case of a table
             call log%warning("contact reaches " // places // cut_off // needed)
          else
             call find_enough(spec, problem, result, enough)
@@ -69,18 +70,18 @@ contains
       end associate
    end subroutine warn_of_border
 
-   !> Are two grids the same?
+   !> Are two grids equal?
    pure logical function is_same(a, b)
-      !> Two rectangles of elements
+      !> Two grids
       type(potential_contact), intent(in) :: a, b
 
       is_same = a%mx == b%mx .and. a%my == b%my .and. all(abs([a%xl - b%xl, a%yl - b%yl, a%dx - b%dx, a%dy - b%dy]) <= 0.0_wp)
    end function is_same
 
-   !> Warn of places where wheel and rail overlap and no patch is
+   !> Warn of positions where wheel and rail overlap outside all patches
    subroutine warn_of_buried_ends(spec, wheel_rail, log)
       type(case_spec), intent(in) :: spec
-      !> Solved, with what the search has found
+      !> Result with the overlap found
       type(wheel_rail_result), intent(in) :: wheel_rail
       type(log_type), intent(inout) :: log
       character(len=buried_length) :: words
@@ -103,21 +104,21 @@ contains
       end if
    end subroutine warn_of_buried_ends
 
-   !> A coordinate to a hundredth of a millimetre
+   !> A coordinate, rounded to a hundredth of a millimetre
    pure function place_text(value) result(text)
-      !> [mm]
+      !> Coordinate [mm]
       real(wp), intent(in) :: value
       character(len=len(real_text(0.01_wp*nint(100.0_wp*value)))) :: text
 
       text = real_text(0.01_wp*nint(100.0_wp*value))
    end function place_text
 
-   !> Where an end of the wheel's profile stands within the rail
+   !> Description of an end of the wheel's profile that is within the rail
    function buried_words(spec, buried, number) result(words)
       type(case_spec), intent(in) :: spec
-      !> What the search has found there
+      !> The end that was found
       type(buried_end), intent(in) :: buried
-      !> 1: the inner end, 2: the outer one
+      !> 1: inner end, 2: outer end
       integer, intent(in) :: number
       character(len=buried_length) :: words
       real(wp) :: y
@@ -129,10 +130,10 @@ contains
          & place_text(buried%place(3)) // " mm"
    end function buried_words
 
-   !> Where wheel and rail overlap at another place along the track
+   !> Description of an overlap of wheel and rail at another position along the track
    function beside_words(spec, beside) result(words)
       type(case_spec), intent(in) :: spec
-      !> What the search has found
+      !> The overlap that was found
       type(buried_end), intent(in) :: beside
       character(len=buried_length) :: words
       real(wp) :: y
@@ -143,12 +144,12 @@ contains
          & ", y = " // place_text(y) // " mm as well, where no contact patch is"
    end function beside_words
 
-   !> Sides and ends in words; blank when there are none
+   !> Description of sides and ends; blank if there are none
    subroutine border_words(spec, border, words)
       type(case_spec), intent(in) :: spec
       !> Sides of the grid and ends of profiles that contact reaches
       type(border_contact), intent(in) :: border
-      !> Of any length, for messages
+      !> Text for messages
       character(len=:), allocatable, intent(out) :: words
       character(len=5), parameter :: body_names(2) = ["rail ", "wheel"]
       character(len=300) :: text
@@ -194,12 +195,12 @@ contains
       end subroutine add
    end subroutine border_words
 
-   !> What would be large enough, where the geometry is known beyond the potential contact
+   !> Describe a sufficient grid, if the geometry is known beyond the potential contact
    subroutine find_enough(spec, problem, result, text)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(in) :: result
-      !> The rest of a sentence, blank when it is not known
+      !> Remainder of a sentence, blank if no grid is known
       character(len=:), allocatable, intent(out) :: text
       type(potential_contact) :: extent
       integer :: low(2), high(2)
@@ -215,7 +216,7 @@ contains
       call estimate_extent(spec, problem, result, extent, found)
       if (.not. found) return
       associate (grid => problem%grid)
-         ! sides that are free now may not be when the contact is complete
+         ! sides that are free now may not be so for the complete contact
          low = max(0, spare + ceiling([(grid%xl - extent%xl)/grid%dx, (grid%yl - extent%yl)/grid%dy]))
          high = max(0, spare + ceiling([(extent%xl + extent%mx*extent%dx - grid%xl)/grid%dx - grid%mx, &
             & (extent%yl + extent%my*extent%dy - grid%yl)/grid%dy - grid%my]))
@@ -229,7 +230,7 @@ contains
       end associate
    end subroutine find_enough
 
-   !> Size of a grid relative to a Hertzian ellipse that leaves elements free beside it
+   !> Size of a grid relative to a Hertzian ellipse that leaves exterior elements beside it [-]
    pure real(wp) function enough_scale(grid) result(scale)
       type(grid_spec), intent(in) :: grid
       integer :: n
@@ -241,20 +242,20 @@ contains
       scale = 0.01_wp*ceiling(100.0_wp*scale)
    end function enough_scale
 
-   !> Extent of the contact without the limit of the potential contact, as a grid of one element with some room
+   !> Extent of the contact without the limit of the potential contact, as a grid of one element with a margin
    !>
-   !> Contact lies where the undeformed distance is below the approach. With the force prescribed, the approach that was
-   !> found is too large rather than too small, because part of the contact is missing. The frictionless problem is solved
-   !> on coarse grids, first over all of that area, then over the contact that was found there.
+   !> The contact area is within the area where the undeformed distance is below the approach. With prescribed force the approach of
+   !> the present solution is an upper bound, because part of the contact is missing. The frictionless problem is solved on coarse
+   !> grids, first on this whole area, then around the contact area found there.
    subroutine estimate_extent(spec, problem, result, extent, found)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(in) :: result
       type(potential_contact), intent(out) :: extent
       logical, intent(out) :: found
-      !> Steps by half of the width until the surfaces are apart
+      !> Maximum number of steps by half of the width until the surfaces are apart
       integer, parameter :: max_steps = 30
-      !> Solutions on coarse grids until one of them is free at its border
+      !> Maximum number of solutions on coarse grids until one has exterior elements at its border
       integer, parameter :: max_passes = 8
       type(patch_problem) :: trial
       type(potential_contact) :: grid
@@ -265,7 +266,7 @@ contains
       integer :: k
 
       found = .false.
-      call prepare(problem, trial)
+      call set_normal_problem(problem, trial)
       grid = with_coarse_elements(problem%grid)
       do k = 1, max_steps
          call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
@@ -296,12 +297,12 @@ contains
       end do
    end subroutine estimate_extent
 
-   !> A box of elements with some more on each side, divided into as many elements as before; directions of less than 3
-   !> elements stay
+   !> Box of elements, extended on each side, divided into the same number of elements; directions with less than 3 elements do not
+   !> change
    pure function around(grid, box, more) result(new)
       type(potential_contact), intent(in) :: grid
       type(bounding_box), intent(in) :: box
-      !> Elements of the grid on each side
+      !> Additional elements on each side
       integer, intent(in) :: more
       type(potential_contact) :: new
 
@@ -316,7 +317,7 @@ contains
       end if
    end function around
 
-   !> The same potential contact in few elements
+   !> The same potential contact with few elements
    pure function with_coarse_elements(grid) result(new)
       type(potential_contact), intent(in) :: grid
       type(potential_contact) :: new
@@ -328,8 +329,8 @@ contains
       new%dy = grid%dy*grid%my/new%my
    end function with_coarse_elements
 
-   !> The normal problem alone, without what belongs to motion and to the grid
-   subroutine prepare(problem, trial)
+   !> The normal problem alone, without data of motion and grid
+   subroutine set_normal_problem(problem, trial)
       type(patch_problem), intent(in) :: problem
       type(patch_problem), intent(out) :: trial
 
@@ -339,9 +340,9 @@ contains
       trial%force_prescribed = problem%force_prescribed
       trial%fn = problem%fn
       trial%pen = problem%pen
-   end subroutine prepare
+   end subroutine set_normal_problem
 
-   !> Rectangle of elements in contact
+   !> Bounding box of the elements in contact
    subroutine find_contact(problem, box, found)
       type(patch_problem), intent(in) :: problem
       type(bounding_box), intent(out) :: box

@@ -1,4 +1,4 @@
-!> Files of influence coefficients that were computed elsewhere (C = 9)
+!> Files of influence coefficients computed by other programs (C = 9)
 !>
 !>     NMATRIX  IACONVEX               1 or MY matrices; body with the convex surface, for the reader only
 !>     LQUASID  XYZORDER               0 312
@@ -7,9 +7,9 @@
 !>     IMATRIX  XCENTR  YCENTR         before each matrix if there are several
 !>     IXOFS  XREL  CZZ CZX CZY  CXZ CXX CXY  CYZ CYX CYY
 !>
-!> with a line for each offset in x, 0 to MXFILE-1, and that for each offset in y, -(MYFILE-1) to MYFILE-1.
-!> Below the heading lines that do not begin with a number are captions, however many there are. Lines
-!> count by their order. Coefficients are multiplied with the combined modulus of rigidity.
+!> with one line for each offset in x, 0 to MXFILE-1, and for each offset in y, -(MYFILE-1) to MYFILE-1. After the heading, lines
+!> that do not begin with a number are captions, in any number. Lines are identified by their order. Coefficients are multiplied
+!> with the combined modulus of rigidity.
 module contact_cases_coefficient_file
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -24,26 +24,26 @@ module contact_cases_coefficient_file
 
    public :: read_coefficients, read_whole_table
 
-   !> Numbers on a line of coefficients, and on a line that begins a matrix
+   !> Number of values on a line of coefficients, and on the first line of a matrix
    integer, parameter :: line_length = 11, heading_length = 3
-   !> What the columns of coefficients are called
+   !> Names of the columns of coefficients
    character(len=3), parameter :: names(3:line_length) = ["CZZ", "CZX", "CZY", "CXZ", "CXX", "CXY", "CYZ", "CYX", "CYY"]
-   !> Sides of elements may differ by this much [mm]
+   !> Tolerance for the sides of elements [mm]
    real(wp), parameter :: spacing_tolerance = 1.0e-5_wp
-   !> Most rows or columns, and most coefficients of a case
+   !> Maximum number of rows or columns, and maximum number of coefficients of a case
    integer, parameter :: max_rows = 100000
    real(wp), parameter :: max_coefficients = 5.0e8_wp
 
 contains
 
-   !> Read the coefficients that a grid needs, and warn when the file has fewer or more
+   !> Read the coefficients that a grid needs, with a warning if the file has fewer or more
    subroutine read_coefficients(text, grid, gg, table, log, error)
-      !> The file, open at its first line
+      !> The file, positioned at its first line
       type(input_lexer), intent(inout) :: text
       type(potential_contact), intent(in) :: grid
       !> Combined modulus of rigidity [N/mm2]
       real(wp), intent(in) :: gg
-      !> Coefficients of all distances on the grid
+      !> Coefficients for all offsets on the grid
       type(influence_table), intent(out) :: table
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -56,22 +56,22 @@ contains
          & " elements, the case has " // integer_text(grid%mx) // " by " // integer_text(grid%my)
       if (mx < grid%mx .or. my < grid%my) call log%warning(sizes // ": coefficients at larger distances are 0")
       if (mx > grid%mx .or. my > grid%my) call log%warning(sizes // ": coefficients at larger distances are not used")
-      ! with one column more than the grid has, for the shift of one element in steady rolling
+      ! one column more than the grid has, for the shift by one element in steady rolling
       table%nx = grid%mx
       table%ny = grid%my - 1
       table%y_first = grid%y(1)
       call fill_table(text, matrices, mx, my, gg, table, error)
    end subroutine read_coefficients
 
-   !> Read all coefficients of a file with one matrix, for grids whose size is not known yet
+   !> Read all coefficients of a file with one matrix, for grids whose size is not yet known
    subroutine read_whole_table(text, sides, gg, table, log, error)
-      !> The file, open at its first line
+      !> The file, positioned at its first line
       type(input_lexer), intent(inout) :: text
       !> Sides of the elements of wheel on rail, DX and DS [mm]
       real(wp), intent(in) :: sides(2)
       !> Combined modulus of rigidity [N/mm2]
       real(wp), intent(in) :: gg
-      !> Coefficients of all distances in the file
+      !> Coefficients for all offsets in the file
       type(influence_table), intent(out) :: table
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -84,14 +84,14 @@ contains
       call fill_table(text, matrices, mx, my, gg, table, error)
    end subroutine read_whole_table
 
-   !> The coefficients below the heading, for the offsets that a table is made for
+   !> Read the coefficients after the heading, for the offsets of a table
    subroutine fill_table(text, matrices, mx, my, gg, table, error)
       type(input_lexer), intent(in) :: text
-      !> Number of matrices, columns and rows in the file
+      !> Numbers of matrices, columns and rows in the file
       integer, intent(in) :: matrices, mx, my
       !> Combined modulus of rigidity [N/mm2]
       real(wp), intent(in) :: gg
-      !> With its range of offsets
+      !> Table with its range of offsets
       type(influence_table), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
@@ -108,21 +108,21 @@ contains
       call check_table(text, table, error)
       if (allocated(error)) return
       table%c = table%c/gg
-      ! beyond the last column of a file that just covers the grid: like 1/distance
+      ! extrapolation beyond the last column of a file that just covers the grid: proportional to 1/distance
       if (mx == table%nx) table%c(mx, :, :, :) = table%c(mx - 1, :, :, :)*(mx - 1)/mx
-      ! odd in x
+      ! components that are odd in x
       table%c(0, :, [2, 4, 6, 8], :) = 0.0_wp
    end subroutine fill_table
 
-   !> The four groups above the coefficients
+   !> Read the four groups before the coefficients
    subroutine read_heading(text, sides, side_names, rows, matrices, mx, my, log, error)
       type(input_lexer), intent(inout) :: text
-      !> Sides of the elements of the case [mm], and what they are called
+      !> Sides of the elements of the case [mm], and their names
       real(wp), intent(in) :: sides(2)
       character(len=2), intent(in) :: side_names(2)
-      !> Rows of the grid; 0: patches are found and have none in advance
+      !> Number of rows of the grid; 0: patches, whose number of rows is not known in advance
       integer, intent(in) :: rows
-      !> Number of matrices, rows and columns in the file
+      !> Numbers of matrices, columns and rows in the file
       integer, intent(out) :: matrices, mx, my
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -163,7 +163,7 @@ contains
       subroutine accept(value, good, words)
          type(input_value), intent(in) :: value
          integer, intent(in) :: good(:)
-         !> What stands before the accepted values
+         !> Text before the accepted values
          character(len=*), intent(in), optional :: words
          character(len=:), allocatable :: list
 
@@ -185,7 +185,7 @@ contains
 
       subroutine accept_side(value, side, name)
          type(input_value), intent(in) :: value
-         !> Side of the elements of the case [mm], and what it is called
+         !> Side of the elements of the case [mm], and its name
          real(wp), intent(in) :: side
          character(len=*), intent(in) :: name
 
@@ -195,10 +195,10 @@ contains
       end subroutine accept_side
    end subroutine read_heading
 
-   !> All coefficients, not yet divided by the modulus
+   !> Read all coefficients, before the division by the modulus
    subroutine read_matrices(text, matrices, mx, my, table, error)
       type(input_lexer), intent(in) :: text
-      !> Number of matrices, columns and rows in the file
+      !> Numbers of matrices, columns and rows in the file
       integer, intent(in) :: matrices, mx, my
       type(influence_table), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
@@ -238,7 +238,7 @@ contains
 
    contains
 
-      !> What should come next
+      !> Description of the expected line
       function expected() result(words)
          character(len=120) :: words
 
@@ -253,12 +253,12 @@ contains
       end subroutine refuse
    end subroutine read_matrices
 
-   !> Numbers of a line; none when it does not begin with a number
+   !> Read the values of a line; none if it does not begin with a number
    subroutine read_line(text, line, values, n, first, error)
       type(input_lexer), intent(in) :: text
       integer, intent(in) :: line
       real(wp), intent(out) :: values(line_length)
-      !> Number of values on the line, and column of the first
+      !> Number of values on the line, and column of the first one
       integer, intent(out) :: n, first
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: words, complaint
@@ -301,7 +301,7 @@ contains
       end do
    end subroutine read_line
 
-   !> An element yields to its own load, more than any other element does
+   !> Check that the displacement of an element by its own load is the largest one
    subroutine check_table(text, table, error)
       type(input_lexer), intent(in) :: text
       type(influence_table), intent(in) :: table

@@ -1,4 +1,4 @@
-!> The archive that collects the names and the values of a group, for tables and to count them
+!> Archive that collects the names and values of a group, for tables and to count them
 module contact_cases_collector
    use contact_base_choices, only : variation
    use contact_base_kinds, only : wp
@@ -11,14 +11,14 @@ module contact_cases_collector
 
    public :: collector, friction_numbers
 
-   !> Length of a name
+   !> Maximum length of a name
    integer, parameter, public :: collected_length = 13
 
-   !> What it has seen so far; texts do not count
+   !> Names and values so far; texts are not included
    type, extends(case_archive) :: collector
-      !> Names as in the input files; the numbers of a list share one
+      !> Names as in the input files; the values of a list have the same name
       character(len=collected_length), allocatable :: names(:)
-      !> In internal units
+      !> Values in internal units
       real(wp), allocatable :: values(:)
    contains
       procedure :: end_line => collect_line
@@ -27,14 +27,14 @@ module contact_cases_collector
 
 contains
 
-   !> The numbers of one set of friction parameters, and those of the friction memory
+   !> Values of one set of friction parameters, and those of the friction memory
    subroutine friction_numbers(a, law, set, memory)
       !> Empty on entry
       type(collector), intent(inout) :: a
-      !> Member of friction_model; other numbers have none
+      !> Member of friction_model; other numbers have no values
       integer, intent(in) :: law
       type(friction_set), intent(in) :: set
-      !> With the memory, where the law has one; absent: without
+      !> Friction with its memory, if the law has one; absent: without memory
       type(friction_spec), intent(in), optional :: memory
       type(friction_set), target :: here
       type(friction_spec), target :: copy
@@ -47,7 +47,7 @@ contains
       call visit_friction_memory(a, law, copy)
    end subroutine friction_numbers
 
-   !> Keep the items in hand
+   !> Store the current items
    subroutine collect_line(self)
       class(collector), intent(inout) :: self
       character(len=collected_length) :: names(self%count)
@@ -68,7 +68,7 @@ contains
       call self%finish_line()
    end subroutine collect_line
 
-   !> Keep a list
+   !> Store a list
    subroutine collect_list(self, name, values, n, units, bounds)
       class(collector), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -82,7 +82,7 @@ contains
       if (allocated(values)) call keep(self, spread(name, 1, size(values)), values)
    end subroutine collect_list
 
-   !> Some numbers behind the others
+   !> Append names and values
    subroutine keep(self, names, values)
       class(collector), intent(inout) :: self
       character(len=*), intent(in) :: names(:)

@@ -1,6 +1,7 @@
-!> What a case that goes on from the one before, or keeps what belongs to a grid, asks of its own grid
+!> Conditions on the grid of a case that continues the previous one, or keeps data that depend on the grid
 !>
-!> Readers of input tell it at its place, the library when it calculates. A text that is not allocated means that all is well.
+!> Readers of input report violations with their position, the library reports them on calculation. An unallocated text means that
+!> there is no violation.
 module contact_cases_continuation
    use contact_base_choices, only : grid_form, motion
    use contact_base_error, only : error_type
@@ -18,10 +19,9 @@ module contact_cases_continuation
 
 contains
 
-   !> Where the elements are, as far as the input tells: without sides where the Hertz solution is needed first, or where the values
-   !> make no grid
+   !> Grid as far as the input defines it: without sides if the Hertz solution is needed first, or if the values define no grid
    function frame_of(grid) result(frame)
-      !> Form, sides and numbers of elements as the case gives them
+      !> Form, sides and numbers of elements of the case
       type(grid_spec), intent(in) :: grid
       type(potential_contact) :: frame
       type(hertz_result) :: hertz
@@ -35,19 +35,19 @@ contains
       if (frame%mx == 0 .or. allocated(error)) frame = potential_contact(mx=grid%mx, my=grid%my, dx=0.0_wp, dy=0.0_wp)
    end function frame_of
 
-   !> Does the input tell where the elements are?
+   !> Does the input define the position of the elements?
    pure logical function is_known(frame)
-      !> Grid of frame_of
+      !> Result of frame_of
       type(potential_contact), intent(in) :: frame
 
       is_known = frame%dx > 0.0_wp .and. frame%dy > 0.0_wp
    end function is_known
 
-   !> Influence coefficients that are kept are for elements of the same size, and for no more of them
+   !> Influence coefficients that are kept must be for elements of the same size, and must cover the grid
    pure subroutine describe_coefficients(frame, kept, text)
-      !> The grid, and the one of the coefficients; without elements when there are none
+      !> The grid, and that of the coefficients; without elements if there are none
       type(potential_contact), intent(in) :: frame, kept
-      !> What does not fit, unallocated when all is well
+      !> Violation; unallocated if there is none
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: whose = " of the influence coefficients that are kept"
 
@@ -67,11 +67,11 @@ contains
       end if
    end subroutine describe_coefficients
 
-   !> A grid that takes over a solution must consist of the same elements
+   !> A grid that continues a solution must have the same elements
    pure subroutine describe_grid(frame, old, text)
-      !> The grid, and the one of the previous case
+      !> The grid, and that of the previous case
       type(potential_contact), intent(in) :: frame, old
-      !> What does not fit, unallocated when all is well
+      !> Violation; unallocated if there is none
       character(len=:), allocatable, intent(out) :: text
       real(wp) :: shift(2)
 
@@ -94,9 +94,9 @@ contains
       text = text // "; the solution of the previous case cannot be used"
    end subroutine describe_grid
 
-   !> Do both grids consist of the same elements, as far as the input tells?
+   !> Do both grids have the same elements, as far as the input defines them?
    pure logical function keeps_elements(frame, old)
-      !> Grids of frame_of, of this case and of the previous one
+      !> Results of frame_of for this case and for the previous one
       type(potential_contact), intent(in) :: frame, old
 
       keeps_elements = frame%mx == old%mx .and. frame%my == old%my
@@ -104,13 +104,13 @@ contains
       keeps_elements = frame%continues(old) .and. all(nint(frame%offset(old)) == 0)
    end function keeps_elements
 
-   !> A transient case of wheel on rail continues on the elements of the previous one
+   !> A transient case of wheel on rail must have the same elements as the previous one
    pure subroutine describe_search(relative_motion, new, old, text)
       !> Member of motion
       integer, intent(in) :: relative_motion
-      !> Of this case and of the previous one
+      !> Search parameters of this case and of the previous one
       type(search_spec), intent(in) :: new, old
-      !> What does not fit, unallocated when all is well
+      !> Violation; unallocated if there is none
       character(len=:), allocatable, intent(out) :: text
 
       if (relative_motion /= motion%shift .and. relative_motion /= motion%transient_rolling) return

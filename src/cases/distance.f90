@@ -1,6 +1,6 @@
-!> The forms of the undeformed distance (IBASE): which there are, their numbers, and what they mean
+!> The forms of the undeformed distance (IBASE): their list, input values, and meaning
 !>
-!> As in contact_cases_inputs the numbers are named once for all formats. Two procedures choose by the form, `visit_distance` and
+!> As in contact_cases_inputs, the values are named once for all formats. Two procedures depend on the form, `visit_distance` and
 !> `fill_distance`.
 module contact_cases_distance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
@@ -16,30 +16,30 @@ module contact_cases_distance
 
    public :: distance_form, is_distance_form, list_forms, visit_distance, fill_distance, fill_quadratic, quadratic
 
-   !> How the undeformed distance is given (IBASE)
+   !> Form of the undeformed distance (IBASE)
    type :: distance_form_list
       integer :: quadratic = 1, profile = 2, quadratic_and_sines = 3, elementwise = 9
    end type distance_form_list
    type(distance_form_list), parameter :: distance_form = distance_form_list()
 
-   !> All of them
+   !> All forms
    integer, parameter :: all_forms(*) = [distance_form%quadratic, distance_form%profile, distance_form%quadratic_and_sines, &
       & distance_form%elementwise]
 
 contains
 
-   !> Is there such a form?
+   !> Is there a form with this number?
    pure logical function is_distance_form(number)
       !> Member of distance_form, or any other number
       integer, intent(in) :: number
       is_distance_form = any(all_forms == number)
    end function is_distance_form
 
-   !> The numbers of all forms, "1, 2, 3 and 9"
+   !> The numbers of all forms as a text, "1, 2, 3 and 9"
    subroutine list_forms(before_last, text)
-      !> What stands before the last one
+      !> Word before the last number
       character(len=*), intent(in) :: before_last
-      !> For messages
+      !> Text for messages
       character(len=:), allocatable, intent(out) :: text
       integer :: k
 
@@ -50,12 +50,12 @@ contains
       text = text // before_last // integer_text(all_forms(size(all_forms)))
    end subroutine list_forms
 
-   !> The values that belong to a form of the undeformed distance (IBASE)
+   !> Values that belong to a form of the undeformed distance (IBASE)
    subroutine visit_distance(a, geometry, elements)
       class(case_archive), intent(inout) :: a
-      !> Its form is known
+      !> The form is set
       type(geometry_spec), intent(inout), target :: geometry
-      !> Number of elements of the grid, 0 when there is none that can be used
+      !> Number of elements of the grid, 0 if there is no valid grid
       integer, intent(in) :: elements
       real(wp), allocatable :: list(:)
       integer, target :: n
@@ -87,15 +87,15 @@ contains
       end select
    end subroutine visit_distance
 
-   !> Undeformed distance of the form of a case, at the centres of the elements
+   !> Undeformed distance of a case, at the centres of the elements
    subroutine fill_distance(spec, grid, h, error)
-      !> Form and its numbers
+      !> Form and its values
       type(geometry_spec), intent(in) :: spec
-      !> Where the elements are
+      !> Grid of elements
       type(potential_contact), intent(in) :: grid
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), intent(out) :: h(:, :)
-      !> Allocated when the numbers cannot be computed with
+      !> Allocated if the values cannot be used
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: forms
 
@@ -122,11 +122,11 @@ contains
 
    !> IBASE = 1: c1 x**2 + c2 x y + c3 y**2 + c4 x + c5 y + c6
    pure subroutine fill_quadratic(grid, c, h)
-      !> Where the elements are
+      !> Grid of elements
       type(potential_contact), intent(in) :: grid
       !> Coefficients: three [1/mm], two [-], one [mm]
       real(wp), intent(in) :: c(6)
-      !> Distance [mm], shape (mx, my)
+      !> Undeformed distance [mm], shape (mx, my)
       real(wp), intent(out) :: h(:, :)
       integer :: ix, iy
 
@@ -139,12 +139,12 @@ contains
 
    !> A quadratic form [mm]
    pure real(wp) function quadratic(c, x, y) result(value)
-      !> Coefficients as for fill_quadratic, and place [mm]
+      !> Coefficients as for fill_quadratic, and position [mm]
       real(wp), intent(in) :: c(6), x, y
       value = (c(1)*x + c(2)*y + c(4))*x + (c(3)*y + c(5))*y + c(6)
    end function quadratic
 
-   !> IBASE = 2: body of revolution, profile over y by linear inter- and extrapolation
+   !> IBASE = 2: body of revolution, profile over y by linear interpolation and extrapolation
    subroutine fill_profile(spec, grid, h, error)
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
@@ -178,7 +178,7 @@ contains
       end do
    end subroutine fill_profile
 
-   !> Height of the profile [mm]; the first and last interval are continued to the outside
+   !> Height of the profile [mm]; extrapolated from the first and last interval
    pure real(wp) function profile_height(spec, y) result(height)
       type(geometry_spec), intent(in) :: spec
       real(wp), intent(in) :: y
@@ -187,13 +187,13 @@ contains
 
       associate (p => spec%profile)
          position = (y - spec%y1)/spec%dy1
-         ! Limited as a real number first: far outside the profile it is no integer
+         ! limited as a real number first: far outside the profile the conversion to an integer would overflow
          k = 1 + int(min(max(position, 0.0_wp), real(size(p) - 2, wp)))
          height = p(k) + (position - real(k - 1, wp))*(p(k + 1) - p(k))
       end associate
    end function profile_height
 
-   !> IBASE = 3: difference of two sines over x, plus parabolas of radii b7/2 and b8/2
+   !> IBASE = 3: difference of two sines over x, plus parabolas with radii b7/2 and b8/2
    subroutine fill_sines(spec, grid, h, error)
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
@@ -215,7 +215,7 @@ contains
       end associate
    end subroutine fill_sines
 
-   !> 1...my
+   !> Row numbers 1...my
    pure function row_numbers(my) result(rows)
       integer, intent(in) :: my
       integer :: rows(my)

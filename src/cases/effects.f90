@@ -1,4 +1,4 @@
-!> Which effects acted in a patch, in words for the report
+!> Effects that were applied in a patch, as words for the report
 module contact_cases_effects
    use contact_base_choices, only : contact_location, heat_source_name, kernel_model, motion, pressure_model, &
       & variation
@@ -11,25 +11,25 @@ module contact_cases_effects
 
    public :: name_effects
 
-   !> Words so far; a buffer, because joining texts would ask for memory in every case
+   !> Text so far; a buffer of fixed length, because concatenation would allocate memory in every case
    type :: phrase
       private
-      !> Room for all names that can come together, and how much of it is used
+      !> Buffer for all names that can occur together, and its length in use
       character(len=512) :: text = ""
       integer :: n = 0
    contains
-      !> The next words
+      !> Append words
       procedure :: add
    end type phrase
 
 contains
 
-   !> Names of the effects that acted
+   !> Names of the effects that were applied
    subroutine name_effects(spec, problem, result)
       type(case_spec), intent(in) :: spec
-      !> The problem of the patch as it was solved
+      !> The problem of the patch that was solved
       type(patch_problem), intent(in) :: problem
-      !> Its `effects` are set; what acts depends on whether there is contact
+      !> Its `effects` are set; they depend on whether there is contact
       type(patch_result), intent(inout) :: result
       type(phrase) :: words
 
@@ -57,7 +57,7 @@ contains
       result%effects = words%text(:words%n)
    end subroutine name_effects
 
-   !> Append
+   !> Append words
    pure subroutine add(self, words)
       class(phrase), intent(inout) :: self
       character(len=*), intent(in) :: words
@@ -66,7 +66,7 @@ contains
       self%n = min(len(self%text), self%n + len(words))
    end subroutine add
 
-   !> What the bodies are made of, and how their pressures were found
+   !> Material of the bodies, and method for the pressures
    subroutine add_bodies(spec, problem, words)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(in) :: problem
@@ -126,10 +126,10 @@ contains
       end select
    end subroutine add_friction
 
-   !> What else acts on tangential tractions
+   !> Other effects on tangential tractions
    subroutine add_tangential(problem, yields, words)
       type(patch_problem), intent(in) :: problem
-      !> Did the layer between the bodies yield somewhere?
+      !> Are there plastic elements?
       logical, intent(in) :: yields
       type(phrase), intent(inout) :: words
 

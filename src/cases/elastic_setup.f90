@@ -15,14 +15,14 @@ module contact_cases_elastic_setup
 
    public :: kept_table, set_coefficients, set_inclination, set_model, update_table
 
-   !> Thinner layers do not count [mm]
+   !> Thinner layers are ignored [mm]
    real(wp), parameter :: thinnest_layer = 1.0e-10_wp
 
    !> Influence coefficients from a file, kept from case to case
    type :: kept_table
-      !> Unallocated: none were needed yet
+      !> Table; unallocated if none was needed yet
       type(influence_table), allocatable :: table
-      !> DX and DS [mm] and the modulus [N/mm2] for which the file was read
+      !> DX and DS [mm] and modulus [N/mm2] for which the file was read
       real(wp) :: key(3) = 0.0_wp
    end type kept_table
 
@@ -30,7 +30,7 @@ contains
 
    subroutine set_model(spec, model, error)
       type(case_spec), intent(in) :: spec
-      !> Made anew
+      !> Elastic model; set completely
       type(elastic_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
 
@@ -47,10 +47,10 @@ contains
       end associate
    end subroutine set_model
 
-   !> Conformal contact of module 3: the table of inclinations, or the straight line through it
+   !> Conformal contact of module 3: table of inclinations, or the straight line through it
    subroutine set_inclination(spec, model, error)
       type(case_spec), intent(in) :: spec
-      !> Elastic model of the patch, material given
+      !> Elastic model of the patch, with material set
       type(elastic_model), intent(inout) :: model
       type(error_type), allocatable, intent(out) :: error
       integer :: n
@@ -75,13 +75,13 @@ contains
       end associate
    end subroutine set_inclination
 
-   !> Influence coefficients from a file, when the case wants them; the grid is known
+   !> Influence coefficients from a file, if the case uses them; the grid must be known
    subroutine set_coefficients(spec, grid, folder, model, log, error)
       type(case_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
       !> Folder to which the name of the file is relative; "" for the current one
       character(len=*), intent(in) :: folder
-      !> Elastic model of the patch, material and inclination given
+      !> Elastic model of the patch, with material and inclination set
       type(elastic_model), intent(inout) :: model
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -94,12 +94,12 @@ contains
       call read_coefficients(text, grid, model%material%gg, model%tabulated, log, error)
    end subroutine set_coefficients
 
-   !> Influence coefficients for wheel on rail, when the case wants them; a file that did not change is not read again
+   !> Influence coefficients for wheel on rail, if the case uses them; an unchanged file is not read again
    subroutine update_table(spec, folder, kept, log, error)
       type(case_spec), intent(in) :: spec
-      !> As for set_coefficients
+      !> See set_coefficients
       character(len=*), intent(in) :: folder
-      !> The table of the case before, with the name and time of its file
+      !> The table of the previous case, with name and time of its file
       type(kept_table), intent(inout) :: kept
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -122,10 +122,10 @@ contains
       if (allocated(error)) deallocate(kept%table)
    end subroutine update_table
 
-   !> Find the file of coefficients of a case
+   !> Open the file of coefficients of a case
    subroutine open_coefficients(spec, folder, text, error)
       type(case_spec), intent(in) :: spec
-      !> As for set_coefficients
+      !> See set_coefficients
       character(len=*), intent(in) :: folder
       type(input_lexer), intent(inout) :: text
       type(error_type), allocatable, intent(out) :: error

@@ -17,10 +17,10 @@ module contact_cases_friction_setup
 
 contains
 
-   !> Friction law; Coulomb friction with one coefficient needs none
+   !> Friction law; not needed for Coulomb friction with one coefficient
    subroutine set_friction(spec, problem, error)
       type(case_spec), intent(in) :: spec
-      !> With its grid
+      !> Problem with its grid
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
       class(friction_law), allocatable :: law
@@ -30,13 +30,13 @@ contains
       if (allocated(problem%friction)) deallocate(problem%friction)
       problem%remembers_friction = .false.
       problem%mu = 0.0_wp
-      ! there are none behind a case that was to give them and was refused
+      ! there are no sets after a case that should have given them and was refused
       if (allocated(spec%friction%sets)) problem%mu = spec%friction%sets(1)%fstat
       by_row = spec%variation == variation%by_row
       has_law = .false.
       if (spec%motion /= motion%none .and. allocated(spec%friction%sets)) &
          & has_law = is_varying_law(spec%friction_law) .or. size(spec%friction%sets) /= 1 .or. by_row
-      ! a case with a law takes over the room of the one before
+      ! a case with a law reuses the memory of the previous one
       if (.not. has_law .and. allocated(problem%static_mu)) deallocate(problem%static_mu)
       if (spec%motion /= motion%none .and. .not. allocated(spec%friction%sets)) &
          & call fatal_error(error, "no coefficient of friction has been given")
@@ -47,7 +47,7 @@ contains
       end if
       call new_friction_law(spec%friction_law, spec%friction%sets, law, error)
       if (allocated(error)) return
-      ! also for a grid of one row, so that forces do not change their meaning with its size
+      ! also for a grid of one row, so that relative forces do not depend on the number of rows
       if (by_row .or. law%varies_by_row()) problem%mu = 1.0_wp
       problem%slip_start = sign(1, spec%iteration%inislp)
       if (spec%iteration%inislp == 0) problem%slip_start = 0
@@ -65,7 +65,7 @@ contains
       call move_alloc(law, problem%friction)
    end subroutine set_friction
 
-   !> Thermal constants, when temperatures are asked for
+   !> Thermal constants, if temperatures are requested
    subroutine set_thermal(spec, problem, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem

@@ -1,4 +1,4 @@
-!> From the numbers of a case to Hertz data, grid and undeformed distance
+!> Hertz data, grid and undeformed distance from the values of a case
 module contact_cases_geometry
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use contact_base_choices, only : grid_form, normal_control, planform_choice
@@ -20,17 +20,16 @@ module contact_cases_geometry
    public :: solve_hertz, build_grid, undeformed_distance, part_labels
    public :: strip_rows
 
-   !> Semi-axis that takes the place of zero when a grid is laid out [mm]
+   !> Semi-axis that replaces zero in the definition of a grid [mm]
    real(wp), parameter :: min_axis = 1.0e-9_wp
 
 contains
 
-   !> Solve Hertz's problem for the options that ask for it (IPOTCN -1...-5).
+   !> Solve Hertz's problem for the options that require it (IPOTCN -1...-5).
    !>
-   !> A force or approach of zero is allowed and gives no contact: zero semi-axes when the
-   !> curvatures are given.
+   !> A force or approach of zero is allowed and gives no contact: zero semi-axes if the curvatures are given.
    subroutine solve_hertz(spec, control, fn, pen, gg, nu, hertz, error)
-      !> What the option gives: semi-axes, curvatures, force or approach
+      !> Values of the option: semi-axes or curvatures
       type(grid_spec), intent(in) :: spec
       !> Member of normal_control
       integer, intent(in) :: control
@@ -74,7 +73,7 @@ contains
          & aob=solution%aob, rho=solution%rho, cp=solution%cp, fn=solution%fn, pen=solution%pen)
    end subroutine solve_hertz
 
-   !> Can Hertz's problem be solved with these numbers?
+   !> Check that Hertz's problem can be solved with these values
    subroutine check_hertz(spec, control, fn, pen, gg, nu, error)
       type(grid_spec), intent(in) :: spec
       integer, intent(in) :: control
@@ -109,9 +108,9 @@ contains
       end select
    end subroutine check_hertz
 
-   !> Complete the potential contact from what its option gives (IPOTCN -1...-6 and 1...4)
+   !> Complete the potential contact from the values of its option (IPOTCN -1...-6 and 1...4)
    subroutine build_grid(spec, hertz, grid, error)
-      !> What the option gives: corners, centres or steps
+      !> Values of the option: corners, centres or steps
       type(grid_spec), intent(in) :: spec
       !> Hertz solution, for IPOTCN -1...-5; may be absent or unallocated for the others
       type(hertz_result), intent(in), optional :: hertz
@@ -165,9 +164,9 @@ contains
       call require_positive("element size DY", grid%dy, error)
    end subroutine build_grid
 
-   !> Window centred in the origin
+   !> Potential contact centred at the origin
    pure subroutine lay_out_window(half_x, half_y, grid)
-      !> Half of the sides [mm]
+      !> Half sides [mm]
       real(wp), intent(in) :: half_x, half_y
       type(potential_contact), intent(inout) :: grid
 
@@ -177,32 +176,32 @@ contains
       grid%dy = 2.0_wp*half_y/grid%my
    end subroutine lay_out_window
 
-   !> Window of a line contact: a whole number of rows fits its length exactly
+   !> Potential contact of a line contact: a whole number of rows has exactly the length of the contact
    pure subroutine lay_out_strip(scale, aa, bb, grid)
-      !> Size of the window relative to the contact area [-]
+      !> Size of the potential contact relative to the contact area [-]
       real(wp), intent(in) :: scale
-      !> Half width and half length [mm]
+      !> Half width and half length of the contact [mm]
       real(wp), intent(in) :: aa, bb
       type(potential_contact), intent(inout) :: grid
 
       call lay_out_window(scale*max(min_axis, aa), max(min_axis, bb)*grid%my/strip_rows(grid%my, scale), grid)
    end subroutine lay_out_strip
 
-   !> Number of rows of a window that lie inside a line contact
+   !> Number of rows of a potential contact that are inside a line contact
    pure integer function strip_rows(my, scale) result(rows)
-      !> Rows of the window
+      !> Number of rows of the potential contact
       integer, intent(in) :: my
-      !> Size of the window relative to the contact area [-]
+      !> Size of the potential contact relative to the contact area [-]
       real(wp), intent(in) :: scale
 
       rows = my
       if (scale <= 1.0_wp) return
       rows = max(1, nint(my/scale))
-      ! As many rows on either side, so that the ends of the contact lie between rows
+      ! equal numbers of rows outside on both sides, so that the ends of the contact are between rows
       if (mod(my - rows, 2) /= 0) rows = rows + 1
    end function strip_rows
 
-   !> Window by corner or first centre, and by steps or the opposite corner or last centre
+   !> Potential contact given by its corner or first centre, and by steps or the opposite corner or last centre
    pure subroutine lay_out_given(spec, grid)
       type(grid_spec), intent(in) :: spec
       type(potential_contact), intent(inout) :: grid
@@ -229,10 +228,10 @@ contains
 
    !> Undeformed distance at the centres of the elements; the approach is not included.
    !>
-   !> With Hertz data it is a1 x**2 + b1 y**2, whatever geometry the case holds. Elements outside
-   !> the planform get excluded_distance, and so does every value that is meant to exclude.
+   !> With Hertz data it is a1 x**2 + b1 y**2, independent of the geometry of the case. Elements outside the planform get
+   !> excluded_distance, and so do all values that mean exclusion.
    subroutine undeformed_distance(spec, grid, hertz, h, error)
-      !> Form of the gap with its coefficients
+      !> Form of the undeformed distance with its values
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
       !> Hertz solution of a Hertzian geometry; may be absent or unallocated
@@ -271,7 +270,7 @@ contains
          & "the planform excludes all elements of the potential contact from contact")
    end subroutine undeformed_distance
 
-   !> Exclude the elements whose centre lies outside the planform
+   !> Exclude elements whose centre is outside the planform
    subroutine apply_planform(spec, grid, h, error)
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
@@ -312,7 +311,7 @@ contains
       end do
    end subroutine apply_planform
 
-   !> Rectangles and factors of a planform of several parts that can be computed with
+   !> Check rectangles and factors of a planform of several parts
    subroutine check_parts(spec, error)
       type(geometry_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
@@ -329,9 +328,9 @@ contains
       end if
    end subroutine check_parts
 
-   !> Number of the part of a planform that each element belongs to, by its centre: the first one in the list, 0 for none
+   !> Index of the part of a planform that contains the centre of each element: the first one in the list, 0 for none
    pure function part_labels(spec, grid) result(label)
-      !> With rectangles
+      !> Geometry with rectangles
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
       integer, allocatable :: label(:, :)
@@ -349,7 +348,7 @@ contains
       end do
    end function part_labels
 
-   !> Does a point lie in the closed rectangle xl, xh, yl, yh?
+   !> Is a point inside the closed rectangle xl, xh, yl, yh?
    pure logical function in_rectangle(sides, x, y) result(inside)
       real(wp), intent(in) :: sides(4), x, y
       inside = sides(1) <= x .and. x <= sides(2) .and. sides(3) <= y .and. y <= sides(4)

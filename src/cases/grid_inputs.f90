@@ -1,6 +1,6 @@
-!> The numbers of grid and planform, once for all formats
+!> Input values of grid and planform, once for all formats
 !>
-!> As in contact_cases_inputs; the undeformed distance stands in contact_cases_distance.
+!> As in contact_cases_inputs; the undeformed distance is in contact_cases_distance.
 module contact_cases_grid_inputs
    use contact_base_choices, only : grid_form, planform_choice
    use contact_base_kinds, only : long, wp
@@ -12,17 +12,17 @@ module contact_cases_grid_inputs
 
    public :: visit_grid, visit_planform, largest_grid
 
-   !> Largest number of elements of a potential contact area
+   !> Maximum number of elements of a potential contact
    integer, parameter :: largest_grid = 2000000
-   !> Most parts of a planform
+   !> Maximum number of parts of a planform
    integer, parameter :: max_parts = 100
 
 contains
 
-   !> The line that belongs to a form of the grid (IPOTCN)
+   !> Values that belong to a form of the grid (IPOTCN)
    subroutine visit_grid(a, grid)
       class(case_archive), intent(inout) :: a
-      !> Its form is known
+      !> The form is set
       type(grid_spec), intent(inout), target :: grid
 
       call a%integer("MX", grid%mx)
@@ -82,7 +82,7 @@ contains
 
    contains
 
-      !> Two centres are needed to tell a distance
+      !> Two centres are needed to define a distance
       subroutine check_two(name, number)
          character(len=*), intent(in) :: name
          integer, intent(in) :: number
@@ -91,7 +91,7 @@ contains
             & "elements from the distance of two centres")
       end subroutine check_two
 
-      !> The upper end must lie above the lower end
+      !> The upper end must be above the lower end
       subroutine check_order(low_name, low, high_name, high)
          character(len=*), intent(in) :: low_name, high_name
          real(wp), intent(in) :: low, high
@@ -100,10 +100,10 @@ contains
       end subroutine check_order
    end subroutine visit_grid
 
-   !> The values that belong to a form of the planform (IPLAN)
+   !> Values that belong to a form of the planform (IPLAN)
    subroutine visit_planform(a, geometry)
       class(case_archive), intent(inout) :: a
-      !> Its form is known
+      !> The form is set
       type(geometry_spec), intent(inout), target :: geometry
       character(len=3), parameter :: names(8) = ["XL1", "XH1", "YL1", "YH1", "XL2", "XH2", "YL2", "YH2"]
       real(wp), allocatable :: list(:)
@@ -128,7 +128,7 @@ contains
       end select
    end subroutine visit_planform
 
-   !> Parts of a planform, and how the pressures of one act on another
+   !> Parts of a planform, and interaction factors of their pressures
    subroutine visit_parts(a, geometry)
       class(case_archive), intent(inout) :: a
       type(geometry_spec), intent(inout), target :: geometry
@@ -140,7 +140,7 @@ contains
       if (allocated(geometry%rectangles)) n = size(geometry%rectangles, 2)
       call a%integer("NP", n, unchecked=.true.)
       call a%end_line()
-      ! how much to read is not known then
+      ! otherwise the number of values to read is not known
       if (n < 1 .or. n > max_parts) call a%fail("NP", ", the number of parts of IPLAN = 4, is outside its range 1 to " // &
          & integer_text(max_parts))
       if (.not. a%is_good) return

@@ -1,7 +1,7 @@
-!> The numbers of the groups of the input that both kinds of cases have, once for all formats: solvers, motion, friction, materials
+!> Input values of the groups that both modules have, once for all formats: solvers, motion, friction, materials
 !>
-!> Each procedure takes the numbers of its group to or from an archive in the order of the input files; which groups a case has is
-!> known to the caller. What follows from numbers that come in is done here too.
+!> Each procedure passes the values of its group to or from an archive in the order of the input files; the caller knows the groups
+!> of a case. Values that depend on values being read are set here, too.
 module contact_cases_inputs
    use contact_base_choices, only : force_control, material_model, normal_control, solver_choice, variation
    use contact_base_kinds, only : wp
@@ -19,18 +19,18 @@ module contact_cases_inputs
    public :: visit_elastic, visit_sheet, visit_material_model, visit_conformal, visit_inclinations, visit_coefficient_file
    public :: visit_damping, visit_heat, visit_wear
 
-   !> Bounds of the largest number of elements of a patch of wheel and rail
+   !> Bounds of the maximum number of elements of a patch of wheel and rail
    integer, parameter :: fewest_elements = 100, max_elements = 1000000
-   !> Coefficients of friction terms below this value switch the term off [-]
+   !> Coefficient of a friction term below which the term is switched off [-]
    real(wp), parameter :: no_term = 1.0e-8_wp
-   !> Half-value slip velocity of a term that is switched off, at least [mm/s]
+   !> Lower bound of the half-value slip velocity of a term that is switched off [mm/s]
    real(wp), parameter :: smallest_unused = 1.0e-4_wp
-   !> Coefficients of friction that differ by less, relative, are one number
+   !> Relative difference of coefficients of friction below which they are regarded as equal [-]
    real(wp), parameter :: same_friction = 1.0e-3_wp
-   !> Most control points of friction, and their least distance [rad] or [mm]
+   !> Maximum number of control points of friction, and their minimum distance [rad] or [mm]
    integer, parameter :: max_points = 10
    real(wp), parameter :: min_step = 1.0e-6_wp
-   !> Offset of the spin contribution unless another one is given [-]
+   !> Default offset of the spin term [-]
    real(wp), parameter :: spin_offset = 1.0_wp/6.0_wp
 
 contains
@@ -41,7 +41,7 @@ contains
       type(iteration_spec), intent(inout), target :: iteration
       !> Member of solver_choice
       integer, intent(in) :: solver
-      !> With the largest number of elements of a patch?
+      !> Include the maximum number of elements of a patch?
       logical, intent(in) :: with_elements
       integer :: limited
 
@@ -72,7 +72,7 @@ contains
       end select
    end subroutine visit_iteration
 
-   !> Parameters of the gradient-descent solver
+   !> Parameters of the solver GDsteady
    subroutine visit_gd_steady(a, iteration)
       class(case_archive), intent(inout) :: a
       type(iteration_spec), intent(inout), target :: iteration
@@ -136,13 +136,13 @@ contains
       end associate
    end subroutine visit_kinematics
 
-   !> Rolling direction, step and velocity
+   !> Rolling direction, distance travelled per step and rolling velocity
    subroutine visit_rolling(a, rolling, model)
       class(case_archive), intent(inout) :: a
       type(rolling_spec), intent(inout), target :: rolling
       !> Member of material_model
       integer, intent(in) :: model
-      !> What counts as along x [rad]
+      !> Maximum deviation of the rolling direction from the x axis [rad]
       real(wp), parameter :: along_x = 0.01_wp
       call a%real("CHI", rolling%chi)
       call a%real("DQ", rolling%dq)
@@ -153,7 +153,7 @@ contains
          & " is not along x, 0 or 180 degrees within 0.01 rad, which viscoelastic material needs")
    end subroutine visit_rolling
 
-   !> Friction: one set of parameters, or one per angle or position along the track
+   !> Friction: one set of parameters, or one per contact angle or position along the track
    subroutine visit_friction(a, law, varies, friction)
       class(case_archive), intent(inout) :: a
       !> Members of friction_model and variation
@@ -191,7 +191,7 @@ contains
       call visit_friction_memory(a, law, friction)
    end subroutine visit_friction
 
-   !> Friction: one set of parameters for each row of the grid
+   !> Friction: one set of parameters per row of the grid
    subroutine visit_friction_rows(a, law, rows, friction)
       class(case_archive), intent(inout) :: a
       !> Member of friction_model
@@ -203,7 +203,7 @@ contains
       integer :: row, n
 
       if (a%is_reading) then
-         ! an input that ends early must not cost memory for all rows
+         ! an input that ends early must not allocate memory for all rows
          if (allocated(friction%sets)) deallocate(friction%sets)
          allocate(friction%sets(min(rows, 100)))
       end if
@@ -220,7 +220,7 @@ contains
       call visit_friction_memory(a, law, friction)
    end subroutine visit_friction_rows
 
-   !> The values of one set, behind the control point where there is one
+   !> Values of one set, after those of the control point if there is one
    subroutine visit_friction_set(a, law, varies, set)
       class(case_archive), intent(inout) :: a
       !> Members of friction_model and variation
@@ -263,10 +263,10 @@ contains
       end select
    end subroutine visit_friction_set
 
-   !> Friction that falls with the slip velocity in two terms
+   !> Friction that decreases with the slip velocity in two terms
    subroutine visit_terms(a, name, set)
       class(case_archive), intent(inout) :: a
-      !> What the coefficients of the terms are called, without the number of the term
+      !> Name of the coefficients of the terms, without the number of the term
       character(len=*), intent(in) :: name
       type(friction_set), intent(inout), target :: set
 
@@ -285,7 +285,7 @@ contains
       call a%check("SABSH2")
    end subroutine visit_terms
 
-   !> Friction memory of laws that change with slip or temperature
+   !> Friction memory of laws that depend on slip velocity or temperature
    subroutine visit_friction_memory(a, law, friction)
       class(case_archive), intent(inout) :: a
       !> Member of friction_model
@@ -317,7 +317,7 @@ contains
       call a%end_line()
    end subroutine visit_sheet
 
-   !> What a model of material needs beside elastic constants
+   !> Additional values of a material model
    subroutine visit_material_model(a, model, material)
       class(case_archive), intent(inout) :: a
       !> Member of material_model
@@ -406,7 +406,7 @@ contains
    subroutine visit_heat(a, heat, with_plastic_work)
       class(case_archive), intent(inout) :: a
       type(heat_spec), intent(inout), target :: heat
-      !> Is there plastic work, a part of which becomes heat?
+      !> Include the fraction of plastic work that is converted to heat?
       logical, intent(in) :: with_plastic_work
       character :: number
       integer :: body
@@ -425,10 +425,10 @@ contains
       call a%end_line()
    end subroutine visit_heat
 
-   !> What wear and fatigue need of the user
+   !> Material data for wear and fatigue
    subroutine visit_wear(a, wear)
       class(case_archive), intent(inout) :: a
-      !> Stresses in N/mm2, 0 for what is not given
+      !> Archard's coefficient [-] and stresses [N/mm2], 0 if not given
       type(wear_spec), intent(inout), target :: wear
 
       call a%real("ARCHARD", wear%archard)

@@ -1,7 +1,7 @@
-!> Refuses specifications whose numbers cannot be computed with, before anything is computed
+!> Refuses specifications with values that cannot be used in the computation, before it starts
 !>
-!> The reader of input files checks more, and at the place in the file; this is the door for
-!> everybody else, so that NaN and infinities never travel silently.
+!> The reader of input files checks more, and reports the position in the file; this check serves all other callers, so that NaN and
+!> infinity are never used silently.
 module contact_cases_numbers
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : force_control, motion, normal_control, pressure_model, slip_source
@@ -15,12 +15,12 @@ module contact_cases_numbers
 
    public :: min_value, check_numbers, require_finite, require_nonzero, require_positive
 
-   !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
+   !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are regarded as missing
    real(wp), parameter :: min_value = 1.0e-20_wp
 
 contains
 
-   !> Complain about the first number in use that is not finite, or has a sign without a meaning
+   !> Report the first value in use that is not finite, or has an invalid sign
    subroutine check_numbers(spec, error)
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
@@ -39,7 +39,7 @@ contains
       if (spec%motion /= motion%none) call check_friction(spec, error)
    end subroutine check_numbers
 
-   !> Numbers of problems with friction
+   !> Check the values of problems with friction
    subroutine check_friction(spec, error)
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(inout) :: error
@@ -71,7 +71,7 @@ contains
          call fatal_error(error, "no coefficient of friction has been given")
          return
       end if
-      ! the static coefficient of the laws that fall with slip velocity may be zero, as the kinetic one
+      ! the static coefficient of laws with falling friction may be zero, as the kinetic one
       call check_number("FKIN", spec%friction%sets(1)%fstat, error, "FSTAT")
       if (allocated(error)) return
       if (spec%slip_source /= slip_source%given) return
@@ -80,26 +80,26 @@ contains
          & call fatal_error(error, "the extra rigid slip must be finite in all elements")
    end subroutine check_friction
 
-   !> Complain about a value that is infinite or not a number; an earlier complaint stays
+   !> Report a value that is infinite or NaN; an earlier error is kept
    subroutine require_finite(name, value, error)
-      !> What it is, for the complaint
+      !> Name for the message
       character(len=*), intent(in) :: name
-      !> In its own unit
+      !> Value in its unit
       real(wp), intent(in) :: value
-      !> Allocated when there is a complaint
+      !> Allocated if there is an error
       type(error_type), allocatable, intent(inout) :: error
 
       if (allocated(error) .or. ieee_is_finite(value)) return
       call fatal_error(error, "the " // name // " must be a finite number")
    end subroutine require_finite
 
-   !> Complain about a value that is zero or close to it, infinite or not a number
+   !> Report a value that is zero or close to zero, infinite or NaN
    subroutine require_nonzero(name, value, error)
-      !> What it is, for the complaint
+      !> Name for the message
       character(len=*), intent(in) :: name
-      !> In its own unit
+      !> Value in its unit
       real(wp), intent(in) :: value
-      !> Allocated when there is a complaint
+      !> Allocated if there is an error
       type(error_type), allocatable, intent(inout) :: error
 
       call require_finite(name, value, error)
@@ -108,13 +108,13 @@ contains
       call fatal_error(error, "the " // name // " must not be zero")
    end subroutine require_nonzero
 
-   !> Complain about a value that is not clearly above zero, infinite or not a number
+   !> Report a value that is not clearly positive, infinite or NaN
    subroutine require_positive(name, value, error)
-      !> What it is, for the complaint
+      !> Name for the message
       character(len=*), intent(in) :: name
-      !> In its own unit
+      !> Value in its unit
       real(wp), intent(in) :: value
-      !> Allocated when there is a complaint
+      !> Allocated if there is an error
       type(error_type), allocatable, intent(inout) :: error
 
       call require_finite(name, value, error)

@@ -1,4 +1,4 @@
-!> The numbers of wheel, rail and track, once for all formats
+!> Input values of wheel, rail and track, once for all formats
 !>
 !> As in contact_cases_inputs.
 module contact_cases_rail_inputs
@@ -12,11 +12,11 @@ module contact_cases_rail_inputs
    public :: visit_search, visit_track, visit_profile, visit_deviations, visit_springs
    public :: visit_dimensions, visit_position, visit_velocity, visit_flexibility
 
-   !> Scales of profiles up to this value mean 1 [-]
+   !> Scale factors of profiles up to this value mean 1 [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
-   !> Smallest turning angle that makes a zig-zag [rad]
+   !> Minimum turning angle of a zig-zag [rad]
    real(wp), parameter :: min_zigzag = 0.25_wp*pi*(1.0_wp - epsilon(1.0_wp))
-   !> There is no tape line [mm]
+   !> Value of YTAPE without tape line [mm]
    real(wp), parameter :: no_tape = 1000.0_wp
 
 contains
@@ -25,7 +25,7 @@ contains
    subroutine visit_search(a, search, with_step)
       class(case_archive), intent(inout) :: a
       type(search_spec), intent(inout), target :: search
-      !> With the step in elements? It has a place of its own in the library
+      !> Include the step in elements? In the library it is set separately
       logical, intent(in) :: with_step
 
       call a%real("DX", search%dx)
@@ -45,7 +45,7 @@ contains
       if (.not. a%was_given("D_TURN")) search%d_turn = 2.0_wp*search%d_sep - search%d_comb
    end subroutine visit_search
 
-   !> Place of the rail in the track, or on a roller
+   !> Position of the rail in the track, or on a roller
    subroutine visit_track(a, track, roller)
       class(case_archive), intent(inout) :: a
       type(track_spec), intent(inout), target :: track
@@ -93,7 +93,7 @@ contains
       call a%end_line()
    end subroutine visit_deviations
 
-   !> Springs of a massless rail and their forces at rest
+   !> Springs of a massless rail and their static forces
    subroutine visit_springs(a, rail)
       class(case_archive), intent(inout) :: a
       type(rail_spec), intent(inout), target :: rail
@@ -122,9 +122,9 @@ contains
    subroutine visit_position(a, wheelset, roller, with_force)
       class(case_archive), intent(inout) :: a
       type(wheelset_spec), intent(inout), target :: wheelset
-      !> Beside the top of a roller? Otherwise along a track
+      !> Position relative to the top of a roller? Otherwise along a track
       logical, intent(in) :: roller
-      !> With the vertical force in the place of the height?
+      !> Vertical force instead of the height?
       logical, intent(in) :: with_force
 
       if (roller) then
@@ -156,7 +156,7 @@ contains
       type(wheelset_spec), intent(inout), target :: wheelset
       !> Is the wheel on a roller instead of a rail?
       logical, intent(in) :: roller
-      !> With the longitudinal force in the place of the pitch rate?
+      !> Longitudinal force instead of the pitch rate?
       logical, intent(in) :: with_force
 
       if (roller) then
@@ -194,12 +194,12 @@ contains
       call a%end_line()
    end subroutine visit_flexibility
 
-   !> Name of a profile file and how to read it
+   !> Name of a profile file and options for reading it
    subroutine visit_profile(a, name, profile)
       class(case_archive), intent(inout) :: a
-      !> Of the item with the name of the file
+      !> Name of the item that holds the name of the file
       character(len=*), intent(in) :: name
-      !> Levels of error handling stay where the case does not give others
+      !> Levels of error handling are kept if the case does not give others
       type(profile_spec), intent(inout), target :: profile
       type(text_variable), target :: file
       type(profile_spec) :: previous

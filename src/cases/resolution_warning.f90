@@ -1,4 +1,4 @@
-!> Contact that is only a few elements wide, in words
+!> Warning about contact that is only a few elements wide
 module contact_cases_resolution_warning
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -12,14 +12,14 @@ module contact_cases_resolution_warning
 
 contains
 
-   !> Warn of a contact that is narrower than enough elements
+   !> Warn of a contact with less than the recommended number of elements across
    subroutine warn_of_few_elements(result, name_y, log, patch)
-      !> Solved
+      !> Solution
       type(patch_result), intent(in) :: result
-      !> Name of the second side of elements in the input: DY, or DS of wheel and rail
+      !> Name of the lateral size of elements in the input: DY, or DS of wheel and rail
       character(len=*), intent(in) :: name_y
       type(log_type), intent(inout) :: log
-      !> Number of the contact patch of wheel and rail; absent for one contact problem
+      !> Index of the contact patch of wheel and rail; absent for module 3
       integer, intent(in), optional :: patch
       character(len=:), allocatable :: text
       character(len=12) :: sides(2)

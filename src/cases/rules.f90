@@ -1,7 +1,7 @@
-!> Which choices of a case go together, and what they ask of its numbers: each rule once, with its reason
+!> Rules on combinations of choices of a case and on its values: each rule once, with its reason
 !>
-!> Readers of input and the library tell the digits or words of the choices that break a rule, and where they stand;
-!> `refuse_broken_rules` tells callers that have neither, and the manual has tables of all rules.
+!> Readers of input and the library report the digits or words of the choices that break a rule, and their position;
+!> `refuse_broken_rules` serves callers that have neither. The manual has tables of all rules.
 module contact_cases_rules
    use contact_base_choices, only : force_control, grid_form, kernel_model, material_model, motion, &
       & normal_control, pressure_model, slip_source
@@ -20,58 +20,58 @@ module contact_cases_rules
       integer :: pressure = 1, motion = 2, normal = 3, force = 4, friction_law = 5, kernel = 6, material_model = 7
       integer :: slip_source = 8, heat = 9, grid_form = 10
    end type choice_kind_list
-   !> The choices of a case that rules speak of
+   !> The choices of a case to which rules apply
    type(choice_kind_list), parameter :: choice_kind = choice_kind_list()
 
-   !> Most values of a list; shorter ones are filled with this number, which is no choice
+   !> Maximum number of values in a list; shorter lists are filled with this number, which is not a value of any choice
    integer, parameter :: list_length = 6, nothing = -99
-   !> Value of a choice that no case has made yet
+   !> Value of a choice that the case has not made yet
    integer, parameter :: not_made = -98
 
-   !> One rule: a choice with one of some values goes with some values of another choice only
+   !> One rule: some values of a choice are allowed only with some values of another choice
    type :: choice_rule
       !> Members of choice_kind
       integer :: choice, other
-      !> Values for which the rule holds, and those of the other choice that go with them
+      !> Values for which the rule holds, and values of the other choice that are allowed with them
       integer :: values(list_length), allowed(list_length)
-      !> 1 or 3 for the cases of one module, 0 for all
+      !> 1 or 3 for cases of one module, 0 for all
       integer :: module_number
-      !> What is chosen, "needs ...", "is meant for ..." or "cannot be used with ...", and the reason or what to use instead
+      !> Name of the choice, "needs ...", "is meant for ..." or "cannot be used with ...", and the reason or an alternative
       character(len=44) :: subject
       character(len=56) :: claim
       character(len=96) :: reason
-      !> Does who breaks it get a warning only, from the readers of input?
+      !> Do readers of input only give a warning if the rule is broken?
       logical :: only_warns = .false.
    end type choice_rule
 
    type :: demand_list
       integer :: above_zero = 1, not_negative = 2, zero = 3, along_x = 4
    end type demand_list
-   !> What is asked of a number
+   !> Conditions on a value
    type(demand_list), parameter :: demand = demand_list()
    character(len=48), parameter :: demand_text(*) = [character(len=48) :: "larger than 0", "0 or more", "0", &
       & "along x, 0 or 180 degrees within 0.01 rad,"]
-   !> What counts as along x: sine of the angle with it [-]
+   !> Sine of the maximum angle between rolling direction and x axis [-]
    real(wp), parameter :: along_x = 0.01_wp
 
-   !> One rule: what two choices together ask of a number
+   !> One rule: condition on a value for a combination of two choices
    type :: number_rule
       !> Members of choice_kind, and the values for which the rule holds
       integer :: choice, other
       integer :: values(list_length), others(list_length)
-      !> Name of the number in the input, and group that has it
+      !> Name of the value in the input, and its group
       character(len=8) :: number
       character(len=12) :: group
       !> Member of demand
       integer :: demand
       !> Member of error_kind
       integer :: kind
-      !> What asks for it, and why
+      !> Choice that requires the condition, and the reason
       character(len=112) :: subject
       character(len=96) :: reason
    end type number_rule
 
-   ! lists of values, and what fills them
+   ! lists of values, with their filling
    integer, parameter :: e(list_length) = nothing
    integer, parameter :: fastrip(3) = [material_model%fastrip, material_model%fastrip_plain, material_model%fastrip_sliding]
    integer, parameter :: full_theory(3) = [material_model%elastic, material_model%viscoelastic, material_model%interfacial_layer]
@@ -80,7 +80,7 @@ module contact_cases_rules
    integer, parameter :: still_or_steady(2) = [motion%none, motion%steady_rolling]
    integer, parameter :: no = 0, yes = 1
 
-   !> All rules
+   !> All rules on combinations of choices
    type(choice_rule), parameter :: choice_rules(*) = [ &
       & choice_rule(choice_kind%material_model, choice_kind%motion, [material_model%viscoelastic, e(2:)], &
       & [motion%steady_rolling, e(2:)], 0, "viscoelastic material", "needs steady rolling", &
@@ -132,7 +132,7 @@ module contact_cases_rules
       & "a parabolic traction bound", "is meant for simplified theory", "the full theory has the elliptical one", &
       & only_warns=.true.)]
 
-   !> What choices ask of numbers; wherever both hold
+   !> Conditions on values, for cases with both choices
    type(number_rule), parameter :: number_rules(*) = [ &
       & number_rule(choice_kind%grid_form, choice_kind%normal, [hertzian, e(6:)], [normal_control%approach, e(2:)], &
       & "PEN", "kinematics", demand%not_negative, error_kind%input, "a Hertzian option with a prescribed approach", &
@@ -158,7 +158,7 @@ contains
 
    !> Value of a choice of a case, member of its list in contact_base_choices; 0 or 1 for heat
    pure integer function value_of(spec, choice)
-      !> The case whose choice is asked for
+      !> The case
       type(case_spec), intent(in) :: spec
       !> Member of choice_kind
       integer, intent(in) :: choice
@@ -180,9 +180,9 @@ contains
 
    !> Does a case break a rule?
    pure logical function is_broken(rule, spec)
-      !> A rule of choices
+      !> Rule on choices
       type(choice_rule), intent(in) :: rule
-      !> The case that is judged
+      !> The case to check
       type(case_spec), intent(in) :: spec
       integer :: module_number
 
@@ -193,10 +193,10 @@ contains
          & any(rule%values == value_of(spec, rule%choice)) .and. all(rule%allowed /= value_of(spec, rule%other))
    end function is_broken
 
-   !> The number that a rule speaks of; 0 where it has no effect
+   !> Value to which a rule applies; 0 if it has no effect
    pure real(wp) function number_of(spec, name) result(number)
       type(case_spec), intent(in) :: spec
-      !> As in the input
+      !> Name as in the input
       character(len=*), intent(in) :: name
 
       number = 0.0_wp
@@ -209,11 +209,11 @@ contains
       end select
    end function number_of
 
-   !> Does a number miss what choices ask of it?
+   !> Does a value violate a condition?
    pure logical function is_missed(rule, spec)
-      !> A rule about numbers
+      !> Rule on a value
       type(number_rule), intent(in) :: rule
-      !> The case that is judged
+      !> The case to check
       type(case_spec), intent(in) :: spec
 
       is_missed = .false.
@@ -230,22 +230,22 @@ contains
 
    !> "PEN = -0.1 must be 0 or more for a Hertzian option with a prescribed approach: ..."
    pure subroutine describe_number(rule, spec, text)
-      !> A rule about numbers
+      !> Rule on a value
       type(number_rule), intent(in) :: rule
       !> The case that breaks it
       type(case_spec), intent(in) :: spec
-      !> The number, its value and what would be accepted
+      !> Name, value and accepted range
       character(len=:), allocatable, intent(out) :: text
 
       text = trim(rule%number) // " = " // real_text(number_of(spec, rule%number)) // " must be " // &
          & trim(demand_text(rule%demand)) // " for " // trim(rule%subject) // ": " // trim(rule%reason)
    end subroutine describe_number
 
-   !> Refuse a case that breaks a rule, in words
+   !> Refuse a case that breaks a rule, with a message in words
    subroutine refuse_broken_rules(spec, error)
-      !> The case that is judged
+      !> The case to check
       type(case_spec), intent(in) :: spec
-      !> Allocated when a rule is broken, with its reason
+      !> Allocated if a rule is broken, with its reason
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text
       type(choice_rule) :: rule

@@ -1,8 +1,7 @@
-!> What a case asks for: named choices and numbers in internal units (mm, N, s, rad, degC)
+!> Specification of a case: named choices and values in internal units (mm, N, s, rad, degC)
 !>
-!> The reader starts from the resolved specification of the previous case and overwrites
-!> the groups that are read; what a "keep" digit leaves alone is therefore already there,
-!> and no room below `input` knows that keeping exists.
+!> The reader starts from the complete specification of the previous case and overwrites the groups that are read; values that a
+!> "keep" digit leaves unchanged are therefore already there, and no room below `input` needs to know about it.
 module contact_cases_spec
    use contact_base_choices, only : grid_form, heat_source, material_model
    use contact_base_kinds, only : wp
@@ -21,45 +20,45 @@ module contact_cases_spec
    public :: case_parts, part_source
 
    type :: part_source_list
-      !> The previous case; the previous case, but what is derived from it is formed anew; this case
+      !> The previous case; the previous case, but data derived from it are computed again; this case
       integer :: kept = 0, renewed = 1, given = 2
    end type part_source_list
-   !> Where the numbers of a group of the input come from
+   !> Source of the values of a group of the input
    type(part_source_list), parameter :: part_source = part_source_list()
 
    !> Source of each group of the input, member of part_source
    type :: case_parts
-      !> Both kinds of cases
+      !> Groups of both modules
       integer :: iteration = 2, friction = 2, rolling = 2, material = 2, damping = 2, heat = 2
       integer :: stress_output = 2, stress_points = 2
-      !> Contact problems of their own
+      !> Groups of module 3
       integer :: grid = 2, geometry = 2, extra_slip = 2
-      !> Wheel on rail
+      !> Groups of module 1
       integer :: search = 2, track = 2, rail_profile = 2, deviations = 2
       integer :: wheel_profile = 2, position = 2, velocity = 2, flexibility = 2
    end type case_parts
 
-   !> Settings of the iterative solution, and what else the line of the input holds
+   !> Settings of the iterative solvers, and other values of the same input line
    type, extends(solver_settings) :: iteration_spec
-      !> Member of sensitivity_choice; tolerance and largest number of iterations for sensitivities
+      !> Member of sensitivity_choice; maximum number of iterations, and tolerance, for sensitivities
       integer :: sensitivity = 1, mxsens = 30
       real(wp) :: epsens = 1.0e-4_wp
-      !> Largest number of elements (wheel-rail contact)
+      !> Maximum number of elements (wheel-rail contact)
       integer :: npot_max = 20000
-      !> Start and relaxation of the friction iteration
+      !> Initial slip and relaxation factor of the friction iteration
       integer :: inislp = 0
       real(wp) :: omgslp = 0.5_wp
-      !> Largest relative error of the forces that is asked for [-]; 0: grid and tolerance are those of the case
+      !> Requested relative error of the forces [-]; 0: grid and tolerance of the case are used
       real(wp) :: accuracy = 0.0_wp
-      !> May simplified methods take the place of the full theory, where their error is known and below that?
+      !> Are simplified methods allowed instead of the full theory, if their error is known to be below the requested one?
       logical :: allows_approximate = .false.
    end type iteration_spec
 
    !> Prescribed approach or normal force, creepages or tangential forces
    type :: kinematics_spec
-      !> Approach [mm] and normal force [N]; normal_control tells which one is prescribed
+      !> Approach [mm] and normal force [N]; normal_control says which one is prescribed
       real(wp) :: pen = 0.0_wp, fn = 0.0_wp
-      !> Relative tangential forces Fx/(mu_scal Fn), Fy/(mu_scal Fn) [-]; force_control tells when prescribed
+      !> Relative tangential forces Fx/(mu_scal Fn), Fy/(mu_scal Fn) [-]; force_control says whether they are prescribed
       real(wp) :: fx = 0.0_wp, fy = 0.0_wp
       !> Creepages [-] (rolling) or shifts [mm]; spin [rad/mm] or rotation [rad]
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
@@ -71,29 +70,29 @@ module contact_cases_spec
    type :: friction_spec
       !> One set, or one per control point or grid row
       type(friction_set), allocatable :: sets(:)
-      !> Friction memory: distance [mm] and lowest velocity [mm/s]
+      !> Friction memory: distance [mm] and minimum velocity [mm/s]
       real(wp) :: memdst = 1.0e-3_wp, mem_s0 = 10.0_wp
    end type friction_spec
 
-   !> Rolling direction, distance per step, velocity
+   !> Rolling direction, distance travelled per step, rolling velocity
    type :: rolling_spec
-      !> Angle of the rolling direction [rad], step [mm], velocity [mm/s]
+      !> Rolling direction [rad], distance travelled per step [mm], rolling velocity [mm/s]
       real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
-      !> Offset of the spin contribution in steps [-]
+      !> Offset of the spin term in steps [-]
       real(wp) :: facphi = 1.0_wp/6.0_wp
    end type rolling_spec
 
-   !> Material constants of the bodies and what lies between them
+   !> Material constants of the bodies and of the layer between them
    type :: material_spec
       !> Poisson ratios [-] and moduli of rigidity [N/mm2] of bodies 1 and 2
       real(wp) :: poiss(2) = 0.28_wp, gg(2) = 1.0_wp
       !> Vertical flexibility of a thin sheet [mm3/N]
       real(wp) :: flxz = 0.0_wp
-      !> Viscoelastic: ratios [-] and relaxation times [s]
+      !> Viscoelastic bodies: compliance ratios [-] and relaxation times [s]
       real(wp) :: fg(2) = 0.0_wp, tc(2) = 0.0_wp
       !> Simplified theory: flexibility [mm3/N], slope reduction parameters [-]
       real(wp) :: flx = 0.0_wp, k0_mf = 1.0_wp, alfamf = 1.0_wp, betamf = 1.0_wp
-      !> Interfacial layer: modulus [N/mm2], thickness [mm], yield limit [N/mm2], slope [N/mm3]
+      !> Interfacial layer: modulus of rigidity [N/mm2], thickness [mm], yield limit [N/mm2], slope [N/mm3]
       real(wp) :: gg3 = 1.0_wp, laythk = 0.0_wp, tau_c0 = 0.0_wp, k_tau = 0.0_wp
       !> Conformal correction: method, variant, table of lateral positions [mm] and inclinations [rad]
       integer :: if_meth = 0, variant = 4
@@ -101,7 +100,7 @@ module contact_cases_spec
       !> File of numerical influence coefficients
       character(len=:), allocatable :: cfname
    contains
-      !> Are late responses of viscoelastic bodies so unlike that pressures and shear interact through them?
+      !> Do the late responses of viscoelastic bodies differ so much that pressures and tangential tractions are coupled?
       procedure :: relaxes_apart
    end type material_spec
 
@@ -114,15 +113,15 @@ module contact_cases_spec
    type :: heat_spec
       real(wp) :: bktemp(2) = 0.0_wp, heatcp(2) = 450.0_wp, lambda(2) = 0.05_wp, dens(2) = 7.85e-6_wp
       real(wp) :: betapl = 1.0_wp
-      !> Did a case give these numbers? Otherwise they are defaults
+      !> Were these values given in a case? Otherwise they are defaults
       logical :: is_given = .false.
       !> Member of heat_source; not part of the input file
       integer :: source = heat_source%established
    end type heat_spec
 
-   !> Potential contact area as the input describes it (its form and the values of its line)
+   !> Potential contact as given in the input (its form and values)
    type :: grid_spec
-      !> Member of grid_form, 0 when nothing was given
+      !> Member of grid_form, 0 if nothing was given
       integer :: form = 0
       integer :: mx = 0, my = 0
       real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp, aob = 1.0_wp, aa = 0.0_wp, bb = 0.0_wp
@@ -130,9 +129,9 @@ module contact_cases_spec
       real(wp) :: xl = 0.0_wp, yl = 0.0_wp, dx = 0.0_wp, dy = 0.0_wp, xh = 0.0_wp, yh = 0.0_wp
       real(wp) :: xc1 = 0.0_wp, yc1 = 0.0_wp, xcm = 0.0_wp, ycm = 0.0_wp
    contains
-      !> Does the form bring its own undeformed distance, or need one that is given? Neither before anything was given
+      !> Does the form define its own undeformed distance, or require one? Neither before anything was given
       procedure :: brings_geometry, needs_geometry
-      !> Is there a Hertz solution, and is it one of a line contact, in which bb is half a length?
+      !> Is there a Hertz solution, and is it that of a line contact, with bb the half length?
       procedure :: is_hertzian, is_line_contact
    end type grid_spec
 
@@ -149,39 +148,39 @@ module contact_cases_spec
       real(wp), allocatable :: h(:)
       !> Quadratic: PL1...PL6; two rectangles: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
       real(wp) :: pl(8) = 0.0_wp
-      !> Weighted rectangles: XL XH YL YH of each part [mm], shape (4, parts), and the factors by which the pressures of one part
-      !> act on another [-], symmetric, 1 on the diagonal, shape (parts, parts); unallocated for the other planforms
+      !> Weighted rectangles: XL XH YL YH of each part [mm], shape (4, parts), and interaction factors of the pressures of the parts
+      !> [-], symmetric, 1 on the diagonal, shape (parts, parts); unallocated for the other planforms
       real(wp), allocatable :: rectangles(:, :), interaction(:, :)
    end type geometry_spec
 
-   !> Subsurface request
+   !> Requested stresses below the surface
    type :: subsurface_spec
-      !> Output to .subs (0, 1, 2) and to .out (0...4)
+      !> Level of output to .subs (0, 1, 2) and to .out (0...4)
       integer :: matfil = 0, output = 0
       type(point_block), allocatable :: blocks(:)
    end type subsurface_spec
 
-   !> One case, complete
+   !> Complete specification of a case
    type :: case_spec
       !> Named choices, see contact_base_choices
       integer :: link = 2, pressure = 0, motion = 0, normal = 0, force = 0
       integer :: variation = 0, friction_law = 0, kernel = 2, material_model = 0
       integer :: slip_source = 0, solver = 0, estimate = 0
-      !> Does the classical solver run that `solver` names? Otherwise the default one, where it can; not part of the input file
+      !> Is the classical solver named by `solver` used? Otherwise the default solver, if possible; not part of the input file
       logical :: classical = .false.
-      !> Damping, surface temperatures, stresses below the surface?
+      !> Are damping, surface temperatures and stresses below the surface computed?
       logical :: has_damping = .false., has_heat = .false., has_stress = .false.
-      !> Which groups the case gives, and which it keeps
+      !> Groups that the case gives, and groups that it keeps
       type(case_parts) :: parts
       !> Output: .mat file 0, 1, 2; .out level 0...6; flow trace 0...9
       integer :: mat_file = 0, output_level = 0, flow_level = 0
-      !> What it may take
+      !> Limits of time and memory
       type(case_limits) :: limits
-      !> Shall the errors of the totals be estimated? Not part of the input file
+      !> Are errors of the totals estimated? Not part of the input file
       logical :: estimates_errors = .false.
-      !> Are wear and fatigue asked for? Not part of the input file
+      !> Are wear and fatigue requested? Not part of the input file
       logical :: has_wear = .false.
-      !> Solve the case, or only store its input? Is it the last one of its module in a row?
+      !> Is the case solved? Otherwise its input is only stored. Is it the last one in a sequence of cases of its module?
       logical :: solve = .true., ends_module = .false.
       type(iteration_spec) :: iteration
       type(kinematics_spec) :: kinematics
@@ -193,13 +192,13 @@ module contact_cases_spec
       type(wear_spec) :: wear
       type(grid_spec) :: grid
       type(geometry_spec) :: geometry
-      !> Extra rigid slip, x and y per element, shape (2, npot); unallocated when never given
+      !> Extra rigid slip, x and y per element, shape (2, npot); unallocated if never given
       real(wp), allocatable :: extra_slip(:, :)
       type(subsurface_spec) :: subsurface
-      !> Wheel on rail (module 1); unallocated for a contact problem of its own (module 3)
+      !> Wheel on rail (module 1); unallocated for module 3
       type(wheel_rail_spec), allocatable :: wheel_rail
    contains
-      !> Is there an interfacial layer with a yield limit that can be reached?
+      !> Is there an interfacial layer with a yield limit in the valid range?
       procedure :: has_plasticity
       !> Does the case give a grid or an undeformed distance?
       procedure :: has_new_geometry
@@ -232,16 +231,16 @@ contains
       is_line_contact = self%form == grid_form%hertz_line_curvature .or. self%form == grid_form%hertz_line
    end function is_line_contact
 
-   !> Lateral displacements by pressures that memory adds, fg (1 - 2 nu)/G, cancel if they are equal and fade alike
+   !> Lateral displacements by pressures due to relaxation, fg (1 - 2 nu)/G, cancel if they are equal with equal relaxation times
    pure logical function relaxes_apart(self)
       class(material_spec), intent(in) :: self
-      !> Difference relative to the compliance below which bodies count as alike, as for AK
+      !> Difference relative to the compliance below which bodies are regarded as equal, as for AK [-]
       real(wp), parameter :: alike = 1.0e-4_wp
       real(wp) :: at_once(2), late(2), small
 
       small = alike*sum(1.0_wp/self%gg)
       late = self%fg*(1.0_wp - 2.0_wp*self%poiss)/self%gg
-      ! without relaxation time the whole response comes at once
+      ! without relaxation time the whole response is immediate
       at_once = merge(late, 0.0_wp, self%tc <= 0.0_wp)
       late = late - at_once
       relaxes_apart = abs(at_once(1) - at_once(2)) > small .or. abs(late(1) - late(2)) > small .or. &

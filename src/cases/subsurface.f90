@@ -1,4 +1,4 @@
-!> Subsurface stresses of one contact patch: blocks of points in, fields out
+!> Stresses below the surface of one contact patch in blocks of points
 module contact_cases_subsurface
    use contact_base_choices, only : kernel_model
    use contact_base_error, only : add_context, error_type, fatal_error
@@ -21,9 +21,9 @@ module contact_cases_subsurface
 
    public :: stress_memory, subsurface_stresses, warn_of_steps
 
-   !> Most points of one block, some 3 GB
+   !> Maximum number of points of a block, about 3 GB
    integer(long), parameter :: max_points = 20000000_long
-   !> The results of a point, its place included, and as much again while they are computed
+   !> Memory of the results of a point, including its position, plus the same amount during the computation [bytes]
    integer(long), parameter :: bytes_per_point = 300_long
 
 contains
@@ -31,13 +31,13 @@ contains
    !> Displacements, stresses and their invariants in the blocks of points of a case
    subroutine subsurface_stresses(spec, result, error, left, shelf)
       type(case_spec), intent(in) :: spec
-      !> A solved patch; columns and rows of the blocks are those of its grid
+      !> A solved patch; columns and rows of the blocks refer to its grid
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
-      !> Does the patch belong to a wheel on the left side, of which it is the mirror image? Points and results are then
-      !> in the coordinates of the left side. Default: no
+      !> Does the patch belong to a wheel on the left side, with its mirror image as solution? Points and results are then in the
+      !> coordinates of the left side. Default: no
       logical, intent(in), optional :: left
-      !> What cases that follow each other keep for the first block; absent: nothing
+      !> Data kept between successive cases for the first block; absent: none
       type(response_shelf), intent(inout), optional :: shelf
       type(surface_load) :: load
       type(potential_contact) :: area
@@ -82,9 +82,9 @@ contains
       end subroutine take_load
    end subroutine subsurface_stresses
 
-   !> Warn of points whose stresses are those of the steps of the tractions between elements
+   !> Warn of points whose stresses are affected by the piecewise constant tractions
    subroutine warn_of_steps(result, log)
-      !> With its blocks
+      !> Solution with its blocks
       type(patch_result), intent(in) :: result
       type(log_type), intent(inout) :: log
       integer :: k
@@ -99,8 +99,8 @@ contains
       end do
    end subroutine warn_of_steps
 
-   !> The rectangle of the elements in contact and one element more on each side; empty for a single element, which
-   !> is a study of constant tractions
+   !> Bounding box of the elements in contact, extended by one element on each side; empty for a single element, which serves to
+   !> study constant tractions
    pure function around_contact(patch) result(area)
       type(patch_result), intent(in) :: patch
       type(potential_contact) :: area
@@ -114,10 +114,10 @@ contains
       area%my = box%iy1 - box%iy0 + 3
    end function around_contact
 
-   !> Memory that the stresses of a case take on a grid [bytes]
+   !> Memory required for the stresses of a case [bytes]
    pure integer(long) function stress_memory(spec, grid) result(bytes)
       type(case_spec), intent(in) :: spec
-      !> Its numbers of columns and rows count
+      !> Grid with its numbers of columns and rows
       type(potential_contact), intent(in) :: grid
       type(point_set) :: points
       integer :: k
@@ -130,16 +130,16 @@ contains
       end do
    end function stress_memory
 
-   !> One block
+   !> Displacements and stresses in one block
    subroutine block_stresses(load, block, area, limits, result, error, shelf)
       type(surface_load), intent(in) :: load
       type(point_block), intent(in) :: block
-      !> The elements in contact and those beside them
+      !> The elements in contact and their neighbours
       type(potential_contact), intent(in) :: area
       type(case_limits), intent(in) :: limits
       type(subsurface_result), intent(out) :: result
       type(error_type), allocatable, intent(out) :: error
-      !> As for subsurface_stresses
+      !> See subsurface_stresses
       type(response_shelf), intent(inout), optional :: shelf
       type(point_set) :: points
       character(len=160) :: text

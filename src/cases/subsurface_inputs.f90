@@ -1,4 +1,4 @@
-!> Points below the surface, once for all formats
+!> Input values of points below the surface, once for all formats
 !>
 !> As in contact_cases_inputs.
 module contact_cases_subsurface_inputs
@@ -12,23 +12,23 @@ module contact_cases_subsurface_inputs
 
    public :: visit_stress_output, visit_blocks
 
-   !> Most coordinates of a block in one direction
+   !> Maximum number of coordinates of a block in one direction
    integer, parameter :: longest_list = 9999
-   !> Largest number of a column or row
+   !> Maximum number of a column or row
    integer, parameter :: largest_index = 999999
 
    type :: block_option_list
-      !> Depths by first depth and step: centres of all elements, of ranges, of lists
+      !> Depths by first depth and step, with points at the centres of all elements, of ranges, of lists
       integer :: all_by_step = 1, ranges_by_step = 2, lists_by_step = 3
-      !> The same with a list of depths, and points that have nothing to do with the grid
+      !> The same with a list of depths; and points independent of the grid
       integer :: all = 5, ranges = 6, lists = 7, free = 9
    end type block_option_list
-   !> How a block is given (ISUBS); 0 ends the blocks
+   !> Option of a block (ISUBS); 0 ends the list of blocks
    type(block_option_list), parameter :: option = block_option_list()
 
 contains
 
-   !> Where stresses below the surface are written
+   !> Output of stresses below the surface
    subroutine visit_stress_output(a, subsurface)
       class(case_archive), intent(inout) :: a
       type(subsurface_spec), intent(inout), target :: subsurface
@@ -38,7 +38,7 @@ contains
       call a%end_line()
    end subroutine visit_stress_output
 
-   !> Blocks of points, which replace all that were there
+   !> Blocks of points, which replace all previous ones
    subroutine visit_blocks(a, subsurface)
       class(case_archive), intent(inout) :: a
       type(subsurface_spec), intent(inout) :: subsurface
@@ -79,7 +79,7 @@ contains
 
    contains
 
-      !> How the next block is given
+      !> Option of the next block
       subroutine visit_option(value)
          integer, intent(inout), target :: value
 
@@ -101,7 +101,7 @@ contains
       end select
    end function option_of
 
-   !> One block: columns and rows, then depths, or coordinates in all directions
+   !> One block: columns and rows, then depths; or coordinates in all directions
    subroutine visit_block(a, kind_of_block, block)
       class(case_archive), intent(inout) :: a
       !> Member of option
@@ -194,7 +194,7 @@ contains
       step = max(1, step)
    end subroutine visit_range
 
-   !> Without a proper length the list cannot be read
+   !> Without a valid length the list cannot be read
    subroutine require_length(a, name, length)
       class(case_archive), intent(inout) :: a
       character(len=*), intent(in) :: name
@@ -204,7 +204,7 @@ contains
       if (length < 1 .or. length > longest_list) call a%fail(name, " is outside its range 1 to " // integer_text(longest_list))
    end subroutine require_length
 
-   !> A list of columns or rows; those that come in are rounded, sorted, and counted once
+   !> A list of columns or rows; on reading, values are rounded and sorted, and repeated values are removed
    subroutine visit_indices(a, n, name, list)
       class(case_archive), intent(inout) :: a
       integer, intent(in) :: n
@@ -234,7 +234,7 @@ contains
          & " are dropped: they are not positive, or given twice")
    end subroutine visit_indices
 
-   !> A list of coordinates; those that come in are sorted
+   !> A list of coordinates; on reading, values are sorted
    subroutine visit_sorted(a, n, name, list)
       class(case_archive), intent(inout) :: a
       integer, intent(in) :: n
@@ -246,7 +246,7 @@ contains
       if (a%is_reading .and. a%is_good) call sort(list)
    end subroutine visit_sorted
 
-   !> Sort ascending, by insertion: the lists are short and mostly in order
+   !> Sort in ascending order by insertion: the lists are short and mostly sorted
    pure subroutine sort(list)
       real(wp), intent(inout) :: list(:)
       real(wp) :: value
