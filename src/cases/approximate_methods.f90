@@ -128,7 +128,7 @@ contains
       why = ""
       material = combine(spec%material%poiss, spec%material%gg)
       if (allocated(spec%wheel_rail)) then
-         why = "KPEC and ANALYN are wrong by up to 0.1 on wheels and rails, and take as long as the full theory on fewer elements"
+         why = "KPEC and ANALYN have errors up to 0.1 on wheels and rails, and take as long as the full theory on fewer elements"
       else if (.not. spec%grid%is_hertzian() .or. spec%grid%is_line_contact()) then
          why = "pressures by Hertz need a Hertzian option for an ellipse"
       else if (all(spec%motion /= [motion%none, motion%steady_rolling])) then
@@ -141,7 +141,7 @@ contains
       end if
       if (why /= "" .or. spec%motion == motion%none) return
       if (material%coupled()) then
-         why = "errors of unlike bodies are not known"
+         why = "errors for dissimilar materials are not known"
       else if (is_varying_law(spec%friction_law) .or. spec%variation /= variation%none) then
          why = "errors with friction that varies are not known"
       else if (spec%slip_source /= slip_source%none .or. abs(spec%kinematics%spinxo) + abs(spec%kinematics%spinyo) > 0.0_wp) then

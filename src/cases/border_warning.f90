@@ -90,17 +90,17 @@ contains
       do k = 1, size(wheel_rail%buried)
          if (.not. wheel_rail%buried(k)%depth > 0.0_wp) cycle
          words = buried_words(spec, wheel_rail%buried(k), k)
-         call log%warning(trim(words) // ". An edge that touches there carries load in reality, none here: take a profile of the &
-            &wheel that goes on beyond it, or another position")
+         call log%warning(trim(words) // ". A real edge in contact there carries load, which is not included: use a longer profile &
+            &of the wheel, or another position")
       end do
       if (.not. wheel_rail%beside%depth > 0.0_wp) return
       if (wheel_rail%beside%beyond_reach) then
-         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". Contact is sought up to an eighth of the radius of &
-            &the wheel ahead of it and behind, farther below a flank in yaw; a steep ramp, or a flank of more than 80 degrees, may &
-            &touch there, and carries no load here")
+         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". The contact search extends to an eighth of the &
+            &wheel's radius ahead of and behind the axle, farther below a yawed flank; a steep ramp, or a flank of more than 80 &
+            &degrees, may be in contact beyond, and its load is not included")
       else
-         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". The search along the contact locus keeps one place for &
-            &each lateral position; the search over a grid (search.location = ""grid"") keeps all")
+         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". The search along the contact locus finds one position &
+            &for each lateral position; the search over a grid (search.location = ""grid"") finds all")
       end if
    end subroutine warn_of_buried_ends
 

@@ -74,11 +74,11 @@ contains
       if (result%ncon == 0) then
          reason = "there is no contact"
       else if (allocated(fine%model%tabulated)) then
-         reason = "tabulated influence coefficients belong to one size of elements"
+         reason = "tabulated influence coefficients are valid for one size of elements"
       else if (fine%remembers_yield .and. fine%motion /= motion%steady_rolling) then
-         reason = "a layer that yields is followed from element to element"
+         reason = "plastic layers have a history in each element"
       else if (fine%motion == motion%transient_rolling .and. .not. fine%model%is_flat()) then
-         reason = "steps of transient rolling on curved surfaces are bound to the elements"
+         reason = "steps of transient rolling on curved surfaces are one element long"
       end if
       if (reason /= "") return
       call choose_axis(fine%grid%mx, box%ix0, box%ix1, x)
@@ -103,12 +103,12 @@ contains
       call coarsen_problem(fine, x, y, coarse)
       if (continues) then
          if (.not. coarse_state%started) then
-            reason = "its history was not followed on the coarser level: ask for errors from the first case on"
+            reason = "the coarser level has no history: request errors from the first case on"
             return
          end if
          call link_time_steps(coarse, link, coarse_state, error)
          if (allocated(error)) then
-            reason = "the coarser level of the previous case does not fit to this one"
+            reason = "the coarser level of the previous case does not fit this one"
             return
          end if
       else

@@ -52,7 +52,8 @@ module contact_patch_friction_iteration
 
    !> Relative change of slip velocities or temperatures at which the iteration has converged
    real(wp), parameter :: speed_tolerance = 1.0e-3_wp, temperature_tolerance = 1.0e-4_wp
-   !> The relaxation factor is multiplied by `reduction` after every so many passes, while the number of slip elements still changes
+   !> The relaxation factor is multiplied by `reduction` after each `speed_patience` or `temperature_patience` passes while the
+   !> number of slip elements changes
    real(wp), parameter :: reduction = 0.8_wp
    integer, parameter :: speed_patience = 20, temperature_patience = 15
    !> Passes that are deducted from MAXIN to get the limit of the friction iteration
@@ -109,7 +110,7 @@ contains
       type(tangential_solution), intent(in) :: solution
       !> Did the tangential problem reach its tolerance?
       logical, intent(in) :: converged
-      !> Gets a line per iteration from flow-trace level 2 on
+      !> Receives a line per iteration from flow-trace level 2 on
       type(log_type), intent(inout) :: log
       !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)

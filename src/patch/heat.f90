@@ -34,7 +34,7 @@ contains
    subroutine derive_temperatures(problem, log, result)
       !> Thermal constants, friction law, motion and step
       type(patch_problem), intent(in) :: problem
-      !> Gets a warning if the steps are too long for the model
+      !> Receives a warning if the steps are too long for the model
       type(log_type), intent(inout) :: log
       !> Solution with element states, slip and tractions
       type(patch_result), intent(inout) :: result
@@ -60,7 +60,7 @@ contains
       if (any(heat > 0.0_wp)) call warn_of_slow_motion(problem, log, result)
    end subroutine derive_temperatures
 
-   !> The temperatures hold for fast motion: warn if conduction along the surface is as fast as convection
+   !> The temperatures hold for fast motion: warn if conduction along the surface is not slow compared with convection
    subroutine warn_of_slow_motion(problem, log, result)
       !> With thermal constants
       type(patch_problem), intent(in) :: problem

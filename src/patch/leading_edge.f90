@@ -33,7 +33,7 @@ contains
       type(patch_result), intent(in) :: result
       !> Tangential problem with its rigid slip, and displacements by previous tractions at the edge; shares and edges are set
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets a message from flow-trace level 3 on if rows are left out
+      !> Receives a message from flow-trace level 3 on if rows are left out
       type(log_type), intent(inout) :: log
       real(wp) :: share
       integer :: iy, k, ix, edge, hidden

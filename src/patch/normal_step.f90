@@ -30,7 +30,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> Compliance on the grid, and work space
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets the trace of the solver, and warnings of approximate methods
+      !> Receives the trace of the solver, and warnings of approximate methods
       type(log_type), intent(inout) :: log
       !> The report of the normal problem and the contact area are set
       type(patch_result), intent(inout) :: result

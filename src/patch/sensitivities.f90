@@ -40,7 +40,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> Totals on entry; `sensitivity` is set
       type(patch_result), intent(inout) :: result
-      !> Gets a warning if a linear system was not solved accurately enough
+      !> Receives a warning if a linear system was not solved accurately enough
       type(log_type), intent(inout) :: log
       real(wp), allocatable :: q(:, :)
       real(wp) :: reached

@@ -26,7 +26,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> The simplified problem and its solution, as work space
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets the trace, and warnings
+      !> Receives the trace, and warnings
       type(log_type), intent(inout) :: log
       !> Slip, element states, creepages and the report are set
       type(patch_result), intent(inout) :: result

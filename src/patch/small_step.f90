@@ -90,7 +90,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> Work space of the solution
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets the trace of the solvers, and warnings
+      !> Receives the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
       !> Result of the solution with totals and reports; updated
       type(patch_result), intent(inout) :: result

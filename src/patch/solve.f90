@@ -50,14 +50,14 @@ contains
       type(patch_state), intent(inout) :: state
       !> Work space, kept from case to case for speed; its contents have no meaning
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets the trace of all solvers, and warnings
+      !> Receives the trace of all solvers, and warnings
       type(log_type), intent(inout) :: log
       !> Tractions, slip, totals, reports and the status of the case
       type(patch_result), intent(inout) :: result
       !> Allocated if the problem has no solution, or the time limit is exceeded
       type(error_type), allocatable, intent(out) :: error
       !> Outer iteration between pressures and tractions
-      type(solve_report) :: outer_report
+      type(solve_report) :: turns
       integer :: outer
 
       call check_problem(problem, error)
@@ -88,19 +88,19 @@ contains
          if (problem%settings%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit
          if (problem%deadline%has_passed()) then
-            outer_report%ended = ending%out_of_time
+            turns%ended = ending%out_of_time
             exit
          end if
-         call next_pass(problem, state, workspace, log, result, outer_report)
-         if (outer_report%ended /= ending%not_started) exit
-         if (outer == problem%settings%maxout) outer_report%ended = ending%iteration_limit
+         call next_pass(problem, state, workspace, log, result, turns)
+         if (turns%ended /= ending%not_started) exit
+         if (outer == problem%settings%maxout) turns%ended = ending%iteration_limit
       end do
-      if (any([result%normal%ended, result%tangential%ended, outer_report%ended] == ending%out_of_time)) then
+      if (any([result%normal%ended, result%tangential%ended, turns%ended] == ending%out_of_time)) then
          call problem%deadline%check("in the solution of a contact patch", error)
          return
       end if
       call derive(problem, state, workspace, result)
-      call derive_status(problem, outer_report, result)
+      call derive_status(problem, turns, result)
       if (.not. result%status%is_solved()) call log%warning(result%status%reason)
       call remember_forces(problem, state, result)
       call find_sensitivities(problem, workspace, state, result, log)
@@ -126,14 +126,14 @@ contains
    end subroutine warn_of_creepages
 
    !> Check convergence of the outer iteration; choose the normal displacements for the next pass
-   subroutine next_pass(problem, state, workspace, log, result, outer_report)
+   subroutine next_pass(problem, state, workspace, log, result, turns)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(patch_result), intent(in) :: result
       !> Ended if the change is within the tolerance
-      type(solve_report), intent(inout) :: outer_report
+      type(solve_report), intent(inout) :: turns
       real(wp) :: change, scale
       integer :: level
       character(len=96) :: line
@@ -147,12 +147,12 @@ contains
             & problem%settings%eps*scale
          call log%trace(level, trim(line))
       end if
-      outer_report%method = "outer iteration"
-      outer_report%iterations = result%outer_iterations
-      outer_report%residual = change/scale
-      outer_report%tolerance = problem%settings%eps
+      turns%method = "outer iteration"
+      turns%iterations = result%outer_iterations
+      turns%residual = change/scale
+      turns%tolerance = problem%settings%eps
       if (change <= problem%settings%eps*scale) then
-         outer_report%ended = ending%converged
+         turns%ended = ending%converged
          return
       end if
       if (change <= near_the_end*problem%settings%eps*scale) &

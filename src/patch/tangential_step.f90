@@ -42,7 +42,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> Compliance of the box, tangential problem and solution
       type(patch_workspace), intent(inout) :: workspace
-      !> Gets the trace of the solvers, and warnings
+      !> Receives the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
       !> Slip, coefficients of friction, creepages and reports are set
       type(patch_result), intent(inout) :: result

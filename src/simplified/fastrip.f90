@@ -33,9 +33,9 @@ module contact_simplified_fastrip
 
 contains
 
-   !> Replace Fastsim's tractions, row by row, separately for each contiguous stretch of contact in a row
+   !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
    pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division)
-      !> Ellipse, material, normal force and creepages
+      !> Ellipse, material, force and creepages that strip theory starts from
       type(strip_data), intent(in) :: data
       !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
       real(wp), intent(in) :: x(:), y(:), dx
@@ -73,7 +73,7 @@ contains
       end do
    end subroutine apply_strip_theory
 
-   !> One strip: tractions of strip theory in its adhesion area, if it has one
+   !> One strip: adhesion from strip theory where that is possible
    pure subroutine one_strip(data, x, y, dx, mu, bound, p, slip, division)
       type(strip_data), intent(in) :: data
       real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
@@ -90,7 +90,7 @@ contains
       creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
       creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
       call scaled_creepages(data, mu, creep, spin)
-      ! strip theory rolls towards increasing x; the other direction is its mirror image
+      ! seen from the leading edge: rolling towards decreasing x is a mirror image
       creep(1) = data%direction*creep(1)
       spin = data%direction*spin
       q = creep(1) - spin*(y - data%centre(2))/a
@@ -138,9 +138,9 @@ contains
 
    !> Scale the creepages and the spin of the contact to those of a strip, in place
    !>
-   !> The factors are the ratios of Kalker's coefficients to those of a strip, pi**2/(4 (1 - nu)) and so on.
+   !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
    pure subroutine scaled_creepages(data, mu, creep, spin)
-      !> Ellipse, material, normal force and creepages
+      !> Ellipse, material, force and creepages that strip theory starts from
       type(strip_data), intent(in) :: data
       !> Coefficient of friction [-]
       real(wp), intent(in) :: mu

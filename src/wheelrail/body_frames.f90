@@ -25,9 +25,9 @@ contains
 
    !> Frames of the last solution
    pure function frames_of(pair, result) result(frames)
-      !> Position of the wheelset and side of the track
+      !> For the position of the wheelset and its side of the track
       type(wheel_rail_spec), intent(in) :: pair
-      !> Positions of the markers
+      !> For the markers
       type(wheel_rail_result), intent(in) :: result
       type(body_frames) :: frames
       real(wp) :: s

@@ -13,7 +13,7 @@ module contact_wheelrail_course
    !> Power of the force to which the penetration is roughly proportional
    real(wp), parameter, public :: power = 2.0_wp/3.0_wp
 
-   !> Coordinates of the position of a wheelset, scaled to lengths with comparable influence
+   !> Number of coordinates of the position of a wheelset; they are scaled to lengths with comparable influence
    integer, parameter :: n_place = 3
    !> Length by which angles are scaled [mm]: distance of the wheel from the centre of the track
    real(wp), parameter :: lever = 750.0_wp

@@ -32,7 +32,7 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
-      !> Gets a warning if no deflection balances the forces
+      !> Receives a warning if no deflection balances the forces
       type(log_type), intent(inout) :: log
       !> Its status says whether the forces are in balance
       type(wheel_rail_result), intent(inout) :: result

@@ -49,7 +49,7 @@ contains
             call solve_coarse_level(slot%problem, slot%state, problem%link, slot%coarse, slot%result, error)
             if (allocated(error)) return
             if (has_history) slot%result%errors%reason = &
-               & "the history of transient cases of wheel and rail is not followed on a coarser level"
+               & "transient cases of wheel and rail have no history on a coarser level"
             if (slot%result%errors%reason /= "") cycle
             missing = missing + vertical(slot, slot%result%fn) - vertical(slot, slot%coarse%result%fn)
             stiffness = stiffness + slot%plane%axes(3, 3)*vertical(slot, normal_stiffness(slot%result))

@@ -67,7 +67,7 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
-      !> Gets a line per trial, and warnings
+      !> Receives a line per trial, and warnings
       type(log_type), intent(inout) :: log
       !> Its status says whether force and friction were found
       type(wheel_rail_result), intent(inout) :: result
@@ -301,10 +301,10 @@ contains
             if (low%patches /= high%patches) then
                why = why // "join or separate (" // integer_text(low%patches) // ", then " // integer_text(high%patches) // ")"
             else
-               why = why // "change their place or their angle"
+               why = why // "change their position or angle"
             end if
          case (balance_ending%above_touch)
-            why = "more acts at the first touch already"
+            why = "it is exceeded at first touch"
          case (balance_ending%out_of_reach)
             why = "it is out of reach"
          case default

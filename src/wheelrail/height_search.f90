@@ -36,9 +36,9 @@ module contact_wheelrail_height_search
       real(wp), private :: small = 1.0_wp
       !> Number of trials of the case before this search
       integer, private :: trials_before = 0
-      !> Are pressures solved more accurately in all trials?
+      !> Are the pressures of all trials made sharp?
       logical, private :: all_sharp = .false.
-      !> Is this the first one of these trials, with lower accuracy, as another one follows?
+      !> But for the first one, which only has to tell the next height?
       logical, private :: is_rough = .false.
    contains
       procedure :: begin
@@ -75,7 +75,8 @@ module contact_wheelrail_height_search
    real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
    !> Ratio of normal forces to the prescribed force above which friction carries nearly all of them
    real(wp), parameter :: mostly_friction = 20.0_wp
-   !> If the force is exceeded at first touch, the wheel is lifted by up to so many times the approach of its patches, at least by
+   !> If the force is exceeded at first touch, the wheel is lifted by up to this multiple of the approach of its patches, at least
+   !> by this length [mm]
    !> this length [mm]
    real(wp), parameter :: lifted_approaches = 6.0_wp, lifted_length = 1.0e-6_wp
    !> Maximum penetration of trials, in radii of the wheel
@@ -109,7 +110,7 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Sides of the coarse elements relative to the requested ones
       integer, intent(in) :: coarser
-      !> Gets the trace of the solvers
+      !> Receives the trace of the solvers
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
       type(height_search) :: coarse
@@ -138,7 +139,7 @@ contains
       real(wp), intent(in) :: eps
       !> Maximum number of trials
       integer, intent(in) :: max_trials
-      !> Gets the trace of the trials
+      !> Receives the trace of the trials
       type(log_type), intent(inout) :: log
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
@@ -174,7 +175,7 @@ contains
       real(wp), intent(inout) :: stiffer
       !> Was the force reached? z is the height, or the best one that was tried
       logical, intent(out) :: is_settled
-      !> Gets the trace of the trials
+      !> Receives the trace of the trials
       type(log_type), intent(inout) :: log
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
@@ -285,7 +286,7 @@ contains
       real(wp), intent(in) :: stiffer
       !> Height of the last trial on entry, the new one on exit [mm]
       real(wp), intent(inout) :: z
-      !> Gets the trace of the solvers
+      !> Receives the trace of the solvers
       type(log_type), intent(inout) :: log
       !> Was the force reached? Otherwise another trial is needed, also if the tractions of a patch were not found
       logical, intent(out) :: is_done
@@ -365,7 +366,7 @@ contains
       real(wp), intent(in) :: z
       !> Are the tangential problems solved?
       logical, intent(in) :: with_friction
-      !> Gets the trace; warnings are held back
+      !> Receives the trace; warnings are held back
       type(log_type), intent(inout) :: log
       !> Allocated if a patch has no result
       type(error_type), allocatable, intent(out) :: error

@@ -135,7 +135,7 @@ contains
       jacobian%state = jacobian_state%exact
       if (.not. is_smooth) then
          jacobian%state = jacobian_state%one_sided
-         jacobian%reason = "a contact patch, or a part of one, appears or vanishes here: derivatives are those to one side"
+         jacobian%reason = "a contact patch, or a part of one, appears or vanishes here: derivatives are one-sided"
       else if (jacobian%reached > good) then
          jacobian%state = jacobian_state%none
          jacobian%reason = "the linear systems were not solved"
@@ -151,15 +151,15 @@ contains
 
       reason = ""
       if (problem%geometry_only) then
-         reason = "only the places of contact were sought"
+         reason = "the case is a contact search without solution"
       else if (.not. result%status%is_solved()) then
          reason = "the calculation did not end with a solution"
       else if (problem%force /= force_control%creepages) then
-         reason = "derivatives are not built for a prescribed longitudinal force and a rail on springs"
+         reason = "derivatives are not available for a prescribed longitudinal force and a rail on springs"
       else if (memory%geometry%searches_table .or. follows_surface(problem)) then
-         reason = "derivatives are not built for bodies that vary, for curved patches, and for slip along the locus"
+         reason = "derivatives are not available for bodies that vary, curved patches, and slip along the locus"
       else if (problem%variation == variation%by_angle .and. memory%used > 0) then
-         if (allocated(memory%slot(1)%problem%friction)) reason = "derivatives are not built for friction laws that vary"
+         if (allocated(memory%slot(1)%problem%friction)) reason = "derivatives are not available for friction laws that vary"
       end if
       if (len(reason) > 0) return
       if (memory%used == 0) then
@@ -167,7 +167,7 @@ contains
          return
       end if
       call obstacle_to_derivatives(memory%slot(1)%problem, reason)
-      if (len(reason) > 0) reason = "derivatives are not built for " // reason
+      if (len(reason) > 0) reason = "derivatives are not available for " // reason
    end subroutine find_obstacle
 
    !> Add the contribution of one patch

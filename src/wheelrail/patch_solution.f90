@@ -33,7 +33,7 @@ contains
       !> Is the tangential problem solved? It is solved in any case for a patch without known friction ratio if the ratios of others
       !> are known
       logical, intent(in) :: with_friction
-      !> Gets the trace of the solvers
+      !> Receives the trace of the solvers
       type(log_type), intent(inout) :: log
       !> Allocated if the patch has no result
       type(error_type), allocatable, intent(out) :: error

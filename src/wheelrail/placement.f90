@@ -30,7 +30,7 @@ contains
 
    !> -1 for the left side of the track, 1 for the right one
    pure real(wp) function side_sign(wheel_rail)
-      !> Wheel and rail; the side of the track is used
+      !> Its side of the track counts
       type(wheel_rail_spec), intent(in) :: wheel_rail
       side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
@@ -105,9 +105,9 @@ contains
 
    !> Frames of wheel and rail for a given height of the wheelset
    subroutine place_wheel_rail(wheel_rail, wheel, top_z, gauge_y, z_ws, deflection, placement)
-      !> Track, deviations of the rail, and position of the wheelset, with the signs of the input
+      !> Track, deviations of the rail, and position of the wheelset, as they were given for the side of the track
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Profile of the wheel in its own coordinates; defines the radius at the tape line
+      !> Profile of the wheel in its own coordinates; its radius is measured there
       type(profile_curve), intent(in) :: wheel
       !> Results of gauge_point; not used with absolute placement
       real(wp), intent(in) :: top_z, gauge_y
@@ -145,9 +145,9 @@ contains
 
    !> Motion of the rail, or of the roller about its axle
    pure function rail_motion(wheel_rail, placement) result(motion)
-      !> Velocities of rail and roller, with the signs of the input
+      !> Velocities of rail and roller, as they were given
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Positions of the bodies
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       type(rigid_motion) :: motion
       real(wp) :: s, yaw_rate
@@ -170,9 +170,9 @@ contains
 
    !> Motion of the wheel: that of the wheelset plus the rates of its flexible deviations, about the origin of the wheel profile
    pure function wheel_motion(wheel_rail, placement, pitch_rate) result(motion)
-      !> Velocities of wheelset and wheel, with the signs of the input
+      !> Velocities of wheelset and wheel, as they were given
       type(wheel_rail_spec), intent(in) :: wheel_rail
-      !> Positions of the bodies
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> Pitch rate of the wheelset [rad/s]
       real(wp), intent(in) :: pitch_rate

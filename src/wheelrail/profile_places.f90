@@ -15,9 +15,9 @@ contains
 
    !> Positions of points of a profile in the track, y with the sign of the wheel's side; all y, then all z [mm]
    function places_in_track(spec, result, is_wheel, y, z) result(list)
-      !> Side of the track
+      !> For the side of the track
       type(wheel_rail_spec), intent(in) :: spec
-      !> Result of the last case
+      !> Of the last case
       type(wheel_rail_result), intent(in) :: result
       !> Profile of the wheel? Otherwise of the rail
       logical, intent(in) :: is_wheel
@@ -44,7 +44,7 @@ contains
    function gauge_places(spec, result, curve) result(list)
       !> Gauge height, cant, and the side of the track
       type(wheel_rail_spec), intent(in) :: spec
-      !> Result of the last case
+      !> Of the last case
       type(wheel_rail_result), intent(in) :: result
       !> Profile of the rail
       type(profile_curve), intent(in) :: curve

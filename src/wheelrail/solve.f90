@@ -32,7 +32,7 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       !> State kept from case to case: patches, friction ratios, heights
       type(wheel_rail_memory), intent(inout) :: memory
-      !> Gets the trace, and warnings
+      !> Receives the trace, and warnings
       type(log_type), intent(inout) :: log
       !> Patches, forces, position, and the status of the case
       type(wheel_rail_result), intent(inout) :: result
@@ -206,7 +206,7 @@ contains
          call geometry%before%set_frame(follows_rail=problem%template%motion == motion%shift)
          if (.not. keeps_lattice(problem)) return
          call geometry%before%drop_other_elements(problem%spec%search%dx, problem%spec%search%ds, dropped)
-         if (dropped > 0) call log%warning("the tractions of the previous case stand on other elements and are not continued")
+         if (dropped > 0) call log%warning("the previous case has elements of other sizes; its tractions are not used")
       end associate
    end subroutine begin_step
 

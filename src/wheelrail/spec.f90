@@ -102,7 +102,7 @@ module contact_wheelrail_spec
       logical :: left = .false., roller = .false.
       !> Is the position determined by the vertical force? Member of normal_control
       integer :: position_control = 0
-      !> Does the case have new profiles?
+      !> Has the case new profiles?
       logical :: new_rail_profile = .false., new_wheel_profile = .false.
       type(search_spec) :: search
       type(track_spec) :: track

@@ -29,7 +29,7 @@ contains
       real(wp), intent(in) :: z
       !> Are the tangential problems solved?
       logical, intent(in) :: with_friction
-      !> Gets the trace of the solvers, and warnings
+      !> Receives the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
       !> Allocated if a patch has no result
       type(error_type), allocatable, intent(out) :: error

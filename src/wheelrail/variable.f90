@@ -246,7 +246,7 @@ contains
          cell(2) = minloc(least, 1)
          if (least(cell(2)) >= min(smallest - margin, 0.5_wp*no_surface)) exit
          cell(1) = minloc(waiting(:, cell(2)), 1)
-         ! most sections are used only once, so a coarser step is tried first
+         ! most cells do not give a smaller gap, so a coarse step is tried first
          do stride = merge(few, 1, mod(n, few) == 0), 1, -(few - 1)
             x = edges(cell(1)) + [(i*step, i=0, n, stride)]
             row = no_surface
