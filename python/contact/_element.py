@@ -39,15 +39,15 @@ _temporary: tempfile.TemporaryDirectory[str] | None = None
 
 
 def output_to(folder: str | os.PathLike[str], name: str = "contact") -> None:
-    """Where the files of the following problems go: ``<name>.out`` with the log, ``.mat`` and ``.subs`` files.
+    """Set the folder and name of the files of the following problems: ``<name>.out`` with the log, ``.mat`` and ``.subs`` files.
 
-    Without this call they go to a temporary folder and are removed when Python ends. The ``.out`` file begins
-    anew when the first problem is made and when all problems were closed.
+    By default they are written to a temporary folder and removed when Python ends. A new ``.out`` file begins with
+    the first problem, and after all problems were closed.
 
     Raises
     ------
     ContactError
-        If problems are open, because their file is.
+        If problems are open.
     """
     global _place
     with _lock:
@@ -101,7 +101,7 @@ def fail_if(condition: bool, code: int, what: str, ire: int = 0, icp: int = -1) 
 class Patch(View):
     """Results of one contact patch. Units as chosen for the problem; fields have shape (my, mx).
 
-    ``print`` shows the totals, :meth:`plot` draws a field, :meth:`to_xarray` gives all as a data set.
+    ``print`` prints the totals, :meth:`plot` plots a field, :meth:`to_xarray` returns everything as a data set.
 
     Attributes
     ----------
@@ -214,7 +214,7 @@ class Patch(View):
 
     @property
     def elements_across(self) -> int:
-        """Elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result."""
+        """Elements across the contact in its narrower direction, 0 without contact; fewer than 5 give inaccurate results."""
         touching = self.state > 0
         across = [int(touching.sum(axis=axis).max(initial=0)) for axis in (0, 1) if touching.shape[axis] >= 3]
         return min(across, default=0)
@@ -468,7 +468,7 @@ class Element:
         self.set_flags(own_errors=int(wanted))
 
     def set_wear(self, archard: float = 0.0, hardness: float = 0.0, shear_yield: float = 0.0) -> None:
-        """Tell wear and fatigue with each solution, see ``wear``, ``power`` and ``wear_depth`` of the results.
+        """Compute wear and fatigue with each solution, see ``wear``, ``power`` and ``wear_depth`` of the results.
 
         Parameters
         ----------
@@ -492,7 +492,7 @@ class Element:
         g2, nu2
             Those of body 2, default the same.
         model, parameters
-            M digit and the numbers it asks for beyond the elastic ones.
+            M digit and its parameters besides the elastic constants.
         """
         if hasattr(g, "__len__") or hasattr(nu, "__len__"):
             raise TypeError("g and nu are numbers, those of body 1; body 2 has g2 and nu2")
@@ -511,7 +511,7 @@ class Element:
                          conductivity: float | None = None, density: float | None = None, capacity2: float | None = None,
                          conductivity2: float | None = None, density2: float | None = None, plastic_share: float = 1.0,
                          source: str = "moving") -> None:
-        """Surface temperatures in steady rolling, at the velocity that is set; thermal constants default to those of steel.
+        """Surface temperatures in steady rolling at the current velocity; thermal constants default to those of steel.
 
         Parameters
         ----------
@@ -521,7 +521,7 @@ class Element:
             Heat capacity [J/(kg K)], conductivity [W/(L K)] and density [kg/L3] of body 1, and with a 2 those of
             body 2, default the same.
         plastic_share
-            Share of plastic work that becomes heat [-].
+            Fraction of plastic work that becomes heat [-].
         source
             ``"moving"``: the solution for fast moving sources. ``"established"``: as the established program, which
             counts the heat of an element twice at its centre and comes out higher, by 11 % on 60 elements.
@@ -569,7 +569,7 @@ class Element:
 
         Tractions are constant on elements. At depths of less than a quarter of dx the stresses are therefore those of
         the bodies at the centres of elements only: take None for both x and y, which stands for all centres, or
-        the ``x`` and ``y`` of a result. Elsewhere use depths of dx/4 and more; nearer points are warned of.
+        the ``x`` and ``y`` of a result. Elsewhere use depths of dx/4 and more; points closer to the surface give a warning.
         """
         if (x is None) != (y is None):
             raise ValueError("x and y have to be given both, or be None both for the centres of all elements")

@@ -14,7 +14,7 @@ _SUFFIXES = (".inp", ".toml")
 
 
 def explain(path: str | os.PathLike[str]) -> str:
-    """Tell in words what every case of an experiment simulates, what it leaves out, how, and what it is expected to cost.
+    """Describe in words what every case of an experiment simulates and what not, the methods, and the expected cost.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def explain(path: str | os.PathLike[str]) -> str:
     Raises
     ------
     ContactError
-        If the input cannot be understood. The message ends with the reason and its place.
+        If the input is invalid. The message has the reason and its position.
     """
     room = 65536
     while True:
@@ -50,7 +50,7 @@ def convert(path: str | os.PathLike[str], output_dir: str | os.PathLike[str] | N
     output_dir
         Folder of the new file; that of the input if not given.
     overwrite
-        Replace a file that is there?
+        Whether to replace an existing file.
 
     Returns
     -------
@@ -78,8 +78,8 @@ def read(path: str | os.PathLike[str]) -> list[dict[str, Any]]:
 
     Returns
     -------
-    One dictionary for each case, with the keys and tables of the readable format. A case has what differs from the
-    one before, as in the file.
+    One dictionary for each case, with the keys and tables of the readable format. A case has only what differs from
+    the previous one, as in the file.
 
     Examples
     --------

@@ -24,7 +24,7 @@ _STATES = ("exact", "one-sided")
 
 @dataclass(frozen=True, eq=False)
 class Jacobian:
-    """Derivatives of forces and moments of wheel and rail, and of the height, to position, velocities and vertical force.
+    """Derivatives of forces, moments and height of a wheel on a rail, by position, velocities and vertical force.
 
     ``jacobian["fy_tr", "yaw"]`` is one of them, ``jacobian["fy_tr"]`` a row, ``jacobian[["fx_ws", "fy_ws"], ["y", "yaw"]]`` a
     matrix of some of them. The exact derivatives of the discrete equations, with contact area and element division kept, see

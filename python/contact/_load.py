@@ -19,10 +19,10 @@ _LOST = 0x7FF8636F6E746163
 
 
 class StoredPatch(View):
-    """A patch as its file tells it: totals and fields by their names, as attributes.
+    """A patch loaded from a file: totals and fields by their names, as attributes.
 
     ``patch.pn`` and ``patch.fx`` are a field of shape (my, mx) and a total; the names of :class:`Patch` work as well
-    (``state`` is ``eldiv``). What the file does not have is an ``AttributeError``. Units are mm, N and rad.
+    (``state`` is ``eldiv``). Data that are not in the file raise ``AttributeError``. Units are mm, N and rad.
 
     Attributes
     ----------
@@ -82,13 +82,13 @@ class Case:
     number
         Of the case, from 1.
     status, reason
-        ``"solved"``, ``"not converged"`` or ``"refused"``, and why; ``""`` where the file does not tell.
+        ``"solved"``, ``"not converged"`` or ``"refused"``, and the reason; ``""`` if the file does not have it.
     totals
         Total forces and position of the wheelset by their names in HDF5, in module 1.
     patches
         The patches, one in module 3, none in cases without contact.
     inputs
-        What was asked, by group and name; from HDF5 files only.
+        The input, by group and name; from HDF5 files only.
     """
 
     def __init__(self, number: int, status: str, reason: str, totals: dict[str, float], patches: tuple[StoredPatch, ...],
@@ -144,7 +144,7 @@ class Experiment(Sequence[Case]):
     path
         The file that was loaded.
     complete
-        Are all cases there? None where the file does not tell.
+        Whether all cases are present; None if the file does not have this information.
     """
 
     def __init__(self, path: str, cases: list[Case], complete: bool | None) -> None:
@@ -186,8 +186,8 @@ class Experiment(Sequence[Case]):
 
         Returns
         -------
-        One array for each name: ``case``, ``patch``, totals of the patch, and those of wheel and rail of its case. What a row
-        does not have is NaN.
+        One array for each name: ``case``, ``patch``, totals of the patch, and those of wheel and rail of its case. Missing
+        values are NaN.
         """
         rows = [{"case": case.number, "patch": patch.number, **patch.totals(), **case.totals}
                 for case in self._cases for patch in case.patches]
@@ -225,7 +225,7 @@ def load(path: str | os.PathLike[str]) -> Experiment:
     Raises
     ------
     ContactError
-        If the file cannot be read; the text tells why.
+        If the file cannot be read; the message gives the reason.
     FileNotFoundError
         If it is not there.
     ImportError

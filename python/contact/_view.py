@@ -74,7 +74,7 @@ def state_attributes(states: tuple[str, ...] = STATES) -> dict[str, Any]:
 
 
 class View:
-    """A patch that tells, plots and converts itself; base of results that were solved and of results that were loaded."""
+    """Base of solved and loaded patches: printing, plotting, conversion to xarray."""
 
     x: Field
     y: Field
@@ -140,7 +140,7 @@ class View:
         ImportError
             If matplotlib is not installed.
         ValueError
-            If there is no such field; the text names those that are there.
+            If there is no such field; the message lists the available ones.
         """
         fields = self.fields()
         if "px" in fields:

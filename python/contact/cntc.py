@@ -52,7 +52,7 @@ _MEANINGS = {
 
 
 def meaning(code: int) -> str:
-    """What an error code means, in words."""
+    """Meaning of an error code, in words."""
     return _MEANINGS.get(code, f"code {code}")
 
 
@@ -179,7 +179,7 @@ def getflags(ire: Number, icp: Number, params: ArrayLike) -> NDArray[np.intc]:
 
 
 def setmetadata(ire: Number, icp: Number, params: ArrayLike, values: ArrayLike) -> None:
-    """Numbers that go along into the .mat files, codes ``mt_...``."""
+    """Numbers that are written to the .mat files, codes ``mt_...``."""
     codes, numbers = _flag_lists(params, values, np.float64)
     call("cntc_setmetadata", _element(ire), _problem(icp, 1), codes.size, codes, numbers)
 
@@ -215,8 +215,7 @@ def setmaterialproperties(ire: Number, icp: Number, g1: float, nu1: float, g2: f
 
 def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike | None = None,
                         more: ArrayLike | None = None) -> None:
-    """Layer between the bodies, by an older name; setmaterialparameters does the same. The elastic constants are those that
-    were set before.
+    """Interfacial layer, by an older name of setmaterialparameters. The elastic constants are those set before.
 
     Parameters
     ----------
@@ -489,7 +488,7 @@ def _profile_values(ire: Number, itask: int, ints: NDArray[np.intc], reals: Fiel
 
 def getprofilevalues(ire: Number, itask: int, iparam: ArrayLike | None = None,
                      rparam: ArrayLike | None = None) -> Any:
-    """A profile as the library sees it.
+    """Points of a profile as used by the library.
 
     Parameters
     ----------
@@ -504,7 +503,7 @@ def getprofilevalues(ire: Number, itask: int, iparam: ArrayLike | None = None,
 
     Returns
     -------
-    As told above; the negative code if the profile is missing.
+    As listed above; the negative code if the profile is missing.
     """
     ints = _ints([0, 0] if iparam is None or np.size(iparam) == 0 else iparam)
     reals = _reals([1.0] if rparam is None or np.size(rparam) == 0 else rparam)
@@ -543,7 +542,7 @@ def _list_of(routine: str, size: int, *numbers: int) -> Field:
 
 
 def getwheelsetposition(ire: Number = 1) -> Field:
-    """s, y, z [L], roll, yaw, pitch [A]; z is solved for when the vertical force is given. Shape (6,)."""
+    """s, y, z [L], roll, yaw, pitch [A]; z is computed if the vertical force is prescribed. Shape (6,)."""
     return _list_of("cntc_getwheelsetposition", 6, _element(ire))
 
 
@@ -587,7 +586,7 @@ def getnumelements(ire: Number = 1, icp: Number = 1) -> tuple[int, int]:
 
 
 def getgriddiscretization(ire: Number = 1, icp: Number = 1) -> tuple[float, float]:
-    """Sides dx, dy of an element [L]; with icp = -1 those asked for in wheel/rail contact."""
+    """Sides dx, dy of an element [L]; with icp = -1 those prescribed in wheel/rail contact."""
     values: tuple[float, float] = call("cntc_getgriddiscretization", _element(ire), _problem(icp, 1))
     return values
 
@@ -651,7 +650,7 @@ def geterrors(ire: Number = 1, icp: Number = 1) -> Field:
 def getwear(ire: Number = 1, icp: Number = 1) -> Field:
     """T-gamma, wear index, largest density of frictional power, largest depth and area of the section of a passage, tangential
     over normal force, largest pressure over yield stress and over its shakedown limit, surface fatigue index, largest von Mises
-    and Tresca stress; 0 for what the case has not. Shape (11,)."""
+    and Tresca stress; 0 for quantities that do not apply. Shape (11,)."""
     return _list_of("cntc_getwear", 11, _element(ire), _patch(icp))
 
 

@@ -20,8 +20,8 @@ class ContactError(RuntimeError):
 
 
 class ContactWarning(UserWarning):
-    """A result that is there and that should be doubted."""
+    """A result that should be used with caution."""
 
 
 class NotConvergedWarning(ContactWarning):
-    """An iteration or a prescribed force was missed; the text tells which, and by how much."""
+    """An iteration did not converge or a prescribed force was not reached; the message gives which, and by how much."""

@@ -18,8 +18,8 @@ class Result(Patch):
     Attributes
     ----------
     border_elements
-        Number of elements in contact in the first and last rows and columns. Not zero means that the grid
-        may be too small.
+        Number of elements in contact in the first and last rows and columns. A value above 0 means that the grid may
+        be too small.
     status, reason
         How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
         :class:`NotConvergedWarning` tells as well.
@@ -38,7 +38,7 @@ class Result(Patch):
 
 
 class Problem(Element):
-    """Two bodies in contact, described by their distance.
+    """Two bodies in contact, described by their undeformed distance.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class Problem(Element):
 
     def set_hertz(self, mx: int, my: int, *, aa: float | None = None, bb: float | None = None,
                   a1: float | None = None, b1: float | None = None, scale: float = 1.2) -> None:
-        """Bodies of constant curvature; the grid is made by the library.
+        """Hertzian contact of bodies of constant curvature; the grid is made by the library.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class Problem(Element):
 
     def set_grid(self, mx: int, my: int, dx: float, dy: float, xl: float | None = None,
                  yl: float | None = None) -> tuple[Field, Field]:
-        """Rectangular grid; to be followed by :meth:`set_distance`.
+        """Rectangular grid; call :meth:`set_distance` next.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class Problem(Element):
         return self._grid
 
     def set_distance(self, distance: ArrayLike | Callable[[Field, Field], ArrayLike]) -> None:
-        """Distance of the undeformed surfaces [L], positive where they are apart.
+        """Undeformed distance of the surfaces [L], positive where they are apart.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ class Problem(Element):
                              cphi: float = 0.0) -> None:
         """Tangential forces relative to the friction coefficient times the normal force [-].
 
-        Without fy, the lateral creepage ceta is given instead of the lateral force.
+        Without fy, the lateral creepage ceta is prescribed instead of the lateral force.
         """
         self.set_flags(ic_force=1 if fy is None else 2)
         self._do(cntc.setcreepages, self.number, 1, 0.0, ceta, cphi)
@@ -157,11 +157,11 @@ class Problem(Element):
     def set_rolling(self, velocity: float, step: float | None = None, direction: float = 0.0) -> None:
         """Rolling velocity [V], step dq [L] and direction [A].
 
-        In transient rolling give the step: the size of an element, or some. Without one it is that of the library, 2 mm, which
-        is longer than many a contact. Steady rolling goes by steps of one element anyway.
+        In transient rolling give the step, usually dx. The default of the library is 2 mm, which may be longer than
+        the contact. Steady rolling always uses steps of one element.
 
-        Without this call the velocity is 1 m/s. Temperatures, frictional power, friction that depends on the slip velocity and
-        viscoelastic bodies need the true one.
+        The default velocity is 1 m/s. Temperatures, frictional power, friction depending on the slip velocity and
+        viscoelastic bodies need the actual velocity.
         """
         self._do(cntc.setreferencevelocity, self.number, 1, velocity)
         if step is not None:
@@ -175,13 +175,12 @@ class Problem(Element):
         Parameters
         ----------
         initiation
-            Whether the bodies meet for the first time. False continues from the previous solution, in shifts
-            and transient rolling.
+            True starts a new sequence. False continues from the previous solution, in shifts and transient rolling.
 
         Raises
         ------
         ContactError
-            If there is no solution; with the code and the text of the library.
+            If there is no solution, with the code and message of the library.
         """
         border = self._calculate(initiation)
         patch = read_patch(self.number, 1, self.units, self.motion)
@@ -190,7 +189,7 @@ class Problem(Element):
         return Result(**patch.__dict__, border_elements=border, status=self._status, reason=self._reason)
 
     def stresses(self, block: int = 1) -> Stresses:
-        """Stresses in the points of :meth:`add_block`, below the tractions of the last solution."""
+        """Stresses at the points of :meth:`add_block`, due to the tractions of the last solution."""
         fail_if(block < 1, -99, f"There is no block {block}")
         self._calculate_stresses()
         return read_stresses(self.number, 1, block, self.units)

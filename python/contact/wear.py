@@ -24,18 +24,18 @@ def t_gamma(fx: Any, fy: Any, cksi: Any, ceta: Any, mz: Any = 0.0, cphi: Any = 0
     fx, fy, mz
         Forces [N] and moment [N mm].
     cksi, ceta, cphi
-        Creepages [-] and spin [rad/mm]; without mz and cphi spin does not count.
+        Creepages [-] and spin [rad/mm]; without mz and cphi the spin term is omitted.
 
     Returns
     -------
     ``abs(fx cksi) + abs(fy ceta) + abs(mz cphi)``, not negative. Source: Pearce and Sherratt, Prediction of wheel profile wear,
-    Wear 144 (1991), who count the term of spin, too.
+    Wear 144 (1991), who include the term of spin.
     """
     return abs(fx * cksi) + abs(fy * ceta) + abs(mz * cphi)
 
 
 def wear_index(dissipation: Any, contact_area: Any) -> Any:
-    """T-gamma over the contact area [N/mm2], by which regimes of wear are told apart.
+    """T-gamma over the contact area [N/mm2], which distinguishes wear regimes.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def friction_power_density(px: Any, py: Any, sx: Any, sy: Any, veloc: Any) -> An
 
 
 def archard_depth(pn: Any, sx: Any, sy: Any, dx: float, coefficient: float, hardness: float, axis: int = -1) -> Any:
-    """Depth that one passage of the contact wears off [mm].
+    """Wear depth of one passage of the contact [mm].
 
     Parameters
     ----------
@@ -83,14 +83,14 @@ def archard_depth(pn: Any, sx: Any, sy: Any, dx: float, coefficient: float, hard
     dx
         Side of an element along x [mm].
     coefficient
-        Archard's, of the user's materials and conditions [-].
+        Archard's wear coefficient for the materials and conditions [-].
     hardness
         Of the softer body, [N/mm2].
 
     Returns
     -------
-    For each row: ``coefficient / hardness`` times the integral of pressure times slip along x. A point that the contact rolls
-    over slides slip times dx in each element. Source: Archard, Contact and rubbing of flat surfaces, J. Appl. Phys. 24
+    For each row: ``coefficient / hardness`` times the integral of pressure times slip along x. The sliding distance
+    of a point in each element is slip times dx. Source: Archard, Contact and rubbing of flat surfaces, J. Appl. Phys. 24
     (1953); along the strips of a contact as in Jendel, Prediction of wheel profile wear, Wear 253 (2002).
 
     Raises
@@ -105,7 +105,7 @@ def archard_depth(pn: Any, sx: Any, sy: Any, dx: float, coefficient: float, hard
 
 
 def braghin_rate(index: Any) -> Any:
-    """Mass that is worn off per area and distance [microgram/(m mm2)], of wheel steel R8T on rail steel UIC60 900A.
+    """Worn mass per area and distance [microgram/(m mm2)], for wheel steel R8T on rail steel UIC60 900A.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def shakedown_limit(traction: Any) -> Any:
 
 
 def shakedown_state(pmax: Any, traction: Any, shear_yield: float) -> Any:
-    """Where a contact is on the shakedown map: pressure over its limit [-]; above 1 plastic strain goes on with every passage.
+    """Position on the shakedown map: pressure over its limit [-]; above 1 plastic strain accumulates with every passage.
 
     Parameters
     ----------

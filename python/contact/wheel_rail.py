@@ -32,7 +32,7 @@ class Wrench:
 
 @dataclass(frozen=True)
 class Forces:
-    """Total forces on the output body: the rail, or the wheel with ``units="simpack"``.
+    """Total forces on the rail, or on the wheel with ``units="simpack"``.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class WheelRailPatch(Patch):
     position
         Contact reference point in the track system, shape (3,) [L].
     angle
-        Its inclination about the x axis of the track [A].
+        Contact angle: inclination about the x axis of the track [A].
     location
         All 38 numbers of ``cntc_getcontactlocation``.
     velocity
@@ -70,7 +70,7 @@ class WheelRailPatch(Patch):
     velocity: float
 
     def totals(self) -> dict[str, float]:
-        """Totals by their names in files, with the place of the patch in track coordinates."""
+        """Totals by their names in files, with the position of the patch in track coordinates."""
         return {**super().totals(), **dict(zip(("xcp_tr", "ycp_tr", "zcp_tr"), self.position.tolist())), "deltcp_tr": self.angle}
 
 
@@ -85,7 +85,7 @@ class WheelRailResult:
     forces
         Sum over the patches.
     wheelset_position
-        s, y, z [L], roll, yaw, pitch [A]; z solved for when the vertical force is given. Shape (6,).
+        s, y, z [L], roll, yaw, pitch [A]; z is computed if the vertical force is prescribed. Shape (6,).
     wheelset_velocity
         vs, vy, vz [V], rates of roll, yaw, pitch [A/T]. Shape (6,).
     status, reason
@@ -161,7 +161,7 @@ class WheelRailResult:
 
 
 class WheelRail(Element):
-    """A wheel on a rail, described by profiles, track and wheelset.
+    """A wheel on a rail, described by profiles, track and wheelset dimensions.
 
     Parameters
     ----------
@@ -191,16 +191,16 @@ class WheelRail(Element):
 
     def set_grid(self, dx: float, ds: float, *, a_sep: float = np.pi / 2, d_sep: float | None = None,
                  d_comb: float | None = None, step: float = 1.0) -> None:
-        """Elements and the rules by which patches are separated.
+        """Element sizes, and distances at which patches are combined or separated.
 
         Parameters
         ----------
         dx, ds
             Sides of an element along and across the rail [L].
         a_sep
-            Angle between patches that stay apart [A].
+            Patches whose planes differ by more than this angle are never combined [A].
         d_sep, d_comb
-            Distances beyond which patches are solved apart, below which together [L]; default 8 and 4 mm.
+            Patches farther apart than d_sep are separate, closer than d_comb combined [L]; default 8 and 4 mm.
         step
             Rolling step relative to dx [-].
         """
@@ -230,18 +230,18 @@ class WheelRail(Element):
 
     def set_track(self, gauge_height: float, gauge_width: float, cant: float = 0.0, *, gauge_sequence: int = 0,
                   roller_radius: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
-        """Track, with the rail placed by its gauge point.
+        """Track dimensions, with the rail placed by its gauge point.
 
         Parameters
         ----------
         gauge_height
-            Height at which the gauge is measured, below the top of the rail [L], positive.
+            Depth of the gauge point below the rail top [L], positive.
         gauge_width
             Distance between the gauge points of both rails [L].
         cant
-            Inclination of the rail [A].
+            Inclination of the rail, positive towards the track centre [A].
         gauge_sequence
-            Which of several gauge faces counts; 0, 1 the innermost.
+            Number of the gauge face; read and not used.
         roller_radius
             Nominal radius of a roller [L].
         deviation
@@ -263,14 +263,14 @@ class WheelRail(Element):
 
     def set_position(self, s: float = 0.0, y: float = 0.0, z: float | None = None, roll: float = 0.0,
                      yaw: float = 0.0, pitch: float = 0.0) -> None:
-        """Position of the wheelset [L], [A]. A height z replaces the vertical force; without it, z is solved for."""
+        """Position of the wheelset [L], [A]. A height z replaces the prescribed vertical force; without it, z is computed."""
         self._do(cntc.setwheelsetposition, self.number, 1, [s, y, 0.0 if z is None else z, roll, yaw, pitch])
         if z is not None:
             self.set_flags(ic_norm=0)
 
     def set_velocity(self, vs: float, vy: float = 0.0, vz: float = 0.0, roll: float = 0.0, yaw: float = 0.0,
                      pitch: float = 0.0) -> None:
-        """Velocity of the wheelset [V] and its rates [A/T]; rolling forward has a negative rate of pitch."""
+        """Velocity of the wheelset [V] and its rates [A/T]; forward rolling has a negative pitch rate."""
         self._do(cntc.setwheelsetvelocity, self.number, 2, [vs, vy, vz, roll, yaw, pitch])
 
     def set_flexibility(self, position: Sequence[float], velocity: Sequence[float] = (0.0,) * 6) -> None:
@@ -278,20 +278,20 @@ class WheelRail(Element):
         self._do(cntc.setwheelsetflexibility, self.number, 5, [*position, *velocity])
 
     def set_vertical_force(self, fz: float) -> None:
-        """Vertical force on the contact [F]."""
+        """Vertical force of the wheel on the rail, positive down [F]."""
         self._do(cntc.setverticalforce, self.number, fz)
 
     def set_longitudinal_force(self, fx: float = 0.0) -> None:
-        """Longitudinal force on the rail in axes of the wheelset [F], at which the rate of pitch is found.
+        """Prescribe the longitudinal force on the rail in wheelset axes [F]; the pitch rate is computed.
 
-        0: the wheel rolls freely; above 0 it brakes, below 0 it drives. ``wheelset_velocity[5]`` of the result is the rate;
+        0: free rolling; positive: braking; negative: driving. ``wheelset_velocity[5]`` of the result is the rate;
         that of ``set_velocity`` is not used. ``set_flags(ic_force=0)`` goes back to a given rate.
         """
         self.set_flags(ic_force=1)
         self._do(cntc.settangentialforces, self.number, -1, fx, 0.0)
 
     def solve(self, initiation: bool = True) -> WheelRailResult:
-        """Find the contact patches and solve them.
+        """Search the contact patches and solve them.
 
         Parameters
         ----------
@@ -301,7 +301,7 @@ class WheelRail(Element):
         Raises
         ------
         ContactError
-            If there is no solution; with the code and the text of the library.
+            If there is no solution, with the code and message of the library.
         """
         border = self._calculate(initiation)
         number = self.number
@@ -321,14 +321,14 @@ class WheelRail(Element):
                                self._status, self._reason, buried, border, self.units)
 
     def jacobian(self) -> Jacobian:
-        """Derivatives of forces, moments and height at the last solution to position, velocities and vertical force.
+        """Derivatives of forces, moments and height at the last solution with respect to position, velocities and vertical force.
 
-        The linear systems of the derivatives are solved when this is called; nothing is calculated without it.
+        The linear systems of the derivatives are solved by this call only.
 
         Raises
         ------
         ContactError
-            If nothing was solved, or if the derivatives do not exist or are not built for the settings; the text tells which.
+            If nothing was solved, or if the derivatives do not exist or are not available for the settings.
         """
         return read_jacobian(self.number)
 
@@ -340,7 +340,7 @@ class WheelRail(Element):
                               location=location, velocity=cntc.getreferencevelocity(self.number, icp))
 
     def stresses(self, block: int = 1) -> tuple[Stresses, ...]:
-        """Stresses in the points of :meth:`add_block`, one entry per contact patch."""
+        """Stresses at the points of :meth:`add_block`, one entry per contact patch."""
         self._calculate_stresses()
         count = cntc.getnumcontactpatches(self.number)
         return tuple(read_stresses(self.number, icp, block, self.units) for icp in range(1, count + 1))

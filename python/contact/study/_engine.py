@@ -19,12 +19,12 @@ _LIVES, _RETRIES = 2, 4
 
 
 class Engine:
-    """Does tasks; the order in which results come is that in which they are ready.
+    """Executes tasks; results are returned in the order of completion.
 
     Parameters
     ----------
     workers
-        How many at a time; None: the processors that this process may use.
+        Number of simultaneous tasks; None: the number of processors available to this process.
     kind
         ``"threads"`` or ``"processes"`` of this machine.
     scheduler
@@ -47,18 +47,18 @@ class Engine:
 
     @property
     def workers(self) -> int:
-        """How many work at this moment."""
+        """Current number of workers."""
         if self._client is not None:
             return max(1, int(sum(self._client.nthreads().values())))
         return self._workers
 
     @property
     def dashboard(self) -> str:
-        """Address of the page of a cluster, "" without one."""
+        """Address of the dashboard of a cluster, "" without one."""
         return str(self._client.dashboard_link or "") if self._client is not None else ""
 
     def run(self, tasks: Callable[[], Task | None], stop: Callable[[], bool] = lambda: False) -> Iterator[Done]:
-        """Do tasks until there are none.
+        """Execute tasks until there are none.
 
         A task whose worker dies is done again when nothing else is under way, in halves if it dies again; a single point that ends
         its worker again and again is refused.
@@ -66,9 +66,9 @@ class Engine:
         Parameters
         ----------
         tasks
-            Gives the next task, None when there is none left.
+            Returns the next task, None when there is none left.
         stop
-            Shall no further task be begun?
+            Returns True to start no further task.
         """
         self._check_builds()
         executor = self._start()

@@ -28,7 +28,7 @@ class Scene:
     Parameters
     ----------
     base
-        Path of an experiment, in either format, or its cases as :func:`contact.read` gives them.
+        Path of an experiment, in either format, or its cases as returned by :func:`contact.read`.
     case
         Number of the case that is varied, from 1: with all that the cases before it gave, as a new sequence. Without it the
         experiment is one scene: its cases are computed one after the other for each point, with the dimension ``step``.

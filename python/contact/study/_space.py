@@ -21,7 +21,7 @@ Rule = Union[str, Callable[[Mapping[str, Values]], Any]]
 
 @dataclass(frozen=True)
 class Axis:
-    """Inputs that vary together along one dimension.
+    """Inputs that vary together along one dimension of the results.
 
     Attributes
     ----------
@@ -44,12 +44,12 @@ class Axis:
 
 
 def span(first: float, last: float, count: int) -> Values:
-    """Numbers at equal distances, both ends included."""
+    """Equidistant numbers, both ends included."""
     return np.linspace(first, last, count)
 
 
 def log_span(first: float, last: float, count: int) -> Values:
-    """Numbers at equal ratios, both ends included."""
+    """Numbers with equal ratios, both ends included."""
     return np.geomspace(first, last, count)
 
 

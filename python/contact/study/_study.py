@@ -43,24 +43,24 @@ _PORTION = 1 << 16
 
 @dataclass(frozen=True)
 class Plan:
-    """What a study is, before it runs.
+    """Size and expected cost of a study.
 
     Attributes
     ----------
     points, left_out, there
-        Points of the axes; those that the constraints leave out; those that are in the folder already.
+        Points of the axes; those omitted by constraints; those already in the folder.
     cases
-        Cases that are to be computed.
+        Number of cases to be computed.
     seconds_per_case
-        Measured on a few points, on one thread; NaN when nothing is left to do.
+        Measured on a few points, on one thread; NaN if nothing is left to compute.
     seconds
         Expected time with the workers.
     bytes
-        Expected size of what is added to the folder.
+        Expected increase in size of the folder.
     memory
         Expected memory of the results as a dataset [bytes].
     workers
-        How many work at a time.
+        Number of simultaneous workers.
     """
 
     points: int
@@ -90,7 +90,7 @@ class Study:
     Parameters
     ----------
     base
-        Path of an experiment in either format, or its cases as :func:`contact.read` gives them.
+        Path of an experiment in either format, or its cases as returned by :func:`contact.read`.
     vary
         What varies: a mapping from inputs, ``"group.key"`` of the readable format, to values, to ``"= formula"`` or to a function
         of the others; a :func:`sample` or :func:`table`; or a list of these. Each list, sample and table is a dimension.
@@ -98,19 +98,19 @@ class Study:
         Number of the case of the base that is varied, from 1. Without it all cases are computed for each point, one after the
         other, with the dimension ``step``.
     where
-        Formulae or functions of the inputs that have to hold; points that break one are left out.
+        Constraints: formulae or functions of the inputs; points that do not satisfy them are omitted.
     derive
-        Quantities that follow from the results: formulae or functions of the dataset, by name.
+        Derived quantities: formulae or functions of the dataset, by name.
     totals
         Names of the totals that are kept in the dataset; default all.
     fields
         Element fields that are kept, such as ``"pn"``; default none. Of several cases of a point, those of the last.
     folder
-        Of the study: what was computed stays there, and is not computed again. None: nothing is kept on the disk.
+        Folder of the study, in which computed cases are stored and reused. None: nothing is stored.
     seconds
-        What each case may take [s]; 0 without limit. A limit makes results depend on the machine.
+        Time limit of each case [s]; 0: none. With a limit, results depend on the machine.
     base_folder
-        To which names of files are relative when the base is given as cases.
+        Folder of relative file names if the base is given as cases.
 
     Examples
     --------
@@ -149,7 +149,7 @@ class Study:
     # ---- what there is to do
 
     def keys(self) -> Keys:
-        """A key for each point, shape (points, 2): of its inputs, the base with its files, the version and the library."""
+        """A key for each point, shape (points, 2): hashes of inputs, base with its files, version and library."""
         if self._made is not None:
             return self._made
         paths = sorted(self._columns)
@@ -167,7 +167,7 @@ class Study:
         return made
 
     def explain(self, workers: int | None = None, scheduler: Any = None) -> Plan:
-        """Cases, time and size of a study, by solving a few of its points; nothing is kept.
+        """Number of cases, time and size of a study, estimated by solving a few of its points; nothing is stored.
 
         Parameters
         ----------
@@ -215,14 +215,14 @@ class Study:
 
     def run(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: Wanted = None,
             points_per_task: int | None = None, stop: Callable[[], bool] = lambda: False) -> xarray.Dataset:
-        """Compute what is not there yet.
+        """Compute the missing cases.
 
         Parameters
         ----------
         workers
-            Cases that are computed at the same time; default the processors of this machine.
+            Number of simultaneous cases; default: the number of processors of this machine.
         engine
-            ``"threads"``, or ``"processes"``, which outlive a failure of one of them.
+            ``"threads"``, or ``"processes"``, with which the crash of one does not end the study.
         scheduler
             Address of a scheduler of Dask, or a ``distributed.Client``: its workers compute. They need the package, the
             library, and files of profiles under the same names.
@@ -231,7 +231,7 @@ class Study:
         points_per_task
             Points that a worker gets at once; default such that it takes half a second.
         stop
-            Asked between tasks: shall the study end? What was computed is kept.
+            Called between tasks; True ends the study. Computed cases are kept.
 
         Returns
         -------
@@ -277,7 +277,7 @@ class Study:
             store.close()
 
     def results(self) -> xarray.Dataset:
-        """What is there, without computing anything."""
+        """The stored results, without computing anything."""
         store = Store(self.folder)
         try:
             return self._results(store, self.keys())
@@ -285,7 +285,7 @@ class Study:
             store.close()
 
     def write(self, *files: str | os.PathLike[str], memory: int = _PART_BYTES) -> _failures.Tally:
-        """Write what is there into files, without computing anything, and without the whole of it in memory.
+        """Write the stored results to files in parts, without computing anything and without all results in memory.
 
         Parameters
         ----------
@@ -293,11 +293,11 @@ class Study:
             ``.nc`` for netCDF, ``.zarr`` for Zarr, both in chunks, ``.parquet`` for the totals as a table; none: cases are counted
             only. Derived quantities have to be formulae: a function would see a part of the results.
         memory
-            What a part of the results may take, about [bytes].
+            Approximate memory of a part of the results [bytes].
 
         Returns
         -------
-        How cases ended: in words by ``str``, and ``table()`` tells the kinds of those that were not solved.
+        Summary of the cases: in words by ``str``; ``table()`` lists the causes of those that were not solved.
         """
         if self.folder is None:
             raise ContactError("a study whose results are written by parts needs a folder")
@@ -391,7 +391,7 @@ class Study:
 
     @staticmethod
     def failures(results: xarray.Dataset) -> str:
-        """A table of the kinds of cases that were not solved, in words; "" when all were."""
+        """A table of the causes of cases that were not solved, in words; "" if all were solved."""
         return _failures.table(results)
 
 

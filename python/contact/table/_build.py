@@ -45,7 +45,7 @@ _FIRST_Z = (0.0, 0.15, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0)
 
 @dataclass(frozen=True)
 class Plan:
-    """What is asked of a table.
+    """Requirements on a table.
 
     Attributes
     ----------
@@ -63,9 +63,9 @@ class Plan:
         Elements a side of the contacts that are solved, where they are round and have little spin; more along the longer side, and
         with much spin. 0: as many as the tolerance needs.
     points
-        Random points at which errors are looked for in the end.
+        Number of random points of the final check.
     most_cases
-        Solutions after which it is given up.
+        Number of solutions at which to give up.
     seed
         Of random numbers.
     """
@@ -86,7 +86,7 @@ class Plan:
         return self.spin / (1.0 + self.spin) if np.isfinite(self.spin) else 1.0
 
     def check(self) -> None:
-        """Refuse what cannot be. Raises ContactError."""
+        """Check the values. Raises ContactError."""
         low, high = self.ratio
         for good, what in ((1e-4 <= self.tolerance <= 0.2, "the tolerance has to be between 0.0001 and 0.2"),
                            (0.05 <= low < high <= 20.0, "a/b has to go from 0.05 at least to 20 at most"),
@@ -106,22 +106,22 @@ def build(file: str | os.PathLike[str], plan: Plan | None = None, *, workers: in
     Parameters
     ----------
     file
-        Its path; replaced as a whole when the table is good.
+        Path of the table; written only when the table passes the check.
     plan
-        What is asked of it.
+        Requirements on the table.
     workers
-        Threads that compute; default the processors of this machine.
+        Number of threads; default: the number of processors of this machine.
     tell
-        Is told in words how it goes.
+        Called with messages on the progress.
 
     Returns
     -------
-    What the table is.
+    Properties of the table.
 
     Raises
     ------
     ContactError
-        If the plan cannot be followed, a contact was not solved, or the tolerance was not met within the cases of the plan.
+        If the plan is invalid, a contact was not solved, or the tolerance was not reached within the cases of the plan.
     """
     asked = plan or Plan()
     asked.check()

@@ -28,7 +28,7 @@ class _Facts(ctypes.Structure):
 
 @dataclass(frozen=True)
 class Facts:
-    """What a table is.
+    """Properties of a table.
 
     Attributes
     ----------
@@ -45,15 +45,15 @@ class Facts:
     spin
         Largest spin, as ``G a b c KP abs(phi) / (mu Fn)`` with ``c = sqrt(a b)`` and KP of about Kalker's C23 [-]; infinite: all.
     asked
-        Error that was asked for, relative to mu Fn [-].
+        Requested error, relative to mu Fn [-].
     error
-        Largest errors that were found: of the forces relative to mu Fn, of the moment relative to mu Fn sqrt(a b) [-].
+        Largest errors at the check points: of the forces relative to mu Fn, of the moment relative to mu Fn sqrt(a b) [-].
     points
-        Random points at which errors were looked for; the table was not made of them.
+        Number of independent random points of the check.
     grid_error
         Largest differences of results with this many elements to those with three times as many a side, as `error`.
     bytes
-        Memory that the table takes.
+        Memory of the table.
     """
 
     has_offset: bool
@@ -105,7 +105,7 @@ class Table(Handle):
     Raises
     ------
     ContactError
-        If it cannot be used; the text tells why.
+        If it cannot be used; the message gives the reason.
 
     Examples
     --------
@@ -124,7 +124,7 @@ class Table(Handle):
 
     @property
     def facts(self) -> Facts:
-        """What the table is."""
+        """Properties of the table."""
         told = _Facts()
         if self._library.contact_table_about(self._handle, ctypes.byref(told)) != 0:
             raise ContactError("the table is closed")
@@ -147,7 +147,7 @@ class Table(Handle):
         offset
             Of half ellipses: ``(bpos - bneg) / (bpos + bneg)`` [-].
         outside
-            Take the shape and the spin at the border of the table for those that it has not?
+            Whether to use values at the border of the table for shapes and spins outside it.
 
         Returns
         -------
@@ -156,7 +156,7 @@ class Table(Handle):
         Raises
         ------
         ContactError
-            If the table has no such shape or spin, or a value is no number or no length.
+            If the shape or spin is outside the table, or a value is not a number or not a positive length.
         """
         return self._ask((fn, mu, gg, aa, bb, cksi, ceta, cphi, offset), outside, False)[0]
 
