@@ -5,9 +5,9 @@
 
 enum caddon_flags {
   /* Size that callers give to lists of flags */
-  CNTC_FLAGS_DIM = 25, /* room for a list of flags */
+  CNTC_FLAGS_DIM = 25, /* largest length of a list of flags */
   /* Flags: units and convention of signs */
-  CNTC_if_units = 1933, /* which of the following conventions a problem uses */
+  CNTC_if_units = 1933, /* units and signs of a problem, one of the following */
   CNTC_un_cntc = 1934, /* mm, N, results on body 1 (rail in wheel/rail contact) */
   CNTC_un_spck = 1935, /* m, N, results on body 2 (wheel in wheel/rail contact) */
   CNTC_un_si = 1936, /* m, N, results on body 1 */
@@ -47,18 +47,18 @@ enum caddon_flags {
   CNTC_if_ncase = 2005, /* number of the next case */
   /* Flags that only this library has */
   CNTC_own_heat = 9001, /* temperatures: 0 as the established program, 1 by moving sources */
-  CNTC_own_border = 9002, /* read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile that stands within the rail where no patch is, 2048 another place along the track where they overlap */
-  CNTC_own_stepped = 9003, /* read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements */
-  CNTC_own_angle = 9004, /* contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch */
-  CNTC_own_across = 9005, /* read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result */
-  CNTC_own_classical = 9006, /* solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run */
-  CNTC_own_order = 9007, /* discretisation of rolling: 1 the established one, 2 of second order in the size of elements */
-  CNTC_own_errors = 9008, /* errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors */
-  CNTC_own_wear = 9011, /* wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear */
-  CNTC_own_accuracy = 9009, /* accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's */
-  CNTC_own_approximate = 9012, /* where an accuracy is asked for: 0 the full theory, 1 simplified methods too, where their error is known and below that */
-  CNTC_own_reached = 9010, /* read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes */
-  /* Data that go along into the .mat files */
+  CNTC_own_border = 9002, /* read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile inside the rail without a patch, 2048 interpenetration at another position along the track without a patch */
+  CNTC_own_stepped = 9003, /* read only, number of points of subs_calculate at depths below DX/4 that are not element centres */
+  CNTC_own_angle = 9004, /* contact angles on rails that vary along the track: 0 of the rail section below the axle, as in the established program; 1 of wheel and rail where they touch */
+  CNTC_own_across = 9005, /* read only, number of elements across the contact in its narrower direction, 0 without contact; fewer than 5 give inaccurate results */
+  CNTC_own_classical = 9006, /* solvers selected by G: 0 replaced by the default solver where possible, with as small a residual; 1 used */
+  CNTC_own_order = 9007, /* discretisation of rolling: 1 the established one, 2 of second order in the element size */
+  CNTC_own_errors = 9008, /* estimate errors of the totals in each calculation: 0 no, 1 yes, see cntc_geterrors */
+  CNTC_own_wear = 9011, /* compute wear and fatigue: 0 no, 1 yes, see cntc_setwear and cntc_getwear */
+  CNTC_own_accuracy = 9009, /* required accuracy of the forces instead of a grid: the reciprocal of the largest relative error, 10 to 1000000; 0 none, the grid is used as given */
+  CNTC_own_approximate = 9012, /* with a required accuracy: 0 full theory only, 1 also simplified methods whose known error is below it */
+  CNTC_own_reached = 9010, /* read only, whether the last calculation reached the required accuracy: 0 no, or none required, 1 yes */
+  /* Data that are written to the .mat files */
   CNTC_mt_tim = 2011, /* time [s] */
   CNTC_mt_xr = 2012, /* contact point on the rail, x [L] */
   CNTC_mt_yr = 2013, /* contact point on the rail, y [L] */
@@ -104,7 +104,7 @@ enum caddon_flags {
   CNTC_err_icp = -31, /* the contact patch does not exist */
   CNTC_err_profil = -32, /* a profile is missing or unusable */
   CNTC_err_frclaw = -33, /* the friction data are unusable */
-  CNTC_err_discr = -34, /* the grid does not fit the previous case, or is too large */
+  CNTC_err_discr = -34, /* the grid does not match the previous case, or is too large */
   CNTC_err_input = -39, /* the input file is unusable */
   CNTC_err_other = -99 /* anything else */
 };

@@ -14,8 +14,8 @@ extern "C" {
 
 /* ---- Begin and end ---- */
 
-/* Numbers of Fortran units that the library might use. Recorded, not needed: it asks the run-
- * time library for free units. */
+/* Numbers of Fortran units for the library. Recorded but not used, because the library takes
+ * free units. */
 void cntc_setfileunits(const int *nunits, const int *iunits);
 
 /* Start a run, once for all result elements. A blank text or length 0 leaves the default.
@@ -29,7 +29,7 @@ void cntc_initializefirst(int *ifcver, int *ierror, const int *ioutput, const ch
                           const char *c_outdir, const char *c_expnam, const int *len_wrkdir,
                           const int *len_outdir, const int *len_expnam);
 
-/* The same as cntc_initializefirst, for callers of releases that had both. */
+/* Same as cntc_initializefirst, for callers of releases with both names. */
 void cntc_initializefirst_new(int *ifcver, int *ierror, const int *ioutput, const char *c_wrkdir,
                               const char *c_outdir, const char *c_expnam, const int *len_wrkdir,
                               const int *len_outdir, const int *len_expnam);
@@ -66,7 +66,7 @@ void cntc_finalizelast(void);
 void cntc_setflags(const int *ire, const int *icp, const int *lenflg, const int *params,
                    const int *values);
 
-/* Set data that go along into the .mat files.
+/* Set data that are written to the .mat files.
  *   params: codes CNTC_mt_*; 0 is skipped
  *   values: one value for each: time [s], positions [L], numbers */
 void cntc_setmetadata(const int *ire, const int *icp, const int *lenmta, const int *params,
@@ -102,14 +102,14 @@ void cntc_setmaterialparameters(const int *ire, const int *icp, const int *imeth
 /* Set thermal data by the H digit.
  *   imeth: 0: no temperatures; 1: data as before; 3: new data
  *   params: for imeth = 3: of body 1, then of body 2: temperature [degC], heat capacity [J/(kg
- *       degC)], conductivity [W/(L degC)], density [kg/L3]; at the end the part of plastic work
- *       that heats [-] */
+ *       degC)], conductivity [W/(L degC)], density [kg/L3]; last, the fraction of plastic work
+ *       that becomes heat [-] */
 void cntc_settemperaturedata(const int *ire, const int *icp, const int *imeth, const int *nparam,
                              const double *params);
 
-/* Set numbers of wear and fatigue, and the flag CNTC_own_wear.
- *   params: Archard's wear coefficient [-], hardness of the softer body [F/L2], which it needs,
- *       and yield stress in cyclic shear [F/L2]; 0: not given */
+/* Set the parameters of wear and fatigue, and the flag CNTC_own_wear.
+ *   params: Archard's wear coefficient [-], hardness of the softer body [F/L2], required with
+ *       it, and yield stress in cyclic shear [F/L2]; 0: not given */
 void cntc_setwear(const int *ire, const int *icp, const int *nparam, const double *params);
 
 /* Set the time step of shifts.
@@ -118,8 +118,8 @@ void cntc_settimestep(const int *ire, const int *icp, const double *dt);
 
 /* Set rolling direction and step.
  *   chi: rolling direction [A], basic contact
- *   dq: rolling step: in basic contact [L], 2 mm until it is set, for wheel and rail relative to
- *       the size of elements [-] */
+ *   dq: rolling step: in basic contact [L], default 2 mm; for wheel and rail relative to the
+ *       element size [-] */
 void cntc_setrollingstepsize(const int *ire, const int *icp, const double *chi, const double *dq);
 
 /* Set the friction law, imeth = 10 V + L.
@@ -288,7 +288,7 @@ void cntc_getflags(const int *ire, const int *icp, const int *lenflg, const int 
 void cntc_getparameters(const int *ire, const int *icp, const int *itask, const int *lenarr,
                         double *values);
 
-/* Get a profile as the library sees it.
+/* Get a profile as used by the library.
  *   itask     val
  *   -1        state: 0 or CNTC_err_profil, and its detail
  *   0         number of points
@@ -304,13 +304,13 @@ void cntc_getparameters(const int *ire, const int *icp, const int *itask, const 
 void cntc_getprofilevalues(const int *ire, const int *itask, const int *nints, const int *iparam,
                            const int *nreals, const double *rparam, const int *lenarr, double *val);
 
-/* The same as cntc_getprofilevalues, for callers of releases that had both. */
+/* Same as cntc_getprofilevalues, for callers of releases with both names. */
 void cntc_getprofilevalues_new(const int *ire, const int *itask, const int *nints,
                                const int *iparam, const int *nreals, const double *rparam,
                                const int *lenarr, double *val);
 
 /* Get the position of the wheelset.
- *   rvalues: s, y, z [L], roll, yaw, pitch [A]; z as solved when the vertical force is
+ *   rvalues: s, y, z [L], roll, yaw, pitch [A]; z is computed if the vertical force is
  *       prescribed */
 void cntc_getwheelsetposition(const int *ire, const int *lenarr, double *rvalues);
 
@@ -322,7 +322,7 @@ void cntc_getwheelsetvelocity(const int *ire, const int *lenarr, double *rvalues
  *   npatch: number of patches */
 void cntc_getnumcontactpatches(const int *ire, int *npatch);
 
-/* Get the place of a contact patch of wheel and rail.
+/* Get the position of a contact patch of wheel and rail.
  *   rvalues
  *   1-4       contact reference x, y, z [L] and its angle [A] in track coordinates
  *   5-9       x, y, z, s [L], angle [A] in rail coordinates; 10-14 the same in wheel coordinates
@@ -337,7 +337,7 @@ void cntc_getcontactlocation(const int *ire, const int *icp, const int *lenarr, 
  *   veloc: velocity [V] */
 void cntc_getreferencevelocity(const int *ire, const int *icp, double *veloc);
 
-/* Get the numbers of a Hertzian geometry (basic contact).
+/* Get the parameters of a Hertzian geometry (basic contact).
  *   rvalues: distance a1 x^2 + b1 y^2 [1/L], semi-axes aa, bb, effective radius rho, cp [L],
  *       scale [-], sides of the axis bneg, bpos [L], ratio aob [-] */
 void cntc_gethertzcontact(const int *ire, const int *icp, const int *lenarr, double *rvalues);
@@ -404,17 +404,17 @@ void cntc_getmaximumtemperature(const int *ire, const int *icp, double *t1max, d
  *   rvalues: errors of the normal force, the tangential forces [F], the spin moment [F L], the
  *       approach [L], the largest pressure [F/L2], the contact area [L2], the longitudinal and
  *       lateral creepage or shift [-] or [L], the frictional power [W] or work [J], the elastic
- *       energy [J], the highest temperature of body 1 [degC]; not negative, -1 for what is given
- *       or has no estimate */
+ *       energy [J], the highest temperature of body 1 [degC]; not negative; -1 for prescribed
+ *       quantities and those without an estimate */
 void cntc_geterrors(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
 /* Get totals of wear and fatigue of a patch, after a calculation with the flag CNTC_own_wear =
  * 1.
  *   rvalues: T-gamma [F], wear index [F/L2], largest density of frictional power [W/mm2],
- *       largest depth [L] and area of the section [L2] that a passage wears off, tangential over
+ *       largest wear depth [L] and worn area of the section [L2] per passage, tangential over
  *       normal force [-], largest pressure over yield stress in shear [-], the same over its
  *       shakedown limit [-], surface fatigue index [-], largest von Mises and Tresca stress at
- *       points below the surface [F/L2]; 0 for what the case has not */
+ *       the subsurface points [F/L2]; 0 for quantities that do not apply */
 void cntc_getwear(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
 /* Get one field for each element.
@@ -440,8 +440,7 @@ void cntc_getdisplacements(const int *ire, const int *icp, const int *lenarr, do
 /* Get derivatives of forces by approach and creepages.
  *   lenout, lenin: numbers of rows and columns
  *   sens: rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns, one after the
- *       other: approach [L], creepages and spin; zero where not computed, flag CNTC_ic_sens
- *       tells what is */
+ *       other: approach [L], creepages and spin; zero if not computed, see the flag CNTC_ic_sens */
 void cntc_getsensitivities(const int *ire, const int *icp, const int *lenout, const int *lenin,
                            double *sens);
 
@@ -454,8 +453,8 @@ void cntc_resetcalculationtime(const int *ire, const int *icp);
 
 /* ---- Stresses below the surface ---- */
 
-/* Add a block of points below the surface.
- *   iblk: number of the block; blocks from there on are forgotten, 0 forgets all
+/* Add a block of subsurface points.
+ *   iblk: number of the block; this and later blocks are deleted, 0 deletes all
  *   isubs     xparam; yparam; zparam, depths below the surface
  *   1         none; none; nz, zl, dz [L]                                     all element centres
  *   2         ixl, ixinc, ixh; iyl, iyinc, iyh; nz, zl, dz                   ranges of elements
@@ -466,7 +465,7 @@ void subs_addblock(const int *ire, const int *icp, const int *iblk, const int *i
                    const int *npx, const int *npy, const int *npz, const double *xparam,
                    const double *yparam, const double *zparam);
 
-/* Compute displacements and stresses below the surface, after cntc_calculate.
+/* Compute subsurface displacements and stresses, after cntc_calculate.
  *   ierror: 0; negative: an error, CNTC_err_*; 305: another thread works on the problem */
 void subs_calculate(const int *ire, const int *icp, int *ierror);
 

@@ -69,11 +69,11 @@
 %
 %   cntc_setmaterialproperties  - set elastic bodies; short for cntc_setmaterialparameters with M = 0.
 %   cntc_setflags               - set flags and control digits.
-%   cntc_setmetadata            - set data that go along into the .mat files.
+%   cntc_setmetadata            - set data that are written to the .mat files.
 %   cntc_setsolverflags         - set solution methods and their parameters by the G digit.
 %   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
 %   cntc_settemperaturedata     - set thermal data by the H digit.
-%   cntc_setwear                - set numbers of wear and fatigue, and the flag CNTC_own_wear.
+%   cntc_setwear                - set the parameters of wear and fatigue, and the flag CNTC_own_wear.
 %   cntc_settimestep            - set the time step of shifts.
 %   cntc_setrollingstepsize     - set rolling direction and step.
 %   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
@@ -114,13 +114,13 @@
 %   cntc_getcpresults           - get all results of one contact patch in the form of loadcase, for plot2d and plot3d.
 %   cntc_getflags               - get flags and control digits.
 %   cntc_getparameters          - get parameters of kinematics, material or friction.
-%   cntc_getprofilevalues       - get a profile as the library sees it.
+%   cntc_getprofilevalues       - get a profile as used by the library.
 %   cntc_getwheelsetposition    - get the position of the wheelset.
 %   cntc_getwheelsetvelocity    - get the velocity of the wheelset.
 %   cntc_getnumcontactpatches   - get the number of contact patches of wheel and rail.
-%   cntc_getcontactlocation     - get the place of a contact patch of wheel and rail.
+%   cntc_getcontactlocation     - get the position of a contact patch of wheel and rail.
 %   cntc_getreferencevelocity   - get the rolling velocity.
-%   cntc_gethertzcontact        - get the numbers of a Hertzian geometry (basic contact).
+%   cntc_gethertzcontact        - get the parameters of a Hertzian geometry (basic contact).
 %   cntc_getnumelements         - get the size of the grid.
 %   cntc_getgriddiscretization  - get the sizes of elements.
 %   cntc_getpotcontact          - get the grid.
@@ -145,7 +145,7 @@
 %
 % The library: stresses below the surface.
 %
-%   subs_addblock               - add a block of points below the surface.
-%   subs_calculate              - compute displacements and stresses below the surface, after cntc_calculate.
+%   subs_addblock               - add a block of subsurface points.
+%   subs_calculate              - compute subsurface displacements and stresses, after cntc_calculate.
 %   subs_getblocksize           - get the numbers of points of a block.
 %   subs_getresults             - get results below the surface.

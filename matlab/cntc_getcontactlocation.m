@@ -1,5 +1,5 @@
 function [ rvalues ] = cntc_getcontactlocation( ire, icp )
-% CNTC_GETCONTACTLOCATION  Get the place of a contact patch of wheel and rail.
+% CNTC_GETCONTACTLOCATION  Get the position of a contact patch of wheel and rail.
 %
 %   rvalues = cntc_getcontactlocation( ire, icp )
 %

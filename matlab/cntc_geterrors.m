@@ -7,7 +7,7 @@ function [ rvalues ] = cntc_geterrors( ire, icp )
 %   rvalues   errors of the normal force, the tangential forces [F], the spin moment [F L], the approach [L], the
 %             largest pressure [F/L2], the contact area [L2], the longitudinal and lateral creepage or shift [-] or
 %             [L], the frictional power [W] or work [J], the elastic energy [J], the highest temperature of body 1
-%             [degC]; not negative, -1 for what is given or has no estimate
+%             [degC]; not negative; -1 for prescribed quantities and those without an estimate
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

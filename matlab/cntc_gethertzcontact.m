@@ -1,5 +1,5 @@
 function [ rvalues ] = cntc_gethertzcontact( ire, icp )
-% CNTC_GETHERTZCONTACT  Get the numbers of a Hertzian geometry (basic contact).
+% CNTC_GETHERTZCONTACT  Get the parameters of a Hertzian geometry (basic contact).
 %
 %   rvalues = cntc_gethertzcontact( ire, icp )
 %

@@ -5,11 +5,11 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %
 % Size that callers give to lists of flags
 %
-%   CNTC.FLAGS_DIM    room for a list of flags
+%   CNTC.FLAGS_DIM    largest length of a list of flags
 %
 % Flags: units and convention of signs
 %
-%   CNTC.if_units     which of the following conventions a problem uses
+%   CNTC.if_units     units and signs of a problem, one of the following
 %   CNTC.un_cntc      mm, N, results on body 1 (rail in wheel/rail contact)
 %   CNTC.un_spck      m, N, results on body 2 (wheel in wheel/rail contact)
 %   CNTC.un_si        m, N, results on body 1
@@ -55,19 +55,19 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 % Flags that only this library has
 %
 %   CNTC.own_heat     temperatures: 0 as the established program, 1 by moving sources
-%   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile that stands within the rail where no patch is, 2048 another place along the track where they overlap
-%   CNTC.own_stepped  read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements
-%   CNTC.own_angle    contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
-%   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
-%   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
-%   CNTC.own_order    discretisation of rolling: 1 the established one, 2 of second order in the size of elements
-%   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
-%   CNTC.own_wear     wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
-%   CNTC.own_accuracy accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
-%   CNTC.own_approximate where an accuracy is asked for: 0 the full theory, 1 simplified methods too, where their error is known and below that
-%   CNTC.own_reached  read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
+%   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile inside the rail without a patch, 2048 interpenetration at another position along the track without a patch
+%   CNTC.own_stepped  read only, number of points of subs_calculate at depths below DX/4 that are not element centres
+%   CNTC.own_angle    contact angles on rails that vary along the track: 0 of the rail section below the axle, as in the established program; 1 of wheel and rail where they touch
+%   CNTC.own_across   read only, number of elements across the contact in its narrower direction, 0 without contact; fewer than 5 give inaccurate results
+%   CNTC.own_classical solvers selected by G: 0 replaced by the default solver where possible, with as small a residual; 1 used
+%   CNTC.own_order    discretisation of rolling: 1 the established one, 2 of second order in the element size
+%   CNTC.own_errors   estimate errors of the totals in each calculation: 0 no, 1 yes, see cntc_geterrors
+%   CNTC.own_wear     compute wear and fatigue: 0 no, 1 yes, see cntc_setwear and cntc_getwear
+%   CNTC.own_accuracy required accuracy of the forces instead of a grid: the reciprocal of the largest relative error, 10 to 1000000; 0 none, the grid is used as given
+%   CNTC.own_approximate with a required accuracy: 0 full theory only, 1 also simplified methods whose known error is below it
+%   CNTC.own_reached  read only, whether the last calculation reached the required accuracy: 0 no, or none required, 1 yes
 %
-% Data that go along into the .mat files
+% Data that are written to the .mat files
 %
 %   CNTC.mt_tim       time [s]
 %   CNTC.mt_xr        contact point on the rail, x [L]
@@ -120,7 +120,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.err_icp      the contact patch does not exist
 %   CNTC.err_profil   a profile is missing or unusable
 %   CNTC.err_frclaw   the friction data are unusable
-%   CNTC.err_discr    the grid does not fit the previous case, or is too large
+%   CNTC.err_discr    the grid does not match the previous case, or is too large
 %   CNTC.err_input    the input file is unusable
 %   CNTC.err_other    anything else
 %

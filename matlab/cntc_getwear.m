@@ -4,10 +4,10 @@ function [ rvalues ] = cntc_getwear( ire, icp )
 %   rvalues = cntc_getwear( ire, icp )
 %
 %   ire, icp  result element and contact patch or problem (default 1, 1)
-%   rvalues   T-gamma [F], wear index [F/L2], largest density of frictional power [W/mm2], largest depth [L] and area
-%             of the section [L2] that a passage wears off, tangential over normal force [-], largest pressure over
-%             yield stress in shear [-], the same over its shakedown limit [-], surface fatigue index [-], largest von
-%             Mises and Tresca stress at points below the surface [F/L2]; 0 for what the case has not
+%   rvalues   T-gamma [F], wear index [F/L2], largest density of frictional power [W/mm2], largest wear depth [L] and
+%             worn area of the section [L2] per passage, tangential over normal force [-], largest pressure over yield
+%             stress in shear [-], the same over its shakedown limit [-], surface fatigue index [-], largest von Mises
+%             and Tresca stress at the subsurface points [F/L2]; 0 for quantities that do not apply
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

@@ -4,7 +4,7 @@ function [ rvalues ] = cntc_getwheelsetposition( ire )
 %   rvalues = cntc_getwheelsetposition( ire )
 %
 %   ire       result element of a wheel-rail problem (default 1)
-%   rvalues   s, y, z [L], roll, yaw, pitch [A]; z as solved when the vertical force is prescribed
+%   rvalues   s, y, z [L], roll, yaw, pitch [A]; z is computed if the vertical force is prescribed
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

@@ -1,5 +1,5 @@
 function cntc_setmetadata( ire, icp, params, values )
-% CNTC_SETMETADATA  Set data that go along into the .mat files.
+% CNTC_SETMETADATA  Set data that are written to the .mat files.
 %
 %   cntc_setmetadata( ire, icp, params, values )
 %

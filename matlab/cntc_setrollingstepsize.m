@@ -5,8 +5,7 @@ function cntc_setrollingstepsize( ire, icp, chi, dq )
 %
 %   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
 %   chi       rolling direction [A], basic contact (default 0)
-%   dq        rolling step: in basic contact [L], 2 mm until it is set, for wheel and rail relative to the size of
-%             elements [-]
+%   dq        rolling step: in basic contact [L], default 2 mm; for wheel and rail relative to the element size [-]
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

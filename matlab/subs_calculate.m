@@ -1,5 +1,5 @@
 function [ ierror ] = subs_calculate( ire, icp, idebug )
-% SUBS_CALCULATE  Compute displacements and stresses below the surface, after cntc_calculate.
+% SUBS_CALCULATE  Compute subsurface displacements and stresses, after cntc_calculate.
 %
 %   ierror = subs_calculate( ire, icp, idebug )
 %
