@@ -4,12 +4,12 @@ function [ h ] = circ_arrow( pos_c, r, th0, th1, col, scale, width, rot )
 %   h = circ_arrow( pos_c, r, th0, th1, col, scale, width, rot )
 %
 %   pos_c   centre, 2 or 3 numbers
-%   r       radius, or [rx ry] of an ellipse; negative: angles are counted the other way round
+%   r       radius, or [rx ry] of an ellipse; negative: angles are counted in the opposite direction
 %   th0, th1   angles of tail and tip [deg]
 %   col     colour: a name, red, green, blue, or a number for MATLAB_COLOR (default 'b')
 %   scale   size of the head; 1 (default): a quarter of the radius
 %   width   width of the head; 1 (default): 15 degrees to each side
-%   rot     in three dimensions: rotation of the plane of x and y that the arrow is drawn in (default: none)
+%   rot     in three dimensions: rotation of the x-y plane in which the arrow is drawn (default: none)
 %
 %   h       handles of the arc and of the head
 %

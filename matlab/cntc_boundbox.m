@@ -1,11 +1,11 @@
 function [ bbox ] = cntc_boundbox( sol, bbox )
-% CNTC_BOUNDBOX  The rectangle that holds the elements in contact.
+% CNTC_BOUNDBOX  Bounding rectangle of the elements in contact.
 %
 %   bbox = cntc_boundbox( sol )
-%   bbox = cntc_boundbox( sol, bbox )      made larger, so that it holds the former one too
+%   bbox = cntc_boundbox( sol, bbox )      enlarged to contain the given one, too
 %
 %   sol      struct of LOADCASE or cntc_getcpresults, or an array of them
-%   bbox     [xmin xmax ymin ymax] [mm], as AXIS takes it; [] without contact
+%   bbox     [xmin xmax ymin ymax] [mm], for AXIS; [] without contact
 %
 % See also: loadcase, plot3d.
 

@@ -1,13 +1,12 @@
 function cntc_buildmex( folder )
-% CNTC_BUILDMEX  Build the gateway by which Octave reaches the library.
+% CNTC_BUILDMEX  Build the gateway between Octave and the library.
 %
 %   cntc_buildmex( folder )
 %
-%   folder   where the gateway is stored, to be put on the search path; default: beside these scripts, where
-%            they find it
+%   folder   folder of the gateway, which must be on the search path; default: that of these scripts
 %
-% Needs mkoctfile and a C compiler (Debian: octave-dev). Matlab can use the gateway too, and without it loads the
-% library by loadlibrary.
+% Needs mkoctfile and a C compiler (Debian: octave-dev). Matlab can use the gateway, too; without it the library is
+% loaded by loadlibrary.
 %
 % See also: cntc_initlibrary.
 

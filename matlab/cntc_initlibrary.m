@@ -6,14 +6,14 @@ function [ CNTC, ifcver, ierror ] = cntc_initlibrary( wrkdir, outdir, expnam, id
 %   wrkdir     folder of input files (default: the current one)
 %   outdir     folder of results (default: the current one)
 %   expnam     name of the .out file (default: contact_addon)
-%   idebug     0: silent; 1: tell error codes and what went wrong (default); 2: also remarks
+%   idebug     0: silent; 1: report error codes and messages (default); 2: also remarks
 %   skip_init  1: only load the library (default 0)
 %   CNTC       numbers of flags and fields, see cntc_getmagicnumbers
 %   ifcver     version of the interface
 %   ierror     0, or a negative code
 %
-%   A library that is loaded already begins a new run. Where it is searched for: bin or build/release/bin beside this
-%   folder, or the file named by the environment variable CONTACT_LIBRARY. Octave needs cntc_buildmex once.
+%   A library that is loaded already begins a new run. It is searched in bin or build/release/bin beside this folder,
+%   or given by the environment variable CONTACT_LIBRARY. Octave needs cntc_buildmex once.
 %
 % See also: cntc_buildmex, cntc_initialize, cntc_closelibrary.
 

@@ -6,9 +6,9 @@ function [ v, x, y, z ] = eval_2dspline( spl2d, u_in, v_in, y_in, idebug )
 %
 %   spl2d    struct of MAKE_2DSPLINE, or of READ_SLICES: then v goes from 0 to 1 between the ends of the slices
 %   u, v, y  of one size: points one by one; else all u with all v or y, in numel(u) x numel(v) arrays
-%   idebug   for scripts that give it; nothing is printed
+%   idebug   accepted for compatibility and ignored
 %
-% Beside the surface there is NaN, and where no v has the asked y. Several v with one y: the smallest.
+% Values are NaN outside the surface, and if no v has the given y. If several v have it, the smallest is used.
 %
 % See also: make_2dspline, eval_2dspline_deriv, plot_2dspline.
 

@@ -5,7 +5,7 @@ function [ dx, dy, dz ] = eval_2dspline_deriv( spl2d, u, v, idir, idebug )
 %
 %   spl2d, u, v   as for EVAL_2DSPLINE
 %   idir     1 (default): derivatives to u; 2: to v
-%   idebug   for scripts that give it; nothing is printed
+%   idebug   accepted for compatibility and ignored
 %
 % See also: make_2dspline, eval_2dspline.
 

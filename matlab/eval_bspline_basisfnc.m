@@ -3,10 +3,10 @@ function [ varargout ] = eval_bspline_basisfnc( tj, si, k, idebug )
 %
 %   [b1, b2, b3, b4] = eval_bspline_basisfnc( tj, si, k )
 %
-%   tj       knots, not falling; a knot that is there several times makes splines less smooth
+%   tj       knots, not decreasing; a repeated knot makes splines less smooth
 %   si       points; beyond the knots all splines are zero
 %   k        order, 1 to 8; 4 (default): cubic splines
-%   idebug   for scripts that give it; nothing is printed
+%   idebug   accepted for compatibility and ignored
 %
 %   b1 ... bk   for each order m an array numel(si) x (numel(tj)-m): one row per point, one column per spline. At a knot splines are
 %               continued from the right, at the last one from the left

@@ -5,9 +5,9 @@ function [ s, y, z ] = eval_spline( spl, s_in, y_in, idebug )
 %   [s, y, z] = eval_spline( spl, [], y_in )
 %
 %   spl      struct of make_spline
-%   s_in     positions along the curve; before and behind its ends the ends are taken
-%   y_in     values of y; the first position from the start of the spline is taken that has them, NaN where there is none
-%   idebug   for scripts that give it; nothing is printed
+%   s_in     positions along the curve; beyond its ends the end points are used
+%   y_in     values of y; the first position from the start of the spline with this value is returned, NaN if there is none
+%   idebug   accepted for compatibility and ignored
 %
 %   s, y, z  arrays like the input; z is [] for a spline without
 %

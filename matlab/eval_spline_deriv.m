@@ -5,7 +5,7 @@ function [ dy, ddy, dz, ddz, kappa, rcurv ] = eval_spline_deriv( spl, s, idebug 
 %
 %   spl      struct of make_spline, with y and z
 %   s        positions along the curve (default: those of its points); before and behind its ends the ends are taken
-%   idebug   for scripts that give it; nothing is printed
+%   idebug   accepted for compatibility and ignored
 %
 %   dy, ddy, dz, ddz   first and second derivatives to s
 %   kappa    curvature (y' z'' - z' y'') / (y'^2 + z'^2)^(3/2) [1/mm]

@@ -7,7 +7,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none; -1 may be left out
 %
 %   expnam   experiment name, with a folder if need be, without extension. Cases without .mat files are read from
-%            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
+%            expnam.h5 (contact --hdf5); give the extension .h5 to read this file in any case
 %   icase    number of the case (default 1)
 %   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them); one that the case does not have gives []
 %            and a warning
@@ -17,9 +17,9 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   config            module 1: configuration, 0/1 wheel on rail, 4/5 on roller, left/right; module 3: 0
 %   h_digit, d_digit  control digits HEAT and, in module 1, DISCNS
 %   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics; mater.ga, .si, .ak are the
-%                     combined modulus, Poisson ratio and difference parameter, fric.fstat the coefficient at rest
+%                     combined modulus, Poisson ratio and difference parameter, fric.fstat the static coefficient of friction
 %   meta.status       how the case ended: 'solved' or 'not converged'; '' in files of other programs
-%   meta.reason       which iteration missed its tolerance, and by how much; '' for solved cases
+%   meta.reason       which iteration did not reach its tolerance, and by how much; '' for solved cases
 %   mx, my            numbers of elements along and across the rolling direction
 %   xl, yl, dx, dy    lower left corner of the grid and size of the elements [mm]
 %   x_offset, y_offset  empty; when set, plot3d moves the grid by these amounts [mm]
@@ -34,8 +34,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   temp1, temp2      with temperatures: those of the surfaces of bodies 1 and 2 [degC]
 %   trcbnd            traction bound [N/mm2]
 %
-% With A=1 a .mat file holds the elements in contact only; tractions are zero elsewhere, and what is not
-% known there (h, mu, displacements, slip, temperatures) is NaN. HDF5 files hold all elements.
+% With A=1 a .mat file holds the elements in contact only; tractions are zero elsewhere, and unknown values (h, mu,
+% displacements, slip, temperatures) are NaN. HDF5 files hold all elements.
 %
 % See also: diffcase, plot2d, plot3d, loadstrs.
 

@@ -8,7 +8,7 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
 %   icase    number of the case (default 1)
 %   ipatch   number of the contact patch of a wheel-rail case (default 0: none, then the first)
 %
-% One struct for each block of points of the input, [] for a block that is asked for and not there:
+% One struct for each block of points of the input, [] for a missing block:
 %
 %   nx, ny, nz, npoints   numbers of points
 %   x, y, z               their coordinates, column vectors [mm]
@@ -18,7 +18,7 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
 %   sigtr, sigma1, sigma2, sigma3   with the full tensor: Tresca's maximum shear stress (sigma1 - sigma3)
 %                         and the principal stresses, sigma1 >= sigma2 >= sigma3 [N/mm2]
 %
-% Arrays with one or two dimensions of length 1 are brought into shape by squeeze.
+% Use squeeze for arrays with one or two dimensions of length 1.
 %
 % See also: diffstrs, plotstrs, loadcase.
 

@@ -6,8 +6,9 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
 %
 %   ui, vj   rising parameters: positions of the slices, and of the points along them; at least 4 of each
 %   xij, yij, zij   coordinates, numel(ui) x numel(vj) arrays; without xij, or with [], x is ui
-%   mask_j   numel(ui) x numel(vj) array, 0 where a slice has no point, such as behind its end. NaN in a coordinate says the
-%            same. The surface is where the four points around are there, elsewhere its values are NaN
+%   mask_j   numel(ui) x numel(vj) array, 0 where a slice has no point, such as behind its end. NaN in a coordinate
+%            has the same meaning. The surface exists where its four surrounding points exist; elsewhere values are
+%            NaN
 %   use_approx   1 (default): along u the points are the control points, as for slices with U_METHOD 2; 0: the surface goes
 %            through the points
 %

@@ -4,7 +4,7 @@ function [ s ] = make_arclength( y, z )
 %   s = make_arclength( y, z )
 %
 %   y, z     coordinates of the points
-%   s        column of positions; they start at zero where y has no zero, or several
+%   s        column of positions; they start at zero if y has no zero, or several
 %
 % See also: make_spline, eval_spline.
 

@@ -5,7 +5,7 @@ function [ spl ] = make_ppform( spl, d1, d2, d3 )
 %   spl = make_ppform( spl, d1, d2, d3 )
 %
 %   spl      struct with s: the beginnings of the pieces and the end; tj: knots; cy, cz: coefficients (cz may be lacking or [])
-%   d1 ... d3   arrays that turn coefficients into those of the derivative, from order 2, 3 and 4; without them they are made from tj
+%   d1 ... d3   arrays that convert coefficients into those of the derivative, from order 2, 3 and 4; computed from tj if absent
 %
 %   spl      the same with ay0 ... ay3, az0 ... az3, see MAKE_SPLINE; those of the last point stand for the curve behind it
 %

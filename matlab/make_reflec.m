@@ -1,5 +1,5 @@
 function [ x, y, z, theta ] = make_reflec( spl2d, vec_a, vec_v, ui, vj )
-% MAKE_REFLEC  Angles at which a surface of splines mirrors a light; their lines show how smooth the surface is.
+% MAKE_REFLEC  Reflection angles of a spline surface; lines of constant angle show how smooth the surface is.
 %
 %   [x, y, z, theta] = make_reflec( spl2d, vec_a, vec_v, ui, vj )
 %

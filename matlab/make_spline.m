@@ -9,14 +9,14 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
 %            the integral of the squared second derivative along s as small as possible, for y and z alike
 %   wgt      weights of the points (default 1)
 %   ikinks   numbers of points at which the direction may jump (default none)
-%   iaccel   numbers of points at which the curvature may jump (default none). It does with use_deriv = 3 or with knots apart from the
-%            points; else the smoothest curve has no such jumps
-%   use_bspline   1: the curve is made of B-splines; 0 (default): only where iaccel, ds_bspl or use_deriv = 3 ask for it
+%   iaccel   numbers of points at which the curvature may jump (default none). They occur with use_deriv = 3 or with
+%            knots other than the points; otherwise the smoothest curve has no such jumps
+%   use_bspline   1: the curve is made of B-splines; 0 (default): only if iaccel, ds_bspl or use_deriv = 3 need it
 %   ds_bspl  distance of their knots, about; [] (default): a knot at each point
 %   use_deriv     2 (default): the second derivative is smoothed; 3: the third
 %   use_repl      outer knots: 1 (default): those at the ends four times; 0: three more at the first and last distance. The curve
 %                 is the same
-%   idebug   for scripts that give it; nothing is printed
+%   idebug   accepted for compatibility and ignored
 %
 % Natural ends, also at kinks. B-splines with a knot at each point give the same curve. Where knots are closer than points, and lambda
 % is 0, the smoothest curve through them is taken.

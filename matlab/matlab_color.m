@@ -1,9 +1,9 @@
 function [ rgb ] = matlab_color( num )
-% MATLAB_COLOR  Colours of lines in the order in which Matlab takes them, one row of red, green, blue for each number.
+% MATLAB_COLOR  Line colours in Matlab's order, one row of red, green, blue for each number.
 %
 %   rgb = matlab_color( num )
 %
-%   num   numbers from 1 on; behind the last colour the first follows
+%   num   numbers from 1; the colours repeat cyclically
 %
 % See also: plot_arrow, plot_cm.
 

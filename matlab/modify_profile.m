@@ -6,17 +6,17 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, vara
 %   p          struct with columns ProfileY and ProfileZ
 %   is_wheel   1 for a wheel, 0 for a rail (default)
 %   mirror_y   1: change the sign of y
-%   mirror_z   1: change the sign of z; 0 (default): find out from the side faces; -1: keep it
+%   mirror_z   1: change the sign of z; 0 (default): detect it from the side faces; -1: keep it
 %   scale_yz   factor of y and z (default 1)
-%   inversion  1: reverse the list of points; 0: keep it; [] (default): find out
+%   inversion  1: reverse the list of points; 0: keep it; [] (default): detect
 %
 %   p          the struct with new ProfileY, ProfileZ, ProfileS and is_wheel
 %
-% As established scripts call it, with seven arguments or more, or with a y_tape that is neither 0 nor 1:
+% Argument list of established scripts, recognised by seven or more arguments, or a y_tape that is neither 0 nor 1:
 %
 %   p = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, y_tape, reverse_order, point_dist_min, delete_foldback, make_plot )
 %
-%   mirror_z         1: change the sign of z; nothing is found out, and the order is not looked at
+%   mirror_z         1: change the sign of z; direction and order are not detected
 %   y_tape           a wheel is moved such that z = 0 at this y; [] (default): it is not
 %   reverse_order    1: reverse the list of points
 %   point_dist_min   points that follow the last one kept by less than this along the profile are left out (default: none)

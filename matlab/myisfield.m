@@ -1,5 +1,5 @@
 function [ there ] = myisfield( s, name )
-% MYISFIELD  Has a struct a field whose name may have dots: myisfield(s, 'kincns.t_digit')?
+% MYISFIELD  Whether a struct has a field whose name may have dots: myisfield(s, 'kincns.t_digit').
 %
 % See also: mygetfield, mysetfield.
 

@@ -6,10 +6,10 @@ function [ sol, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs ] = parse_
 %   [npatch, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs] = parse_out1( ... )   the parts of sol
 %
 %   fname   name of the .out file; without extension, .out is added
-%   idebug, a third argument, is for scripts that give it; nothing is printed
+%   a third argument, idebug, is ignored
 %
 % Values of a case are rows with one column per case; values of contact patches are arrays with one row per
-% patch and one column per case. NaN stands where the file has nothing, e.g. for patches that do not exist.
+% patch and one column per case. Missing values are NaN, e.g. for patches that do not exist.
 %
 %   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
 %   sol.icase     numbers of the cases; sol.ire, sol.tim: result elements and times [s], in files of the library
@@ -31,7 +31,7 @@ function [ sol, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs ] = parse_
 %   sol.cp_stat   numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
 %   sol.cp_subs   largest stresses below the surface, arrays (patch, case, block): sighyd.val, .x, .y, .z, ...
 %
-% Names of other scripts stand beside these: ws_pos.x, .vx, dx_whl ..., dyrail ..., kyrail ... fzdefl; tot_forc.mx_tr ...;
+% Names used by other scripts are available as well: ws_pos.x, .vx, dx_whl ..., dyrail ..., kyrail ... fzdefl; tot_forc.mx_tr ...;
 % cp_pos.delt_tr, ncon, nadh, nslip, nplast, prev_icp (patch, number, case); cp_force.fric.
 %
 % See also: parse_out3, loadcase.

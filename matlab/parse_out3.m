@@ -6,12 +6,12 @@ function [ sol, force, subs ] = parse_out3( fname, use_struct, idebug )
 %   [creep, force, subs] = parse_out3( fname, 0 )    the same, also for one output
 %
 %   fname       name of the .out file; without extension, .out is added
-%   use_struct  0: arrays; 1: a struct; default: a struct when one output is asked for
-%   idebug      for scripts that give it; nothing is printed
+%   use_struct  0: arrays; 1: a struct; default: a struct if there is one output
+%   idebug      accepted for compatibility and ignored
 %
 %   creep   columns pen, cksi, ceta, cphi, ncon, nadh, nslip, nplast
 %   force   columns fn, fx, fy, mz, elen, fricw, pmax, temp1, temp2; temp1 is the higher temperature, temp2 NaN, as
-%           the file tells one only
+%           the file has only one
 %   subs    array (case, 4, 8) of value, x, y, z of sighyd, sigvm, sigtr, sigma1, sigma3, sigxx, sigyy, sigzz, of the
 %           first block; [] without
 %

@@ -30,11 +30,11 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %              'temp1', 'temp2'         surface temperatures [degC] (H>=1)
 %              'default'                'ptabs+vec', without friction 'pn'
 %   exterval   value at elements out of contact; NaN (default): not drawn; []: as stored in sol
-%              any other array of the struct, by its name
+%              or the name of any other array of the struct
 %   rw_surf    'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on the rail with the
 %              wheel added, in rail coordinates
-%   rw_surfc   the same as other scripts call it; 'both' in rear and side view is then in track coordinates. A profile that is
-%              not given is left out, with a warning
+%   rw_surfc   the same under the name of other scripts; 'both' in rear and side view then uses track coordinates. A
+%              missing profile is omitted, with a warning
 %   typplot    'surf' (default), 'contourf', or with profiles 'rw_rear', 'rw_side': rear and side view; the
 %              largest value of each row or column is then drawn as a bar along the surface normal
 %
@@ -43,14 +43,14 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %   view       'default', [azimuth elevation] in degrees, [0 90] for a picture from above, or 'rail': from
 %              above with x pointing up and y to the right; 'rdyn': from below, x pointing left
 %   xrange     range of x [mm] of the surfaces and of the side view (default: the contact and its surroundings)
-%   xysteps    distance of thin lines on surfaces [mm], dxy or [dx dy] (default: found from their size)
+%   xysteps    distance of thin lines on surfaces [mm], dxy or [dx dy] (default: from their size)
 %   zrange     range of the values for heights and colours
 %   ixrange, iyrange   numbers of the first and last element to be shown; 'auto' (default) or 'tight': the
 %              contact area and one element more; 'all': the whole grid
 %   numvecx, numvecy   largest number of arrows in x- and y-direction (default 15)
 %   xstretch   factor of lengths in x-direction against those in y-direction; 1 (default): to scale. A single row or
 %              column of elements fills the figure
-%   vecscale   length of arrows and bars in mm for a value of 1 (default: found from the values)
+%   vecscale   length of arrows and bars in mm for a value of 1 (default: from the values)
 %   veccolor   their colour (default 'b' for 'ptvec' and bars, else 'k'), vecwidth their line width
 %   addeldiv   1, 'y': lines around the contact area and the areas of slip and plasticity; 0, 'n': none; [] (default):
 %              with arrows on colours only. In pictures from above

@@ -7,7 +7,7 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %
 %   slcs   struct of READ_SLICES, or of READ_PROFILE for such a file
 %
-%   typplot    'surf' (default), 'topol': lines only, or 'refl': stripes of light and shade that show the smoothness
+%   typplot    'surf' (default), 'topol': lines only, or 'refl': reflection stripes that show the smoothness
 %   urange     range of positions [mm], of wheels angles [rad] (default: all)
 %   vrange     range along the slices, 0 to 1 between their ends (default: all)
 %   xysteps    distance of thin lines on the surface, du or [du dv] (default: 20 lines each way)
@@ -20,8 +20,8 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %   view       [azimuth elevation] (default [110 20])
 %   addplot    1: draw into the current axes; 0 (default): clear the figure
 %
-% Between slices with corresponding points the surface is drawn as RESAMPLE_SLICES joins them; the program's own spline through
-% the slices is smoother: EVAL_2DSPLINE. Slice directions (field) are not built.
+% Slices with corresponding points are connected as by RESAMPLE_SLICES; the spline surface of the program is smoother:
+% EVAL_2DSPLINE.
 %
 % See also: read_slices, resample_slices, eval_2dspline, plot3d.
 

@@ -1,5 +1,5 @@
 function [ h ] = plot_cm( O, r, veclen, theta, col, no_vec, no_head )
-% PLOT_CM  Draw the sign of a centre of mass: a circle with two filled quarters, and arrows along its axes.
+% PLOT_CM  Draw the symbol of a centre of mass: a circle with two filled quarters, and arrows along its axes.
 %
 %   h = plot_cm( O, r, veclen, theta, col, no_vec, no_head )
 %

@@ -1,5 +1,5 @@
 function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, varargin )
-% PLOT_UPDATE  Two profiles and their difference, magnified: wear, or what smoothing has changed.
+% PLOT_UPDATE  Two profiles and their magnified difference: wear, or the effect of smoothing.
 %
 %   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, add_plot )
 %   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, show_angl, add_plot, force_spline )
@@ -12,7 +12,7 @@ function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, no
 %   use_angl2    1: normals of prf2; 0 (default): of prf1
 %   norm_dist    1 (default): difference along the normal; 0: both parts; -1: along the tangent, drawn along the normal
 %   add_plot     1: draw into the figure as it is; 0 (default): clear it
-%   force_spline 1: the nearest of the curve also with the same number of points; show_angl is for scripts that give it
+%   force_spline 1: the nearest of the curve also with the same number of points; show_angl is accepted and ignored
 %
 %   dst_max      largest difference of this kind [mm]
 %   l            lines: first profile, second profile, magnified difference

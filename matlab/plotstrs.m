@@ -16,7 +16,7 @@ function [ opt ] = plotstrs( sol, opt )
 %              'sigma1', 'sigma2', 'sigma3'   principal stresses [N/mm2]
 %              'sigtr' or 'tresca'         maximum shear stress sigma1 - sigma3 [N/mm2]
 %   dir        'y' (default): slice y = constant; 'x', 'z': x or z = constant
-%   xslc, yslc, zslc   place of the slice [mm]; that of the nearest points is used (default 0)
+%   xslc, yslc, zslc   position of the slice [mm]; that of the nearest points is used (default 0)
 %   addplot    1: do not clear the figure; 0 (default)
 %   typplot    'contourf' (default), 'contour', or 'surf' for one colour per cell
 %   cntrlvl    values for contour lines; 'auto' (default)

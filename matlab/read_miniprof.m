@@ -5,7 +5,7 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] after the offsets of the header, Fname, ColumnDef, and
 %       ProfileData with all columns. Mirroring and order are left to READ_PROFILE.
-%   idebug, make_plot  for scripts that give them; nothing is printed, and READ_PROFILE draws
+%   idebug, make_plot  accepted for compatibility and ignored; use READ_PROFILE to plot
 %
 % See also: read_profile, write_miniprof.
 

@@ -1,16 +1,16 @@
 function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rgt_side, idebug, make_plot, varargin )
-% READ_PROFILE  Read a wheel or rail profile of any kind and bring it into the form CONTACT works with.
+% READ_PROFILE  Read a wheel or rail profile of any format and convert it to the form used by CONTACT.
 %
 %   p = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rgt_side, idebug, make_plot )
 %
 %   fname      file: Simpack (.prr, .prw), Miniprof (.ban, .whl), Vampire (.rai, .whe), slices (.slcs, .slcw), or a table of
 %              two columns
-%   is_wheel   1 for a wheel, 0 for a rail; [] (default): from the extension, a rail where that tells nothing
-%   mirror_y   1: change the sign of y; 0 (default): keep it; -1: keep it, whatever a Simpack file says
-%   mirror_z   1: change the sign of z; 0 (default): find out, for Simpack do as the file says; -1: keep it
+%   is_wheel   1 for a wheel, 0 for a rail; [] (default): from the extension, otherwise a rail
+%   mirror_y   1: change the sign of y; 0 (default): keep it; -1: keep it, overriding a Simpack file
+%   mirror_z   1: change the sign of z; 0 (default): detect, for Simpack as the file says; -1: keep it
 %   scale_yz   factor of y and z that makes them mm (default 1)
 %   rgt_side   Vampire: 1 (default) the right profile of the file, 0 the left one
-%   idebug     for scripts that give it, as all that follows make_plot; nothing is printed
+%   idebug     accepted for compatibility and ignored, as arguments after make_plot
 %   make_plot  number of a figure in which the profile is drawn; 0 (default): none
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] and ProfileS [mm], sums of chords from the first

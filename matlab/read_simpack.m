@@ -4,9 +4,9 @@ function [ p ] = read_simpack( fname, idebug, make_plot )
 %   p = read_simpack( fname )
 %
 %   p   struct with columns ProfileY, ProfileZ [mm], Fname, and from the file: type (0 rail, 1 wheel), mirror_y,
-%       mirror_z (0, 1), inversion (0, 1, or [] where it is not given), comment. Points that are too
+%       mirror_z (0, 1), inversion (0, 1, or [] if not given), comment. Points that are too
 %       close are dropped, shifts and bounds are applied; mirroring and order are left to READ_PROFILE.
-%   idebug, make_plot  for scripts that give them; nothing is printed, and READ_PROFILE draws
+%   idebug, make_plot  accepted for compatibility and ignored; use READ_PROFILE to plot
 %
 % See also: read_profile, write_simpack.
 

@@ -3,8 +3,8 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 %
 %   slcs = read_slices( fname, mirror_y, mirror_z, scale_yz )
 %
-%   arguments as for READ_PROFILE; they hold for all slices. Rail or wheel is told by the extension; idebug, a fifth
-%   argument, is for scripts that give it, nothing is printed
+%   arguments as for READ_PROFILE, for all slices. The extension distinguishes rails and wheels; a fifth argument,
+%   idebug, is ignored
 %
 %   slcs   struct with Fname, is_wheel, nslc,
 %          u          positions of the slices along the track [mm], for wheels angles [rad]

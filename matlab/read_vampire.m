@@ -6,7 +6,7 @@ function [ p ] = read_vampire( fname, right_side, idebug, make_plot )
 %   fname       file: WHEELPROFILE or RAILPROFILE, a title, TREADDATUM or GAUGEPOINT, FLANGEBACK or GAUGE, and rows of y and z
 %               of the left and of the right profile
 %   right_side  1 (default): the right profile; 0: the left one, mirrored to the right side
-%   idebug, make_plot  for scripts that give them; nothing is printed, and READ_PROFILE draws
+%   idebug, make_plot  accepted for compatibility and ignored; use READ_PROFILE to plot
 %
 %   p   struct with columns ProfileY, ProfileZ [mm], z positive down; Title, is_wheel; ProfileData: the rows of the file;
 %       wheels:  TreadDatum, FlangeBackDist, FlangeBackPos [mm]: FBDIST and FBPOS of CONTACT; y = 0 at the tread datum

@@ -4,7 +4,7 @@ function [ slcs, ierror ] = resample_slices( slcs, ds, varargin )
 %   slcs = resample_slices( slcs, ds )
 %
 %   slcs   struct of READ_SLICES
-%   ds     largest distance of points across the profile [mm] (default 0.5); what follows is for scripts that give it
+%   ds     largest distance of points across the profile [mm] (default 0.5); further arguments are ignored
 %   ierror 0: what is wrong ends in an error
 %
 % The parts between features are divided into the same number of equal steps in all slices. Added fields:

@@ -11,7 +11,7 @@ function [ p, spl ] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iacce
 %   iaccel    numbers of points at which the curvature may jump; [] or -1 (default): none, they are not searched for
 %   use_wgt   1 (default): each point counts with the length of profile that belongs to it; 0: all points alike
 %   use_bspline, ds_bspl   see MAKE_SPLINE
-%   idebug    for scripts that give it; nothing is printed
+%   idebug    accepted for compatibility and ignored
 %
 %   p         as p, with the new points and ProfileS;  spl  struct of MAKE_SPLINE
 %
