@@ -431,7 +431,7 @@ contains
       request = rail_request("bad.prr")
       call refused(suite, request, "", "expected spline.end", 1, "an empty Simpack file")
       call refused(suite, request, simpack_head, "expected spline.end", 9, "a Simpack file that ends too early")
-      call refused(suite, request, "header.begin" // nl // "type = 1", "a rail is wanted", 2, "a wheel in a rail file")
+      call refused(suite, request, "header.begin" // nl // "type = 1", "a rail is required", 2, "a wheel in a rail file")
       call refused(suite, request, "header.begin" // nl // "type = one", '"one" is not a number', 2, "a word in the header")
       call refused(suite, request, "header.begin" // nl // "type = 0 1", "has 2 values", 2, "a header value too many")
       call refused(suite, request, "header.begin" // nl // "spline.begin", "inside the block header", 2, "wrong nesting")

@@ -445,7 +445,7 @@ contains
          write(k, "(i0)") i - 1
          text = text // k // merge("  0. 20. 99. ", " -1  20. 99. ", i < 3) // nl
       end do
-      call refused(suite, slices_text(6, 1.0_wp, "3 0 0" // nl // "1", text), "one after the other", 6, "a part in two slices")
+      call refused(suite, slices_text(6, 1.0_wp, "3 0 0" // nl // "1", text), "consecutive slices", 6, "a part in two slices")
       call refused(suite, slices_text(60, 1.0_wp, plain, ""), "cannot be opened", 0, "a slice that is not there")
       call refused(suite, slices_text(6, 1.0_wp, plain, ""), "1.5 pi", 0, "angles in degrees", profile_side%wheel)
       call refused(suite, slices_text(6, 0.9_wp, plain, ""), "range inside", 0, "angles beyond one end", profile_side%wheel)

@@ -49,7 +49,7 @@ contains
          call suite%check(bounds_of(trim(given(k))) == bounds_of(trim(meant(k))) .and. bounds_of(trim(meant(k))) > 0, given(k))
       end do
       call suite%check(bounds_of("NOSUCH") == 0, "unknown name")
-      call expect(suite, "NOSUCH", 1.0_wp, "no bounds")
+      call expect(suite, "NOSUCH", 1.0_wp, "is missing in the table of bounds")
    end subroutine names
 
    !> Words of complaints
@@ -59,7 +59,7 @@ contains
       call expect(suite, "GG1", 1.0e-30_wp, "GG1 = 1.00000E-30 is below its lower bound 1.00000E-05 N/mm2: ")
       call expect(suite, "POISS2", -1.0_wp, "POISS2 = -1 must be larger than -1: ")
       call expect(suite, "MAXGS", 0.0_wp, "MAXGS = 0 is outside its range 1 to 999999: ")
-      call expect(suite, "CHI", 180.0_wp, "degrees need a d")
+      call expect(suite, "CHI", 180.0_wp, "in degrees with a suffix")
    end subroutine complaints
 
    !> From microns to metres, rubber to rigid, creeping to rockets: nothing meant is refused
