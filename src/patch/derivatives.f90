@@ -6,6 +6,7 @@
 module contact_patch_derivatives
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_responses, only : pressure_responses
    use contact_patch_order, only : edge_slip, spin_offset_of
@@ -13,6 +14,7 @@ module contact_patch_derivatives
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
    use contact_tangential_nested, only : traction_adjoint
+   use contact_tangential_problem, only : tangential_problem
    implicit none (type, external)
    private
 
@@ -124,7 +126,7 @@ contains
       integer, parameter :: row(3) = [fx, fy, mz]
       type(bounding_box) :: box
       real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
-      real(wp), allocatable :: slip(:, :, :)
+      real(wp), allocatable :: slip(:, :, :), gap(:, :)
       real(wp) :: area, x0, y0, x, y, reached, offset
       integer :: j, k, ix, iy
 
@@ -137,7 +139,7 @@ contains
       associate (t => workspace%tangential, solution => workspace%solution)
          allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
          allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
-         if (allocated(t%second)) allocate(slip(t%mx, t%my, 2))
+         if (allocated(t%second)) allocate(slip(t%mx, t%my, 2), gap(t%mx, t%my))
          weight(:, :, 1, 1) = area
          weight(:, :, 2, 2) = area
          do iy = 1, t%my
@@ -170,12 +172,44 @@ contains
                   & mask=solution%division /= element%plastic)
             end do
             if (.not. allocated(t%second)) cycle
+            call gap_changes(response(:, :, k), box, t, workspace%window, gap)
             call edge_slip(problem, t, workspace%box%diagonal(2), solution%p, result%pn(box%ix0:box%ix1, box%iy0:box%iy1), &
-               & pressure, slip)
+               & pressure, gap, slip)
             do j = 1, 3
                derivatives%by_distance(row(j), k) = derivatives%by_distance(row(j), k) + sum(by_slip(:, :, :, j)*slip)
             end do
          end do
       end associate
    end subroutine differentiate_tractions
+
+   !> Changes of the distance of the surfaces in the elements ahead of the leading ones
+   !>
+   !> In contact displacements follow the undeformed distance, which goes on ahead as a straight line.
+   subroutine gap_changes(response, box, t, window, gap)
+      !> Change of the pressures, shape of the grid
+      real(wp), contiguous, intent(in) :: response(:, :)
+      type(bounding_box), intent(in) :: box
+      !> Its edge terms tell where distances are known
+      type(tangential_problem), intent(in) :: t
+      !> Compliance of the grid
+      class(compliance), intent(inout) :: window
+      !> [mm per unit], shape of the box
+      real(wp), intent(out) :: gap(:, :)
+      real(wp), allocatable :: un(:, :)
+      integer :: ix, iy, jx, jy
+
+      allocate(un, mold=response)
+      call window%normal(response, un)
+      gap = 0.0_wp
+      do iy = 1, t%my
+         jy = box%iy0 + iy - 1
+         do ix = 1, t%mx
+            if (t%second%gap(ix, iy) < 0.0_wp) cycle
+            jx = box%ix0 + ix - 1
+            gap(ix, iy) = un(jx + t%direction, jy) - un(jx, jy)
+            if (ix - t%direction < 1 .or. ix - t%direction > t%mx) cycle
+            if (t%contact(ix - t%direction, iy)) gap(ix, iy) = gap(ix, iy) - un(jx, jy) + un(jx - t%direction, jy)
+         end do
+      end do
+   end subroutine gap_changes
 end module contact_patch_derivatives

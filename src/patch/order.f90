@@ -5,11 +5,12 @@
 !> the established scheme acts, and the report says why.
 module contact_patch_order
    use contact_base_choices, only : is_classical, kernel_model, motion, pressure_model
+   use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : reason_length, solve_report
    use contact_grid_element_division, only : bounding_box
    use contact_patch_problem, only : patch_problem, patch_state
-   use contact_patch_workspace, only : patch_workspace
+   use contact_patch_workspace, only : patch_workspace, prepare_window
    use contact_tangential_problem, only : tangential_problem
    use contact_tangential_second_order, only : find_edge_terms, second_order
    implicit none (type, external)
@@ -117,6 +118,7 @@ contains
       type(solve_report), intent(in) :: report
       !> Compliance of the box; its tangential problem gets the terms, or loses them
       type(patch_workspace), intent(inout) :: workspace
+      real(wp), allocatable :: gap(:, :)
 
       associate (t => workspace%tangential)
          if (report%order /= 2) then
@@ -125,13 +127,48 @@ contains
          end if
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-         call find_edge_terms(t%contact, workspace%box_pn, is_root(problem), t%dx, t%dy, t%direction, problem%model%material%nu, &
-            & problem%model%material%gg, workspace%box%diagonal(2), t%second)
+         allocate(gap(t%mx, t%my), source=-1.0_wp)
+         if (.not. is_root(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
+         call find_edge_terms(t%contact, workspace%box_pn, gap, is_root(problem), t%dx, t%dy, t%direction, &
+            & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), t%second)
       end associate
    end subroutine set_second_order
 
+   !> How far surfaces are apart in the elements ahead of the leading ones, from the pressures
+   subroutine find_gaps(problem, pn, box, direction, workspace, gap)
+      type(patch_problem), intent(in) :: problem
+      !> [N/mm2], shape of the grid
+      real(wp), contiguous, intent(in) :: pn(:, :)
+      type(bounding_box), intent(in) :: box
+      !> Rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
+      !> Compliance of the window, and the undeformed distance
+      type(patch_workspace), intent(inout) :: workspace
+      !> [mm], shape of the box; unchanged where it is unknown
+      real(wp), intent(inout) :: gap(:, :)
+      real(wp), allocatable :: un(:, :)
+      integer :: ix, iy, jx
+
+      ! parts that act on each other with less than full strength have displacements of their own
+      if (allocated(problem%parts)) return
+      call prepare_window(problem, workspace)
+      allocate(un, mold=pn)
+      associate (normal => workspace%normal)
+         call workspace%window%normal(pn, un)
+         do iy = box%iy0, box%iy1
+            do ix = box%ix0, box%ix1
+               jx = ix + direction
+               if (jx < 1 .or. jx > problem%grid%mx .or. .not. pn(ix, iy) > 0.0_wp) cycle
+               if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold) cycle
+               ! less what the solution has left in the leading element
+               gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = max(0.0_wp, normal%h(jx, iy) - normal%h(ix, iy) + un(jx, iy) - un(ix, iy))
+            end do
+         end do
+      end associate
+   end subroutine find_gaps
+
    !> Slip of the leading elements by the change of their edge terms with the pressures
-   subroutine edge_slip(problem, tangential, diagonal, p, pressure, change, slip)
+   subroutine edge_slip(problem, tangential, diagonal, p, pressure, change, gap_change, slip)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
       !> With edge terms at the pressures
@@ -142,18 +179,22 @@ contains
       real(wp), intent(in) :: p(:, :, :)
       !> Pressures [N/mm2] and how they change with some input, shape (mx, my)
       real(wp), intent(in) :: pressure(:, :), change(:, :)
+      !> How distances in the elements ahead change with it [mm per unit], shape (mx, my)
+      real(wp), intent(in) :: gap_change(:, :)
       !> [mm per unit of the input], shape (mx, my, 2)
       real(wp), intent(out) :: slip(:, :, :)
       type(second_order) :: terms(2)
-      real(wp) :: step, c(3)
+      real(wp) :: step, side, c(3)
       integer :: k
 
       slip = 0.0_wp
       if (.not. any(abs(change) > 0.0_wp)) return
       step = pressure_step*maxval(pressure)/maxval(abs(change))
       do k = 1, 2
-         call find_edge_terms(tangential%contact, pressure + real(2*k - 3, wp)*step*change, is_root(problem), tangential%dx, &
-            & tangential%dy, tangential%direction, problem%model%material%nu, problem%model%material%gg, diagonal, terms(k))
+         side = real(2*k - 3, wp)*step
+         call find_edge_terms(tangential%contact, pressure + side*change, tangential%second%gap + side*gap_change, &
+            & is_root(problem), tangential%dx, tangential%dy, tangential%direction, problem%model%material%nu, &
+            & problem%model%material%gg, diagonal, terms(k))
       end do
       do k = 1, size(terms(1)%at, 2)
          associate (ix => terms(1)%at(1, k), iy => terms(1)%at(2, k))

@@ -19,8 +19,10 @@ module contact_tangential_second_order
 
    !> Edge terms of a tangential problem, and whether its slip is turned
    type :: second_order
-      !> Leading elements with a term: column and row, shape (2, n)
+      !> Elements with a term, column and row, shape (2, n): the leading ones, then those behind them
       integer, allocatable :: at(:, :)
+      !> How far surfaces are apart in the element ahead of a leading one [mm], negative where that is unknown, shape (mx, my)
+      real(wp), allocatable :: gap(:, :)
       !> Their terms xx, yy, xy [mm/(N/mm2)], shape (3, n)
       real(wp), allocatable :: kappa(:, :)
       !> Terms so large that the inverse of the whole operator says nothing about the element, shape (n)
@@ -59,11 +61,14 @@ module contact_tangential_second_order
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
-   subroutine find_edge_terms(contact, pn, is_root, dx, dy, direction, nu, gg, diagonal, second)
+   subroutine find_edge_terms(contact, pn, gap, is_root, dx, dy, direction, nu, gg, diagonal, second)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
+      !> How far surfaces are apart in the element ahead [mm], shape (mx, my); negative where that is unknown. Only values in
+      !> leading elements count
+      real(wp), intent(in) :: gap(:, :)
       !> Are pressures a semi-ellipse in each row, at the centres of elements, and not a solution of the contact conditions with
       !> piecewise constant pressures?
       logical, intent(in) :: is_root
@@ -79,12 +84,13 @@ contains
       type(second_order), intent(inout) :: second
       !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
       integer, allocatable :: at(:, :), first(:)
+      logical, allocatable :: is_alone(:)
       real(wp), allocatable :: place(:), share(:)
       real(wp) :: slope, nx, ny, scale, mean
-      integer :: ix, iy, k, n, last
+      integer :: ix, iy, k, n, last, behind
 
       n = count_edges(contact, direction)
-      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n))
+      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), is_alone(n))
       n = 0
       do iy = 1, size(contact, 2)
          first(iy) = n + 1
@@ -101,6 +107,7 @@ contains
             end do
             n = n + 1
             at(:, n) = [ix, iy]
+            is_alone(n) = abs(ix - last) < 2
             share(n) = 0.0_wp
             if (is_root) then
                share(n) = root_share(pn(ix:last + direction:-direction, iy))
@@ -113,20 +120,49 @@ contains
       end do
       first(size(contact, 2) + 1) = n + 1
 
-      call fit(second, size(contact, 1), size(contact, 2), n)
-      second%at = at
+      call fit(second, size(contact, 1), size(contact, 2), n + count(.not. is_alone))
+      second%gap = gap
+      behind = n
       do k = 1, n
+         ix = at(1, k)
          iy = at(2, k)
-         slope = edge_slope(place, first, iy, place(k))*dx/dy
-         nx = 1.0_wp/sqrt(1.0_wp + slope**2)
-         ny = -slope*nx
-         scale = 2.0_wp/gg*dx*nx*e0*share(k)
+         slope = edge_slope(place, first, iy, place(k))
+         nx = 1.0_wp/sqrt(1.0_wp + (slope*dx/dy)**2)
+         ny = -slope*dx/dy*nx
+         if (gap(ix, iy) >= 0.0_wp) then
+            scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
+         else
+            scale = 2.0_wp/gg*dx*nx*e0*share(k)
+         end if
+         second%at(:, k) = at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
-         second%weight(at(1, k), iy) = diagonal/(diagonal + max(mean, 0.0_wp))
+         second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
+         if (is_alone(k)) cycle
+         behind = behind + 1
+         second%at(:, behind) = [ix - direction, iy]
+         second%kappa(:, behind) = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
+         second%stiff(behind) = .false.
       end do
    end subroutine find_edge_terms
+
+   !> Terms xx, yy, xy behind a leading element of an oblique edge, relative to nu 2/G h
+   pure function oblique_terms(slope, ratio) result(terms)
+      !> Elements along x per row by which the edge goes forward
+      real(wp), intent(in) :: slope
+      !> Of the sides of the elements, along x to across
+      real(wp), intent(in) :: ratio
+      real(wp) :: terms(3)
+      real(wp) :: along, square
+
+      along = slope*ratio
+      square = slope**2
+      terms(3) = along/(24.0_wp*(1.0_wp + along**2)) &
+         & + sign(0.1204_wp*square/(ratio*(square + 12.9_wp) + 0.746_wp*square*ratio**2), slope)
+      terms(1) = 0.0229_wp*abs(slope)*square/((square + 31.0_wp)*ratio**0.42_wp)
+      terms(2) = -terms(1)
+   end function oblique_terms
 
    !> Arrays for so many terms; weights of 1
    subroutine fit(second, mx, my, n)
@@ -278,6 +314,7 @@ contains
       self%at(1, :) = mx + 1 - self%at(1, :)
       self%at(2, :) = my + 1 - self%at(2, :)
       self%weight = self%weight(mx:1:-1, my:1:-1)
+      self%gap = self%gap(mx:1:-1, my:1:-1)
    end subroutine turn_round
 
    !> In slip as long as the mean over the element, against its tractions
