@@ -44,16 +44,16 @@ module contact_tangential_slip_turns
       procedure :: turn_round => turn_turns_round
    end type slip_turns
 
-   !> Share of the square of slip ahead in that here at which the mean is half way between that of two and that of three; chosen
+   !> Ratio of the square of slip ahead to that here at which half of the bend of directions counts; chosen
    real(wp), parameter :: half_way = 0.02_wp
+   !> What the mean direction over an element differs by from that of its neighbours' mean, per second difference of directions
+   real(wp), parameter :: of_bend = 0.125_wp
    !> Part of the difference of slip and mean in the product of their lengths; it is of fourth order where slip is smooth; chosen
    real(wp), parameter :: apart = 0.0625_wp
    !> Pivots below this one, where slip is small beside that of the neighbours, are raised: the inverse only preconditions; chosen
    real(wp), parameter :: least_pivot = 0.2_wp
-   !> Mean over an element by slip half a step behind, half a step ahead and three halves ahead of its middle: the parabola
-   !> through them; without the last the straight line, without the first the straight line through the others
-   real(wp), parameter :: by_three(3) = [5.0_wp, 8.0_wp, -1.0_wp]/12.0_wp, &
-      & by_two(3) = [0.5_wp, 0.5_wp, 0.0_wp], by_next(3) = [0.0_wp, 1.5_wp, -0.5_wp]
+   !> Without a neighbour behind, the straight line through slip half a step and three halves of a step ahead of the middle
+   real(wp), parameter :: by_next(3) = [0.0_wp, 1.5_wp, -0.5_wp]
 
    !> Mean slip over an element
    type :: local_mean
@@ -63,8 +63,10 @@ module contact_tangential_slip_turns
       integer :: behind = 0, ahead = 0
       !> Parts of the slip behind, here and ahead
       real(wp) :: share(3) = [0.0_wp, 1.0_wp, 0.0_wp]
-      !> Share of the mean of two in that value, where there are neighbours on both sides
-      real(wp) :: of_two = 0.0_wp
+      !> Factor of the slip behind in the mean of two; zero without a neighbour behind
+      real(wp) :: of_behind = 0.0_wp
+      !> Part of the bend that counts; zero without neighbours on both sides, and at a border of adhesion
+      real(wp) :: bends = 0.0_wp
    end type local_mean
 
 contains
@@ -263,7 +265,7 @@ contains
       integer, intent(inout) :: at(3)
       real(wp), intent(inout) :: row(2), across(2), by(2, 3)
       type(local_mean) :: mean
-      real(wp) :: w(2), behind(2), next(2), turn(2), by_slip(2), to_mean(2), bend, length
+      real(wp) :: w(2), turn(2), by_slip(2), to_mean(2), length
 
       mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
       w = [slip(ix, iy, 1), slip(ix, iy, 2)]
@@ -277,15 +279,41 @@ contains
       by(:, 1) = mean%share(1)*to_mean
       by(:, 2) = mean%share(2)*to_mean + by_slip
       by(:, 3) = mean%share(3)*to_mean
-      if (mean%of_two <= 0.0_wp .or. mean%of_two >= 1.0_wp) return
-      ! the share of the mean of two, of which s (1 - s) is the derivative by the logarithm of the ratio of both squares
-      behind = [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)]
-      next = [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)]
-      behind = to_mean*((by_two(1) - by_three(1))*behind + (by_two(2) - by_three(2))*w + (by_two(3) - by_three(3))*next)
-      bend = 2.0_wp*mean%of_two*(1.0_wp - mean%of_two)*(behind(1) + behind(2))
-      by(:, 2) = by(:, 2) + bend/(w(1)**2 + w(2)**2)*w
-      by(:, 3) = by(:, 3) - bend/(next(1)**2 + next(2)**2)*next
+      if (mean%of_behind > 0.0_wp) call add_by_shares(mean, to_mean, [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)], w, &
+         & [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)], by)
    end subroutine linearise_element
+
+   !> Change of the angle by the shares of the slip behind, here and ahead in the mean
+   pure subroutine add_by_shares(mean, to_mean, behind, here, ahead, by)
+      type(local_mean), intent(in) :: mean
+      !> Change of the angle by the mean [1/mm]
+      real(wp), intent(in) :: to_mean(2)
+      !> Slip of the three elements [mm]
+      real(wp), intent(in) :: behind(2), here(2), ahead(2)
+      !> Gets the changes by it
+      real(wp), intent(inout) :: by(2, 3)
+      real(wp) :: a, b, c, s, along(3), g(3)
+
+      b = behind(1)**2 + behind(2)**2
+      a = here(1)**2 + here(2)**2
+      c = ahead(1)**2 + ahead(2)**2
+      along = [to_mean(1)*behind(1) + to_mean(2)*behind(2), to_mean(1)*here(1) + to_mean(2)*here(2), &
+         & to_mean(1)*ahead(1) + to_mean(2)*ahead(2)]
+      ! by the squares b, a and c: of the factor behind, then of the bend
+      s = 6.0_wp*(along(1) - along(2))/((1.0_wp + mean%of_behind)*(a + 2.0_wp*b))**2
+      g = [-s*a, s*b, 0.0_wp]
+      if (mean%bends > 0.0_wp) then
+         s = -of_bend*mean%bends*2.0_wp*along(1)/(a + b)**2
+         g = g + [-s*a, s*b, 0.0_wp]
+         s = -of_bend*mean%bends*2.0_wp*along(3)/(a + c)**2
+         g = g + [0.0_wp, s*c, -s*a]
+         s = -of_bend*(2.0_wp*a/(a + b)*along(1) - 2.0_wp*along(2) + 2.0_wp*a/(a + c)*along(3))*half_way/(c + half_way*a)**2
+         g = g + [0.0_wp, -s*c, s*a]
+      end if
+      by(:, 1) = by(:, 1) + 2.0_wp*g(1)*behind
+      by(:, 2) = by(:, 2) + 2.0_wp*g(2)*here
+      by(:, 3) = by(:, 3) + 2.0_wp*g(3)*ahead
+   end subroutine add_by_shares
 
    !> Factors for `invert`
    pure subroutine eliminate(self)
@@ -452,9 +480,10 @@ contains
       self%is_transposed = .true.
    end subroutine turn_turns_round
 
-   !> Mean of the slip over an element
+   !> Slip in the direction of its mean over an element
    !>
-   !> At the border of adhesion, where nothing slips ahead, it is that of two; else that by three, with a smooth transition.
+   !> Directions count, not lengths: at a border of adhesion slip grows with the root of the distance. Slip of a step is a mean by
+   !> length itself, which the factor of the slip behind makes up for. Where something slips ahead the bend of directions is added.
    pure type(local_mean) function mean_slip(mx, my, contact, direction, slip, ix, iy) result(mean)
       !> Size of the window
       integer, intent(in) :: mx, my
@@ -467,7 +496,7 @@ contains
       !> The element
       integer, intent(in) :: ix, iy
       logical :: has_behind, has_ahead
-      real(wp) :: here, next
+      real(wp) :: a, b, c
       integer :: behind, ahead
 
       behind = ix - direction
@@ -480,14 +509,18 @@ contains
       if (.not. has_ahead) ahead = ix
       mean%behind = behind
       mean%ahead = ahead
-      if (has_behind .and. has_ahead) then
-         here = half_way*(slip(ix, iy, 1)**2 + slip(ix, iy, 2)**2)
-         next = slip(ahead, iy, 1)**2 + slip(ahead, iy, 2)**2
-         mean%of_two = 1.0_wp
-         if (next > 0.0_wp) mean%of_two = here/(here + next)
-         mean%share = by_three + mean%of_two*(by_two - by_three)
-      else if (has_behind) then
-         mean%share = by_two
+      if (has_behind) then
+         a = slip(ix, iy, 1)**2 + slip(ix, iy, 2)**2
+         b = slip(behind, iy, 1)**2 + slip(behind, iy, 2)**2
+         if (a > 0.0_wp) then
+            mean%of_behind = 3.0_wp*a/(a + 2.0_wp*b)
+            mean%share = [mean%of_behind, 1.0_wp, 0.0_wp]/(1.0_wp + mean%of_behind)
+            c = slip(ahead, iy, 1)**2 + slip(ahead, iy, 2)**2
+            if (has_ahead .and. c > 0.0_wp) then
+               mean%bends = c/(c + half_way*a)
+               mean%share = mean%share - of_bend*mean%bends*[2.0_wp*a/(a + b), -2.0_wp, 2.0_wp*a/(a + c)]
+            end if
+         end if
       else if (has_ahead) then
          mean%share = by_next
       end if
