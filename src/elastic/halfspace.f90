@@ -70,7 +70,7 @@ contains
       real(wp), intent(in) :: dx, dy
       !> Maximum offsets in elements
       integer, intent(in) :: nx, ny
-      integer :: k, l
+      integer :: l
 
       if (allocated(table%nn)) then
          if (table%nx /= nx .or. table%ny /= ny) deallocate(table%nn)
@@ -82,15 +82,37 @@ contains
       table%shift_x = 0.0_wp
       table%shift_y = 0.0_wp
       call find_corners(table, dx, dy, nx, ny, material%coupled())
-      do l = 0, ny
-         do k = 0, nx
-            table%nn(k, l) = normal_coefficient(difference_of_corners(table, k, l), material)
+      if (nx*ny > largest_kept) then
+         !$omp parallel do
+         do l = 0, ny
+            call set_normal_rows(table, l)
          end do
-      end do
-      call mirror(table%nn, nx, ny, 1, 1)
+         !$omp end parallel do
+      else
+         do l = 0, ny
+            call set_normal_rows(table, l)
+         end do
+      end if
    end subroutine fill_normal
 
-   !> Compute the coefficients omitted by `fill_normal`, if any
+   !> Coefficients nn at one distance across, to both sides
+   subroutine set_normal_rows(table, l)
+      !> Named, with corner functions
+      type(kernel_table), intent(inout) :: table
+      !> Offset along y, not negative
+      integer, intent(in) :: l
+      integer :: k
+
+      do k = 0, table%nx
+         table%nn(k, l) = normal_coefficient(difference_of_corners(table, k, l), table%material)
+      end do
+      do k = 1, table%nx
+         table%nn(-k, l) = table%nn(k, l)
+      end do
+      if (l > 0) table%nn(:, -l) = table%nn(:, l)
+   end subroutine set_normal_rows
+
+   !> The coefficients that `fill_normal` leaves out; nothing where they are there
    subroutine complete_table(table)
       !> Table without shift
       type(kernel_table), intent(inout) :: table
@@ -142,7 +164,10 @@ contains
       integer, intent(in) :: k, l
       real(wp) :: d(5)
 
-      d = table%corner(:, k, l) - table%corner(:, k - 1, l) - table%corner(:, k, l - 1) + table%corner(:, k - 1, l - 1)
+      d = 0.0_wp
+      associate (f => table%corner)
+         d(:size(f, 1)) = f(:, k, l) - f(:, k - 1, l) - f(:, k, l - 1) + f(:, k - 1, l - 1)
+      end associate
    end function difference_of_corners
 
    !> Corner functions up to the maximum offsets; values known from other sizes are reused
@@ -156,7 +181,7 @@ contains
       !> Are all five functions required?
       logical, intent(in) :: coupled
       real(wp), allocatable :: wider(:, :, :)
-      integer :: k, l, known(2), wanted(2)
+      integer :: k, l, known(2), number, wanted(2)
       logical :: is_square
 
       known = -2
@@ -166,7 +191,8 @@ contains
       end if
       if (all(known >= [nx, ny])) return
       wanted = max(known, [nx, ny])
-      allocate(wider(5, -1:wanted(1), -1:wanted(2)))
+      number = merge(5, 3, coupled)
+      allocate(wider(number, -1:wanted(1), -1:wanted(2)))
       is_square = abs(dx - dy) <= 0.0_wp
       !$omp parallel do private(k) if (nx*ny > largest_kept)
       do l = -1, wanted(2)
@@ -174,13 +200,13 @@ contains
             if (k <= known(1) .and. l <= known(2)) then
                wider(:, k, l) = table%corner(:, k, l)
             else if (.not. is_mirrored(k, l)) then
-               wider(:, k, l) = corner_functions((k + 0.5_wp)*dx, (l + 0.5_wp)*dy, coupled)
+               wider(:, k, l) = some_functions(number, (k + 0.5_wp)*dx, (l + 0.5_wp)*dy)
             end if
          end do
       end do
       do l = -1, wanted(2)
          do k = -1, wanted(1)
-            if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = wider([2, 1, 3, 5, 4], l, k)
+            if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = mirrored(number, wider(:, l, k))
          end do
       end do
       call move_alloc(wider, table%corner)
@@ -189,7 +215,29 @@ contains
 
    contains
 
-      !> Are the functions those of the corner with x and y exchanged, as for square elements?
+      !> The first three functions, or all five
+      pure function some_functions(number, x, y) result(f)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: x, y
+         real(wp) :: f(number), all_five(5)
+
+         all_five = corner_functions(x, y, number == 5)
+         f = all_five(:number)
+      end function some_functions
+
+      !> The functions with x and y exchanged
+      pure function mirrored(number, f) result(g)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: f(number)
+         real(wp) :: g(number)
+
+         g(1) = f(2)
+         g(2) = f(1)
+         g(3) = f(3)
+         if (number == 5) g(4:5) = [f(5), f(4)]
+      end function mirrored
+
+      !> Are the functions those of the corner with x and y exchanged, which square elements have?
       pure logical function is_mirrored(k, l)
          integer, intent(in) :: k, l
 

@@ -15,22 +15,22 @@ module contact_elastic_operator
    use contact_elastic_coefficients, only : fill_coefficients, own_coefficients
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
+   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, take_mean
    use contact_fft_paired, only : paired_plan
    use contact_fft_plan, only : fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
    private
 
-   public :: elastic_operator
+   public :: elastic_operator, normal_inverse_of_two, normal_of_two
 
    !> Contains plans, spectra and workspace; its table extends to offsets of half the padded window
    type, extends(compliance) :: elastic_operator
       type(fft_plan) :: plan
       !> For approximate inverses, on a shorter period
       type(fft_plan), private :: normal_inverse_plan, inverse_plan
-      !> For both fields at once on small windows, for products and for inverses
-      type(paired_plan), private :: pair, inverse_pair
-      !> Is the window small? False for children that use the spectra xx and yy separately
+      !> Both fields at once on small windows, for products and for inverses
+      type(paired_plan), private :: pair, inverse_pair, normal_inverse_pair
+      !> Is the window small? Children that use the spectra xx and yy by themselves say no
       logical :: small = .false.
       !> Spectra divided by the padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
       real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
@@ -234,6 +234,63 @@ contains
       self%transforms = self%transforms + 2
    end subroutine normal_inverse
 
+   !> Normal displacements by two fields of pressures; on small windows in the time of one
+   subroutine normal_of_two(operator, p, u)
+      !> Prepared for the window, of any kind
+      class(compliance), intent(inout) :: operator
+      !> Pressures [N/mm2], shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Normal displacement differences [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      integer :: k
+
+      select type (operator)
+      type is (elastic_operator)
+         if (operator%small) then
+            call need_normal(operator)
+            call operator%pair%prepare(operator%mx, operator%my, operator%plan%px, operator%plan%py)
+            call operator%pair%forward(p)
+            call multiply_even(operator%nn, operator%pair%spectrum)
+            call operator%pair%backward(u)
+            operator%products = operator%products + 2
+            operator%transforms = operator%transforms + 4
+            return
+         end if
+      end select
+      do k = 1, 2
+         call operator%normal(p(:, :, k), u(:, :, k))
+      end do
+   end subroutine normal_of_two
+
+   !> Approximate inverse of the normal product for two fields; on small windows in the time of one
+   subroutine normal_inverse_of_two(operator, r, z)
+      !> Prepared for the window, of any kind
+      class(compliance), intent(inout) :: operator
+      !> Displacements [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: r(:, :, :)
+      !> Pressures [N/mm2], shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: z(:, :, :)
+      integer :: k
+
+      select type (operator)
+      type is (elastic_operator)
+         if (operator%small) then
+            call need_normal(operator)
+            associate (plan => operator%normal_inverse_plan)
+               call operator%normal_inverse_pair%prepare(operator%mx, operator%my, plan%px, plan%py)
+            end associate
+            call operator%normal_inverse_pair%forward(r)
+            call multiply_even(operator%inn, operator%normal_inverse_pair%spectrum)
+            call operator%normal_inverse_pair%backward(z)
+            operator%transforms = operator%transforms + 4
+            return
+         end if
+      end select
+      do k = 1, 2
+         call operator%normal_inverse(r(:, :, k), z(:, :, k))
+      end do
+   end subroutine normal_inverse_of_two
+
    subroutine tangential(self, p, u)
       class(elastic_operator), intent(inout) :: self
       !> Tangential tractions [N/mm2], shape (mx, my, 2)
@@ -365,6 +422,7 @@ contains
       call self%plan%release()
       call self%pair%release()
       call self%inverse_pair%release()
+      call self%normal_inverse_pair%release()
       call self%normal_inverse_plan%release()
       call self%inverse_plan%release()
       self%mx = 0

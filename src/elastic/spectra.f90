@@ -9,11 +9,13 @@ module contact_elastic_spectra
    implicit none (type, external)
    private
 
-   public :: invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
+   public :: invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, take_mean
 
    !> Lower bound of spectra used as divisors, relative to their maximum. A complete period has a positive spectrum; the bound
    !> protects against round-off for elements of extreme aspect ratio
    real(wp), parameter :: spectrum_floor = 1.0e-10_wp
+   !> Elements of a period that are worth threads, at least; chosen
+   integer, parameter :: worth_threads = 40000
 
 contains
 
@@ -34,43 +36,50 @@ contains
       !> Shape (py, px/2 + 1)
       real(wp), allocatable, intent(inout) :: spectrum(:, :)
       type(fft_plan) :: plan
-      real(wp), allocatable :: quarter(:, :), part(:)
-      complex(wp), allocatable :: transform(:, :)
+      real(wp), allocatable :: quarter(:, :)
       integer :: k, l
-      real(wp) :: scale, sign_x, sign_y
+      real(wp) :: scale, sign_x
 
       sign_x = merge(-1.0_wp, 1.0_wp, odd_x)
-      sign_y = merge(-1.0_wp, 1.0_wp, odd_y)
       scale = 2.0_wp/(real(px, wp)*real(py, wp))
-      allocate(quarter(0:px/2, 0:py/2), transform(py, px/2 + 1), part(py))
-      do l = 0, py/2
-         do k = 0, px/2
-            quarter(k, l) = 0.5_wp*scale*(kernel(k, l) + sign_x*kernel(-k, l))
+      allocate(quarter(0:px/2, 0:py/2))
+      if (px*py > worth_threads) then
+         !$omp parallel do
+         do l = 0, py/2
+            call set_column(l)
          end do
-      end do
-      ! entries that are their own mirror image have weight one half; an odd kernel is zero there
+         !$omp end parallel do
+      else
+         do l = 0, py/2
+            call set_column(l)
+         end do
+      end if
+      ! what is its own mirror image counts half; an odd kernel vanishes there
       do k = 0, px/2, max(1, px/2)
          quarter(k, :) = merge(0.0_wp, 0.5_wp, odd_x)*quarter(k, :)
       end do
       do l = 0, py/2, max(1, py/2)
          quarter(:, l) = merge(0.0_wp, 0.5_wp, odd_y)*quarter(:, l)
       end do
-      call plan%prepare(px/2 + 1, py/2 + 1, px, py)
-      call plan%forward(quarter, transform)
-      call plan%release()
       if (allocated(spectrum)) then
-         if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
+         if (any(shape(spectrum) /= [py, px/2 + 1])) deallocate(spectrum)
       end if
       if (.not. allocated(spectrum)) allocate(spectrum(py, px/2 + 1))
-      do l = 1, px/2 + 1
-         if (odd_x .eqv. odd_y) then
-            part = real(transform(:, l))
-         else
-            part = aimag(transform(:, l))
-         end if
-         spectrum(1, l) = (1.0_wp + sign_y)*part(1)
-         spectrum(2:, l) = part(2:) + sign_y*part(py:2:-1)
-      end do
+      call plan%prepare(px/2 + 1, py/2 + 1, px, py)
+      call plan%transform_quarter(quarter, odd_x .neqv. odd_y, merge(-1.0_wp, 1.0_wp, odd_y), spectrum)
+      call plan%release()
+
+   contains
+
+      !> The quarter at one offset in y
+      subroutine set_column(l)
+         integer, intent(in) :: l
+         integer :: k
+
+         do k = 0, px/2
+            quarter(k, l) = 0.5_wp*scale*(kernel(k, l) + sign_x*kernel(-k, l))
+         end do
+      end subroutine set_column
    end subroutine make_spectrum
 
    !> Spectra of the inverse of a block
@@ -150,7 +159,21 @@ contains
       end do
    end subroutine multiply_paired
 
-   !> Product for a frequency that is its own opposite
+   !> Product of a spectrum of two fields with that of one kernel, which is even in both coordinates
+   pure subroutine multiply_even(kernel, spectrum)
+      !> Shape (py, px/2 + 1)
+      real(wp), contiguous, intent(in) :: kernel(:, :)
+      !> Shape (py, px)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      integer :: l, px
+
+      px = size(spectrum, 2)
+      do l = 1, px
+         spectrum(:, l) = kernel(:, min(l, opposite(l, px)))*spectrum(:, l)
+      end do
+   end subroutine multiply_even
+
+   !> Product for one frequency that is its own opposite
    pure subroutine multiply_own(mean, half, mixed, x)
       real(wp), intent(in) :: mean, half, mixed
       complex(wp), intent(inout) :: x

@@ -8,18 +8,16 @@ module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_ptr
    use contact_base_kinds, only : wp
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
-   use contact_fft_library, only : backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
+   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, lanes, plan_complex
    use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_two
+   use contact_fft_sizes, only : fast_size, good_size, largest_fast_size
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
 
    public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size, start_planner
 
-   !> Windows up to this padded side length are small
-   integer, parameter :: largest_fast_size = 128
-   !> Number of elements of a padded window above which the work is shared among threads; smaller ones are finished before
-   !> threads are awake
+   !> Padded windows of more elements are shared among threads; smaller ones are done before threads are awake
    integer, parameter :: worth_threads = 40000
 
    !> Plans and buffers for one window size; must not be copied
@@ -41,13 +39,13 @@ module contact_fft_plan
    contains
       !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare => prepare_plan
-      !> Transform a window, zero-padded
+      !> Transform a window, zero-padded; back, unscaled, the window cut out, the spectrum kept
       procedure :: forward => transform_forward
-      !> Transform back, unscaled, and cut out the window; keeps the spectrum
       procedure :: backward => transform_backward
-      !> Product with a kernel that has a real spectrum
+      !> Transform a quarter of a kernel
+      procedure :: transform_quarter
+      !> Products with a kernel whose spectrum is real, of two fields with a symmetric 2 by 2 block of them
       procedure :: convolve
-      !> Product of two fields with a symmetric 2 by 2 block of kernels
       procedure :: convolve_pair
       !> Free the plans
       procedure :: release => release_plan
@@ -55,41 +53,7 @@ module contact_fft_plan
 
 contains
 
-   !> Smallest even number 2^a 3^b 5^c 7^d (a >= 1) that is at least n, or 1 for n <= 1
-   pure integer function good_size(n) result(size)
-      !> Number of points required, padding included
-      integer, intent(in) :: n
-      integer :: rest, factor
-      integer, parameter :: primes(4) = [2, 3, 5, 7]
-
-      size = max(1, n)
-      if (size == 1) return
-      if (mod(size, 2) == 1) size = size + 1
-      do
-         rest = size
-         do factor = 1, 4
-            do while (mod(rest, primes(factor)) == 0)
-               rest = rest/primes(factor)
-            end do
-         end do
-         if (rest == 1) return
-         size = size + 2
-      end do
-   end function good_size
-
-   !> Even length of at least n that is transformed fast, or 1 for n <= 1
-   pure integer function fast_size(n)
-      !> Number of points required, padding included
-      integer, intent(in) :: n
-
-      if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
-         fast_size = good_size(n)
-      else
-         fast_size = minval(fast_lengths, fast_lengths >= n)
-      end if
-   end function fast_size
-
-   !> Start the planner of the library, which takes FFTW some tenths of a millisecond; for callers that prepare a time loop
+   !> Start the planner of the library, which takes FFTW some tenths of a millisecond: for who prepares a loop over time
    subroutine start_planner()
       complex(wp) :: from(2), to(2)
       type(c_ptr) :: plan
@@ -195,6 +159,74 @@ contains
       call rows_backward(self, 1, 1, self%my, self%my, self%half, field)
    end subroutine transform_backward
 
+   !> Real or imaginary parts of a transform, those of opposite frequencies in y added
+   subroutine transform_quarter(self, quarter, imaginary, sign_y, spectrum)
+      class(fft_plan), intent(inout) :: self
+      !> Window, shape (mx, my)
+      real(wp), contiguous, intent(in) :: quarter(:, :)
+      !> Imaginary parts, else real ones
+      logical, intent(in) :: imaginary
+      !> Factor of the opposite frequencies
+      real(wp), intent(in) :: sign_y
+      !> Shape (py, kx)
+      real(wp), contiguous, intent(inout) :: spectrum(:, :)
+      integer :: stage, t, threads
+
+      threads = threads_of(self)
+      do stage = 1, 2
+         if (threads == 1) then
+            call share_of_quarter(self, stage, 1, 1, quarter, imaginary, sign_y, spectrum)
+         else
+            !$omp parallel do num_threads(threads) schedule(static, 1)
+            do t = 1, threads
+               call share_of_quarter(self, stage, t, threads, quarter, imaginary, sign_y, spectrum)
+            end do
+            !$omp end parallel do
+         end if
+      end do
+   end subroutine transform_quarter
+
+   !> What falls to one of some threads
+   subroutine share_of_quarter(self, stage, t, threads, quarter, imaginary, sign_y, spectrum)
+      type(fft_plan), intent(inout) :: self
+      !> 1: rows, 2: columns
+      integer, intent(in) :: stage, t, threads
+      real(wp), intent(in) :: quarter(self%mx, self%my)
+      logical, intent(in) :: imaginary
+      real(wp), intent(in) :: sign_y
+      real(wp), intent(inout) :: spectrum(self%py, self%kx)
+      integer :: first, k, l, last
+
+      if (stage == 1) then
+         call find_share(self%my, 2*size(self%row, 2), t, threads, first, last)
+         call rows_forward(self, t, first, last, self%my, quarter, self%half)
+         return
+      end if
+      call find_share(self%kx, size(self%column, 2), t, threads, first, last)
+      do k = first, last, size(self%column, 2)
+         if (self%py > 1) call columns_forward(self, t, k, 1, 1, self%half)
+         do l = k, min(k + size(self%column, 2) - 1, last)
+            if (self%py == 1) self%column(1, l - k + 1, 2, t) = self%half(l)
+            call fold(self%py, self%column(:, l - k + 1, 2, t), imaginary, sign_y, spectrum(:, l))
+         end do
+      end do
+   end subroutine share_of_quarter
+
+   !> Real or imaginary parts of a column and those of its opposite frequencies
+   pure subroutine fold(n, column, imaginary, sign_y, folded)
+      integer, intent(in) :: n
+      complex(wp), intent(in) :: column(n)
+      logical, intent(in) :: imaginary
+      real(wp), intent(in) :: sign_y
+      real(wp), intent(inout) :: folded(n)
+      real(wp) :: part(n)
+
+      part = column%re
+      if (imaginary) part = column%im
+      folded(1) = (1.0_wp + sign_y)*part(1)
+      folded(2:) = part(2:) + sign_y*part(n:2:-1)
+   end subroutine fold
+
    subroutine convolve(self, kernel, field, product)
       class(fft_plan), intent(inout) :: self
       !> Spectrum of the kernel, scaled for the back transform, shape (py, kx)
@@ -239,9 +271,7 @@ contains
       complex(wp), contiguous, intent(in), optional :: factor(:)
       integer :: stage, t, threads
 
-      threads = 1
-      !$ if (self%px*self%py > worth_threads) threads = omp_get_max_threads()
-      call fit_buffers(self, threads)
+      threads = threads_of(self)
       do stage = 1, 3
          if (threads == 1) then
             call share_of_stage(self, stage, 1, 1, n, fields, products, xx, yy, xy, factor)
@@ -255,12 +285,20 @@ contains
       end do
    end subroutine make_product
 
-   !> Part of a stage that one of several threads does
+   !> Number of threads that share the lines; they have buffers
+   integer function threads_of(self) result(threads)
+      type(fft_plan), intent(inout) :: self
+
+      threads = 1
+      !$ if (self%px*self%py > worth_threads) threads = omp_get_max_threads()
+      call fit_buffers(self, threads)
+   end function threads_of
+
+   !> What falls to one of some threads
    subroutine share_of_stage(self, stage, t, threads, n, fields, products, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
-      !> 1: rows forward, 2: columns, 3: rows back
-      integer, intent(in) :: stage
-      integer, intent(in) :: t, threads, n
+      !> Stage 1: rows forward, 2: columns, 3: rows back
+      integer, intent(in) :: stage, t, threads, n
       real(wp), intent(in) :: fields(self%mx, n*self%my)
       real(wp), intent(inout) :: products(self%mx, n*self%my)
       real(wp), contiguous, intent(in) :: xx(:, :)
@@ -459,5 +497,4 @@ contains
       self%mx = 0
       if (allocated(self%half)) deallocate(self%half, self%row, self%column)
    end subroutine release_plan
-
 end module contact_fft_plan

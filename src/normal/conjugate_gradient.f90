@@ -18,7 +18,7 @@ module contact_normal_conjugate_gradient
    use contact_normal_last_answer, only : answer_type
    use contact_normal_problem, only : approach_scale, load_lowest_element, make_admissible, normal_problem, &
       & pressure_displacement
-   use contact_numeric_vectors, only : add, inner
+   use contact_numeric_pieces, only : add_long, fill_long, inner_long
    implicit none (type, external)
    private
 
@@ -182,8 +182,8 @@ contains
 
       n = problem%mx*problem%my
       h_min = minval(problem%h)
-      level%previous = 0.0_wp
-      level%d = 0.0_wp
+      call fill_long(n, 0.0_wp, level%previous)
+      call fill_long(n, 0.0_wp, level%d)
       rz = 1.0_wp
       updates = 0
       best = huge(best)
@@ -284,7 +284,7 @@ contains
          dr = rz
       end if
       call pressure_displacement(problem, operator, level%d, level%q)
-      dq = inner(n, level%d, level%q)
+      dq = inner_long(n, level%d, level%q)
 
    contains
 
@@ -328,7 +328,7 @@ contains
       if (exact_u) then
          call pressure_displacement(problem, operator, p, level%u)
       else
-         call add(n, alpha, level%q, level%u)
+         call add_long(n, alpha, level%q, level%u)
       end if
    end subroutine take_step
 
@@ -448,7 +448,8 @@ contains
          if (all(shape(level%u) == [mx, my])) return
          deallocate(level%p, level%u, level%r, level%z, level%d, level%q, level%previous, level%free)
       end if
-      allocate(level%p(mx, my), level%u(mx, my), level%r(mx, my), level%z(mx, my), level%d(mx, my), &
-         & level%q(mx, my), level%previous(mx, my), level%free(mx, my), source=0.0_wp)
+      ! memory is touched by the thread that first writes there
+      allocate(level%p(mx, my), level%u(mx, my), level%r(mx, my), level%z(mx, my), level%d(mx, my), level%q(mx, my), &
+         & level%previous(mx, my), level%free(mx, my))
    end subroutine fit_level
 end module contact_normal_conjugate_gradient

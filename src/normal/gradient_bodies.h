@@ -1,7 +1,7 @@
 /* Loops of gradient_loops.c, for one kind of processor; see lanes.h. Each ends with the remaining elements, up to three */
 
-/* Mean of h + u where p is positive */
-TARGET static double OF(mean_gap)(int n, const double *h, const double *u, const double *p) {
+/* Sum of h + u where p is positive, and the number of these elements */
+TARGET static void OF(gap_sums)(int n, const double *h, const double *u, const double *p, double *total) {
   four sums = {0.0}, counts = {0.0};
   const four ones = {1.0, 1.0, 1.0, 1.0};
   int k = 0;
@@ -16,7 +16,8 @@ TARGET static double OF(mean_gap)(int n, const double *h, const double *u, const
     sum += h[k] + u[k];
     count += 1.0;
   }
-  return sum / (count > 0.0 ? count : 1.0);
+  total[0] = sum;
+  total[1] = count;
 }
 
 /* r = pen - h - u, set to 0 where negative and p is not positive; the largest magnitude, NaN if one is NaN */
@@ -54,8 +55,8 @@ TARGET static void OF(choose_free)(int n, const double *p, const double *h, doub
   }
 }
 
-/* Mean of v over the free elements */
-TARGET static double OF(mean)(int n, const double *free, const double *v) {
+/* Sum of v over the free elements, and their number */
+TARGET static void OF(free_sums)(int n, const double *free, const double *v, double *total) {
   four sums = {0.0}, counts = {0.0};
   int k = 0;
   for (; k + 3 < n; k += 4) {
@@ -67,7 +68,8 @@ TARGET static double OF(mean)(int n, const double *free, const double *v) {
     if (free[k] > 0.0) sum += v[k];
     count += free[k];
   }
-  return sum / (count > 0.0 ? count : 1.0);
+  total[0] = sum;
+  total[1] = count;
 }
 
 /* v := v - mean in free elements, 0 in the others; its products with r and s */

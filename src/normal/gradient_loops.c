@@ -2,10 +2,10 @@
  * explains why they are in C */
 #include "../base/lanes.h"
 
-double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p);
+void contact_gradient_gap_sums(int n, const double *h, const double *u, const double *p, double *total);
 double contact_gradient_residuals(int n, double pen, const double *h, const double *u, const double *p, double *r);
 void contact_gradient_choose_free(int n, const double *p, const double *h, double highest, double *free, double *r);
-double contact_gradient_mean(int n, const double *free, const double *v);
+void contact_gradient_free_sums(int n, const double *free, const double *v, double *total);
 void contact_gradient_project(int n, const double *free, double mean, double *v, const double *r, const double *s, double *products);
 void contact_gradient_turn(int n, double beta, const double *z, const double *r, double *d, double *previous);
 double contact_gradient_go_along(int n, double alpha, const double *d, double *p);
@@ -13,7 +13,9 @@ double contact_gradient_go_along(int n, double alpha, const double *d, double *p
 #define LOOPS "../normal/gradient_bodies.h"
 #include "../base/twice.h"
 
-double contact_gradient_mean_gap(int n, const double *h, const double *u, const double *p) { return CALL(mean_gap, n, h, u, p); }
+void contact_gradient_gap_sums(int n, const double *h, const double *u, const double *p, double *total) {
+  CALL(gap_sums, n, h, u, p, total);
+}
 
 double contact_gradient_residuals(int n, double pen, const double *h, const double *u, const double *p, double *r) {
   return CALL(residuals, n, pen, h, u, p, r);
@@ -23,7 +25,7 @@ void contact_gradient_choose_free(int n, const double *p, const double *h, doubl
   CALL(choose_free, n, p, h, highest, free, r);
 }
 
-double contact_gradient_mean(int n, const double *free, const double *v) { return CALL(mean, n, free, v); }
+void contact_gradient_free_sums(int n, const double *free, const double *v, double *total) { CALL(free_sums, n, free, v, total); }
 
 void contact_gradient_project(int n, const double *free, double mean, double *v, const double *r, const double *s, double *products) {
   CALL(project, n, free, mean, v, r, s, products);

@@ -7,7 +7,7 @@ module contact_numeric_vectors
    implicit none (type, external)
    private
 
-   public :: add, inner
+   public :: add, add_four, inner, inner_four
 
    interface
       !> Inner product, of vectors whose squares neither overflow nor vanish
@@ -31,5 +31,29 @@ module contact_numeric_vectors
          !> Vector that is changed
          real(c_double), intent(inout) :: b(n)
       end subroutine add
+
+      !> Inner products of four vectors with one, the same numbers as by `inner`
+      pure subroutine inner_four(n, stride, a, b, sums) bind(c, name="contact_vectors_inner_four")
+         import :: c_double, c_int
+         !> Length that counts, and that from one of the four to the next
+         integer(c_int), value :: n, stride
+         !> The four, and the one
+         real(c_double), intent(in) :: a(stride, 4), b(n)
+         !> The products
+         real(c_double), intent(inout) :: sums(4)
+      end subroutine inner_four
+
+      !> b := b + factors times four vectors, the same numbers as by `add` in turn
+      pure subroutine add_four(n, stride, factor, a, b) bind(c, name="contact_vectors_add_four")
+         import :: c_double, c_int
+         !> Length that counts, and that from one of the four to the next
+         integer(c_int), value :: n, stride
+         !> What each of the four is multiplied with
+         real(c_double), intent(in) :: factor(4)
+         !> What is added
+         real(c_double), intent(in) :: a(stride, 4)
+         !> What it is added to
+         real(c_double), intent(inout) :: b(n)
+      end subroutine add_four
    end interface
 end module contact_numeric_vectors

@@ -38,8 +38,8 @@ module contact_patch_derivatives
    !> Of the residuals, relative to the right-hand sides. With a prescribed vertical force pressures by displacements and by the
    !> height cancel for the most part, so that they have to be found more sharply; measured for four figures
    real(wp), parameter :: for_pressures = 1.0e-7_wp, for_tractions = 1.0e-5_wp
-   !> Products for one system of the normal problem at most; chosen
-   integer, parameter :: most_products = 100
+   !> Search directions for one system of the normal problem at most; chosen
+   integer, parameter :: most_directions = 100
 
 contains
 
@@ -89,30 +89,65 @@ contains
       type(patch_result), intent(in) :: result
       !> Gets all of them
       type(patch_derivatives), intent(out) :: derivatives
-      real(wp), allocatable :: response(:, :, :)
-      real(wp) :: area
+      real(wp), allocatable :: response(:, :, :), x(:)
+      real(wp) :: area, row
       integer :: ix, iy, k
 
       allocate(derivatives%by_distance(6, size(distance, 3)), source=0.0_wp)
       if (result%ncon == 0) return
       allocate(response, mold=distance)
-      call prepare_window(problem, workspace)
-      call pressure_responses(workspace%window, workspace%normal_work%factor, problem%parts, result%pn, -distance, for_pressures, &
-         & most_products, response, derivatives%reached)
+      call differentiate_pressures(problem, -distance, workspace, result, response, derivatives%reached)
       area = problem%grid%dx*problem%grid%dy
+      x = [(problem%grid%x(ix), ix=1, problem%grid%mx)]
       do k = 1, size(distance, 3)
          associate (d => derivatives%by_distance(:, k))
             do iy = 1, problem%grid%my
-               do ix = 1, problem%grid%mx
-                  d(fn) = d(fn) + area*response(ix, iy, k)
-                  d(mx_) = d(mx_) + area*response(ix, iy, k)*problem%grid%y(iy)
-                  d(my_) = d(my_) - area*response(ix, iy, k)*problem%grid%x(ix)
-               end do
+               row = area*sum(response(:, iy, k))
+               d(fn) = d(fn) + row
+               d(mx_) = d(mx_) + row*problem%grid%y(iy)
+               d(my_) = d(my_) - area*dot_product(response(:, iy, k), x)
             end do
          end associate
       end do
       if (problem%motion /= motion%none) call differentiate_tractions(problem, response, workspace, result, derivatives)
    end subroutine differentiate_patch
+
+   !> Changes of the pressures by displacements of the bodies
+   subroutine differentiate_pressures(problem, displacement, workspace, result, response, reached)
+      type(patch_problem), intent(in) :: problem
+      !> [mm per unit], shape (mx, my, inputs)
+      real(wp), contiguous, intent(in) :: displacement(:, :, :)
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(in) :: result
+      !> [N/mm2 per unit], of the same shape
+      real(wp), contiguous, intent(inout) :: response(:, :, :)
+      !> Largest relative residual of the linear systems
+      real(wp), intent(out) :: reached
+      type(bounding_box) :: box
+      real(wp), allocatable :: cut(:, :, :), in_box(:, :, :)
+      logical :: found
+
+      reached = 0.0_wp
+      call prepare_window(problem, workspace)
+      found = .false.
+      if (.not. allocated(problem%parts)) call workspace%normal_work%factor%pressure_responses(workspace%window, result%pn, &
+         & displacement, response, found)
+      if (found) return
+      if (allocated(problem%parts) .or. problem%motion == motion%none) then
+         call pressure_responses(workspace%window, problem%parts, result%pn, displacement, for_pressures, most_directions, &
+            & response, reached)
+         return
+      end if
+      ! the systems of the tractions need the operator of the box anyway
+      box = contact_box(result%division)
+      call prepare_box(problem, box, workspace)
+      in_box = displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
+      allocate(cut, mold=in_box)
+      call pressure_responses(workspace%box, problem%parts, result%pn(box%ix0:box%ix1, box%iy0:box%iy1), in_box, for_pressures, &
+         & most_directions, cut, reached)
+      response = 0.0_wp
+      response(box%ix0:box%ix1, box%iy0:box%iy1, :) = cut
+   end subroutine differentiate_pressures
 
    !> Fx, Fy and Mz
    subroutine differentiate_tractions(problem, response, workspace, result, derivatives)
@@ -127,15 +162,17 @@ contains
       type(bounding_box) :: box
       real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
       real(wp), allocatable :: slip(:, :, :), gap(:, :)
-      real(wp) :: area, x0, y0, x, y, reached, offset
+      real(wp), allocatable :: x(:), y(:)
+      real(wp) :: area, reached, offset, s(2)
       integer :: j, k, ix, iy
 
       box = contact_box(result%division)
       call prepare_box(problem, box, workspace)
       area = problem%grid%dx*problem%grid%dy
       offset = spin_offset_of(problem, result%tangential)*problem%dq
-      x0 = problem%spin_centre(1) - offset*cos(problem%chi)
-      y0 = problem%spin_centre(2) - offset*sin(problem%chi)
+      ! from the centre of spin
+      x = [(problem%grid%x(ix), ix=box%ix0, box%ix1)] - (problem%spin_centre(1) - offset*cos(problem%chi))
+      y = [(problem%grid%y(iy), iy=box%iy0, box%iy1)] - (problem%spin_centre(2) - offset*sin(problem%chi))
       associate (t => workspace%tangential, solution => workspace%solution)
          allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
          allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
@@ -143,8 +180,8 @@ contains
          weight(:, :, 1, 1) = area
          weight(:, :, 2, 2) = area
          do iy = 1, t%my
+            weight(:, iy, 1, 3) = -area*problem%grid%y(box%iy0 + iy - 1)
             do ix = 1, t%mx
-               weight(ix, iy, 1, 3) = -area*problem%grid%y(box%iy0 + iy - 1)
                weight(ix, iy, 2, 3) = area*problem%grid%x(box%ix0 + ix - 1)
             end do
          end do
@@ -152,16 +189,14 @@ contains
             & reached)
          derivatives%reached = max(derivatives%reached, reached)
          do j = 1, 3
-            do iy = 1, t%my
-               y = problem%grid%y(box%iy0 + iy - 1) - y0
-               do ix = 1, t%mx
-                  x = problem%grid%x(box%ix0 + ix - 1) - x0
-                  associate (c => derivatives%by_creepage(row(j), :), s => problem%dq*by_slip(ix, iy, :, j))
-                     c(1:2) = c(1:2) + s
-                     c(3) = c(3) + problem%spin_weight(2)*x*s(2) - problem%spin_weight(1)*y*s(1)
-                  end associate
+            associate (c => derivatives%by_creepage(row(j), :))
+               do iy = 1, t%my
+                  s = problem%dq*[sum(by_slip(:, iy, 1, j)), sum(by_slip(:, iy, 2, j))]
+                  c(1:2) = c(1:2) + s
+                  c(3) = c(3) + problem%spin_weight(2)*problem%dq*dot_product(x, by_slip(:, iy, 2, j)) &
+                     & - problem%spin_weight(1)*y(iy)*s(1)
                end do
-            end do
+            end associate
             pressure = result%pn(box%ix0:box%ix1, box%iy0:box%iy1)
             derivatives%by_friction(row(j)) = sum(by_bound(:, :, j)*pressure)
          end do

@@ -6,16 +6,18 @@
 !>
 !>    l = c + (1 - r B) e,   (1 - D (1 - r B)) e = D c,   D l = e,
 !>
-!> so that the preconditioner is that of the method itself. With turned slip (`contact_tangential_slip_turns`) B T' replaces B,
-!> where T is the derivative of the acting slip, also for the rotated contact. Search directions of one force are reused for the
-!> next ones.
+!> so that the preconditioner is that of the method itself. With slip that is turned (`contact_tangential_slip_turns`) B T' takes
+!> the place of B, T the derivative of the acting slip, of the turned contact as well. Search directions of one force serve
+!> the next ones. The part of (1 - r B) e along the tractions, which D takes away and l needs, is kept with each direction.
 module contact_tangential_newton_adjoint
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
+   use contact_numeric_vectors, only : add, add_four, inner, inner_four
    use contact_tangential_newton_jacobian, only : apply_d, fit_workspace, linear_system, linearise, new_system, newton_workspace, &
       & restart
    use contact_tangential_newton_linear, only : precondition_field
    use contact_tangential_problem, only : apply_operator, slip_of, tangential_problem, tangential_solution
+   use contact_tangential_slip_loops, only : jacobian_of_projection
    implicit none (type, external)
    private
 
@@ -24,18 +26,16 @@ module contact_tangential_newton_adjoint
    !> Maximum number of products per force
    integer, parameter :: most_products = 120
 
-   !> Search directions and their images, J Z = Q R with orthonormal Q, all in the range of D
+   !> Unknowns and search directions Z, which are columns of workspace%preconditioned, in the range of D; their images
+   !> J Z = Q R, Q orthonormal, are columns of workspace%basis
    type :: search_space
-      !> Number of unknowns, and number of directions in use
-      integer :: n = 0, used = 0
-      !> Column, row and component of each unknown, shape (3, n), and its direction, shape (2, n)
-      integer, allocatable :: place(:, :)
-      real(wp), allocatable :: along(:, :)
-      !> Z and Q, shape (n, restart)
-      real(wp), allocatable :: z(:, :), q(:, :)
-      !> Remainder of the right-hand side, and the solution
-      real(wp), allocatable :: left(:), x(:)
-      !> Triangular factor R
+      !> Unknowns, elements in slip, and directions in use
+      integer :: n = 0, slips = 0, used = 0
+      !> Element of each unknown, and of each element in slip, columns first
+      integer, allocatable :: at(:), slip_at(:)
+      !> Direction of each unknown and of the tractions of each element in slip, shape (2, :)
+      real(wp), allocatable :: along(:, :), traction(:, :)
+      !> The triangle R
       real(wp) :: r(restart, restart) = 0.0_wp
    end type search_space
 
@@ -68,7 +68,6 @@ contains
       type(search_space) :: space
       type(tangential_solution) :: at
       type(tangential_problem) :: turned
-      real(wp), allocatable :: direction(:, :, :)
       real(wp) :: left
       integer :: j, mx, my
 
@@ -83,7 +82,6 @@ contains
       at = solution
       call slip_of(problem, operator, at%p, at%creep, at%slip)
       call linearise(problem, system, at, workspace)
-      direction = workspace%direction
       workspace%weight = workspace%weight(mx:1:-1, my:1:-1)
       workspace%direction = workspace%direction(mx:1:-1, my:1:-1, :)
       turned = problem
@@ -91,151 +89,155 @@ contains
          call turned%second%turn_round(mx, my)
          call workspace%turns%turn_round()
       end if
-      call number_unknowns(workspace, space)
+      call number_unknowns(mx*my, workspace%weight, workspace%direction, space)
       do j = 1, size(weight, 4)
-         workspace%residual = weight(mx:1:-1, my:1:-1, :, j)
+         workspace%best_slip = weight(mx:1:-1, my:1:-1, :, j)
+         workspace%residual = workspace%best_slip
          call apply_d(workspace, workspace%residual)
          call solve(turned, operator, system, workspace, space, tolerance, left)
          reached = max(reached, left)
-         ! l = c + e - r B e, rotated back
-         call weighted_responses(turned, operator, system, workspace, workspace%step)
-         by_slip(:, :, :, j) = -system%r*workspace%trial_slip(mx:1:-1, my:1:-1, :)
-         by_bound(:, :, j) = sum((weight(:, :, :, j) + workspace%trial(mx:1:-1, my:1:-1, :))*direction, dim=3)
+         ! l = c + e - r B e, turned back; e has no part along tractions of elements in slip
+         call add_along_tractions(space, mx*my, workspace%x, workspace%best_slip, workspace%residual)
+         by_bound(:, :, j) = workspace%residual(mx:1:-1, my:1:-1, 1)
+         if (allocated(turned%second)) call workspace%turns%apply_transposed(workspace%step)
+         by_slip(:, :, :, j) = -system%r*workspace%step(mx:1:-1, my:1:-1, :)
       end do
    end subroutine newton_adjoint
 
-   !> trial_slip := T' e, trial := e - r B T' e
-   subroutine weighted_responses(problem, operator, system, workspace, e)
-      !> Rotated by 180 degrees
-      type(tangential_problem), intent(in) :: problem
-      class(compliance), intent(inout) :: operator
-      type(linear_system), intent(in) :: system
-      type(newton_workspace), intent(inout) :: workspace
-      !> Shape (mx, my, 2)
-      real(wp), contiguous, intent(in) :: e(:, :, :)
-
-      workspace%trial_slip = e
-      if (allocated(problem%second)) call workspace%turns%apply_transposed(workspace%trial_slip)
-      call apply_operator(problem, operator, workspace%trial_slip, workspace%trial)
-      workspace%trial = e - system%r*workspace%trial
-   end subroutine weighted_responses
-
-   !> Number the unknowns of the systems: both components in adhesion, the component perpendicular to the traction in slip
-   subroutine number_unknowns(workspace, space)
-      !> Weights and directions
-      type(newton_workspace), intent(in) :: workspace
+   !> The unknowns of the systems: both components in adhesion, that across the traction in slip
+   subroutine number_unknowns(elements, weight, direction, space)
+      !> Elements of the window
+      integer, intent(in) :: elements
+      !> D: weights and directions
+      real(wp), intent(in) :: weight(elements), direction(elements, 2)
       type(search_space), intent(inout) :: space
-      integer :: ix, iy, mx, my, n
+      integer :: k, n
 
-      mx = size(workspace%weight, 1)
-      my = size(workspace%weight, 2)
-      allocate(space%place(3, 2*mx*my), space%along(2, 2*mx*my))
+      allocate(space%at(2*elements), space%along(2, 2*elements), space%slip_at(elements), space%traction(2, elements))
       n = 0
-      do iy = 1, my
-         do ix = 1, mx
-            if (.not. workspace%weight(ix, iy) > 0.0_wp) cycle
-            associate (direction => workspace%direction(ix, iy, :))
-               if (all(abs(direction) <= 0.0_wp)) then
-                  space%place(:, n + 1) = [ix, iy, 1]
-                  space%place(:, n + 2) = [ix, iy, 2]
-                  space%along(:, n + 1) = [1.0_wp, 0.0_wp]
-                  space%along(:, n + 2) = [0.0_wp, 1.0_wp]
-                  n = n + 2
-               else
-                  n = n + 1
-                  space%place(:, n) = [ix, iy, 1]
-                  space%along(:, n) = [-direction(2), direction(1)]
-               end if
-            end associate
-         end do
+      do k = 1, elements
+         if (.not. weight(k) > 0.0_wp) cycle
+         if (all(abs(direction(k, :)) <= 0.0_wp)) then
+            space%at(n + 1:n + 2) = k
+            space%along(:, n + 1) = [1.0_wp, 0.0_wp]
+            space%along(:, n + 2) = [0.0_wp, 1.0_wp]
+            n = n + 2
+         else
+            n = n + 1
+            space%at(n) = k
+            space%along(:, n) = [-direction(k, 2), direction(k, 1)]
+            space%slips = space%slips + 1
+            space%slip_at(space%slips) = k
+            space%traction(:, space%slips) = direction(k, :)
+         end if
       end do
       space%n = n
-      allocate(space%q(n, restart), space%z(n, restart), space%left(n), space%x(n))
    end subroutine number_unknowns
 
-   !> Extract the unknowns from a field
-   pure subroutine gather(space, field, v)
-      type(search_space), intent(in) :: space
-      !> Shape (mx, my, 2)
-      real(wp), contiguous, intent(in) :: field(:, :, :)
+   !> Components of a field along directions of some elements
+   pure subroutine gather(n, at, along, elements, field, v)
+      !> Number of components
+      integer, intent(in) :: n
+      !> Elements, and directions in them
+      integer, intent(in) :: at(:)
+      real(wp), contiguous, intent(in) :: along(:, :)
+      !> Elements of the window
+      integer, intent(in) :: elements
+      real(wp), intent(in) :: field(elements, 2)
+      !> The components
       real(wp), contiguous, intent(inout) :: v(:)
       integer :: k
 
-      do k = 1, space%n
-         associate (ix => space%place(1, k), iy => space%place(2, k))
-            v(k) = space%along(1, k)*field(ix, iy, 1) + space%along(2, k)*field(ix, iy, 2)
-         end associate
+      do k = 1, n
+         v(k) = along(1, k)*field(at(k), 1) + along(2, k)*field(at(k), 2)
       end do
    end subroutine gather
 
-   !> Set a field from its unknowns
-   pure subroutine spread_out(space, v, field)
+   !> A field from its unknowns
+   pure subroutine spread_out(space, v, elements, field)
       type(search_space), intent(in) :: space
       real(wp), contiguous, intent(in) :: v(:)
-      !> Shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: field(:, :, :)
+      !> Elements of the window
+      integer, intent(in) :: elements
+      real(wp), intent(inout) :: field(elements, 2)
       integer :: k
 
       field = 0.0_wp
       do k = 1, space%n
-         associate (ix => space%place(1, k), iy => space%place(2, k))
-            field(ix, iy, :) = field(ix, iy, :) + v(k)*space%along(:, k)
+         associate (at => space%at(k))
+            field(at, 1) = field(at, 1) + v(k)*space%along(1, k)
+            field(at, 2) = field(at, 2) + v(k)*space%along(2, k)
          end associate
       end do
    end subroutine spread_out
 
-   !> Remove the components along orthonormal vectors from a vector, four at a time
-   pure subroutine project(q, k, v, share)
-      !> The first k columns are used
+   !> (c - r B e) n in elements in slip, n the direction of the tractions
+   pure subroutine add_along_tractions(space, elements, x, weight, along)
+      type(search_space), intent(in) :: space
+      !> Elements of the window
+      integer, intent(in) :: elements
+      !> Unknowns, and behind them what -r B e is along tractions
+      real(wp), contiguous, intent(in) :: x(:)
+      !> c
+      real(wp), intent(in) :: weight(elements, 2)
+      !> The result in its first component, 0 in other elements
+      real(wp), intent(inout) :: along(elements, 2)
+      integer :: k
+
+      along(:, 1) = 0.0_wp
+      do k = 1, space%slips
+         associate (at => space%slip_at(k), n => space%traction(:, k))
+            along(at, 1) = x(space%n + k) + (n(1)*weight(at, 1) + n(2)*weight(at, 2))
+         end associate
+      end do
+   end subroutine add_along_tractions
+
+   !> Take the parts along orthonormal vectors off a vector, four at a time
+   subroutine project(n, q, k, v, share)
+      !> Length of the vectors, and their number
+      integer, intent(in) :: n, k
       real(wp), contiguous, intent(in) :: q(:, :)
-      integer, intent(in) :: k
       real(wp), contiguous, intent(inout) :: v(:)
       !> Components along the columns
       real(wp), contiguous, intent(inout) :: share(:)
-      real(wp) :: h(4)
-      integer :: i, j
+      integer :: j
 
       do j = 1, k - 3, 4
-         h = 0.0_wp
-         do i = 1, size(v)
-            h(1) = h(1) + q(i, j)*v(i)
-            h(2) = h(2) + q(i, j + 1)*v(i)
-            h(3) = h(3) + q(i, j + 2)*v(i)
-            h(4) = h(4) + q(i, j + 3)*v(i)
-         end do
-         do i = 1, size(v)
-            v(i) = v(i) - (h(1)*q(i, j) + h(2)*q(i, j + 1) + h(3)*q(i, j + 2) + h(4)*q(i, j + 3))
-         end do
-         share(j:j + 3) = h
+         call inner_four(n, size(q, 1), q(:, j:j + 3), v, share(j:j + 3))
+         call add_four(n, size(q, 1), -share(j:j + 3), q(:, j:j + 3), v)
       end do
       do j = 4*(k/4) + 1, k
-         share(j) = dot_product(q(:, j), v)
-         v = v - share(j)*q(:, j)
+         share(j) = inner(n, q(:, j), v)
+         call add(n, -share(j), q(:, j), v)
       end do
    end subroutine project
 
    !> Solve J step = residual by minimal residuals, reusing the directions of earlier systems
    subroutine solve(problem, operator, system, workspace, space, tolerance, reached)
+      !> Turned by half a turn
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
-      !> Right-hand side in `residual`, which is overwritten; solution in `step`
+      !> The right-hand side in `residual`, which is overwritten, the solution in `step`; in `x` the unknowns, and behind them
+      !> what -r B step is along the tractions of the elements in slip
       type(newton_workspace), intent(inout) :: workspace
       type(search_space), intent(inout) :: space
       real(wp), intent(in) :: tolerance
       real(wp), intent(out) :: reached
       real(wp) :: share(restart), start, now, h
-      integer :: k, product
+      integer :: k, n, elements, product
 
-      associate (q => space%q, z => space%z, left => space%left)
-         space%x = 0.0_wp
+      n = space%n
+      elements = problem%mx*problem%my
+      associate (q => workspace%basis, z => workspace%preconditioned, left => workspace%b, x => workspace%x)
+         x = 0.0_wp
          share = 0.0_wp
-         call gather(space, workspace%residual, left)
-         start = norm2(left)
+         call gather(n, space%at, space%along, elements, workspace%residual, left)
+         start = sqrt(inner(n, left, left))
          reached = 0.0_wp
          if (start > 0.0_wp) then
-            call project(q, space%used, left, share)
-            now = norm2(left)
+            call project(n, q, space%used, left, share)
+            now = sqrt(inner(n, left, left))
             do product = 1, most_products
                if (.not. now > tolerance*start) exit
                if (space%used == restart) then
@@ -243,28 +245,32 @@ contains
                   space%used = 0
                end if
                k = space%used + 1
-               call spread_out(space, left, workspace%residual)
+               call spread_out(space, left, elements, workspace%residual)
                call precondition_field(problem, operator, system, workspace, workspace%residual, workspace%step)
-               call gather(space, workspace%step, z(:, k))
-               call weighted_responses(problem, operator, system, workspace, workspace%step)
-               call apply_d(workspace, workspace%trial)
-               workspace%step = workspace%step - workspace%trial
-               call gather(space, workspace%step, q(:, k))
+               call gather(n, space%at, space%along, elements, workspace%step, z(:, k))
+               workspace%trial_slip = workspace%step
+               if (allocated(problem%second)) call workspace%turns%apply_transposed(workspace%trial_slip)
+               call apply_operator(problem, operator, workspace%trial_slip, workspace%trial)
+               call jacobian_of_projection(elements, workspace%weight, workspace%direction, workspace%step, workspace%trial, &
+                  & system%r, [0.0_wp, 0.0_wp], workspace%residual)
+               call gather(n, space%at, space%along, elements, workspace%residual, q(:, k))
+               call gather(space%slips, space%slip_at, space%traction, elements, workspace%trial, z(n + 1:, k))
+               z(n + 1:n + space%slips, k) = -system%r*z(n + 1:n + space%slips, k)
                space%r(:k, k) = 0.0_wp
-               call project(q, k - 1, q(:, k), space%r(:, k))
-               h = norm2(q(:, k))
+               call project(n, q, k - 1, q(:, k), space%r(:, k))
+               h = sqrt(inner(n, q(:, k), q(:, k)))
                if (.not. h > 0.0_wp) exit
                space%r(k, k) = h
-               q(:, k) = q(:, k)/h
+               q(:n, k) = q(:n, k)/h
                space%used = k
-               share(k) = dot_product(q(:, k), left)
-               left = left - share(k)*q(:, k)
-               now = norm2(left)
+               share(k) = inner(n, q(:, k), left)
+               call add(n, -share(k), q(:, k), left)
+               now = sqrt(inner(n, left, left))
             end do
             call add_up()
             reached = now/start
          end if
-         call spread_out(space, space%x, workspace%step)
+         call spread_out(space, x, elements, workspace%step)
       end associate
 
    contains
@@ -276,7 +282,7 @@ contains
 
          do i = space%used, 1, -1
             y(i) = (share(i) - dot_product(space%r(i, i + 1:space%used), y(i + 1:space%used)))/space%r(i, i)
-            space%x = space%x + y(i)*space%z(:, i)
+            call add(n + space%slips, y(i), workspace%preconditioned(:, i), workspace%x)
          end do
       end subroutine add_up
    end subroutine solve

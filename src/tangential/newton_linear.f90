@@ -5,7 +5,8 @@
 module contact_tangential_newton_linear
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
-   use contact_numeric_vectors, only : add, inner
+   use contact_numeric_pieces, only : add_long, copy_long, divide_long, inner_long
+   use contact_numeric_vectors, only : add, add_four, inner, inner_four
    use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, most_pieces, &
       & newton_workspace, restart
    use contact_tangential_problem, only : add_creepages, tangential_problem
@@ -71,12 +72,12 @@ contains
             do j = 1, restart
                call precondition(problem, operator, system, workspace, v(:n, j), z(:n, j), preconditionings)
                call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
-               before = sqrt(inner(n, v(:, j + 1), v(:, j + 1)))
+               before = sqrt(inner_long(n, v(:, j + 1), v(:, j + 1)))
                h(:j, j) = 0.0_wp
                after = take_away(n, j, v, workspace%part, h(:j, j))
                if (after < shortened*before) after = take_away(n, j, v, workspace%part, h(:j, j))
                h(j + 1, j) = after
-               if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
+               if (after > 0.0_wp) call divide_long(n, after, v(:, j + 1))
                do k = 1, j - 1
                   t = cs(k)*h(k, j) + sn(k)*h(k + 1, j)
                   h(k + 1, j) = -sn(k)*h(k, j) + cs(k)*h(k + 1, j)
@@ -97,7 +98,7 @@ contains
                y(k) = (s(k) - dot_product(h(k, k + 1:used), y(k + 1:used)))/h(k, k)
             end do
             do k = 1, used
-               call add(n, y(k), z(:, k), x)
+               call add_long(n, y(k), z(:, k), x)
             end do
             beta = abs(s(used + 1))
             if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
@@ -136,12 +137,12 @@ contains
       ! a parallel region allocates memory, even with a single thread
       if (n <= worth_threads) then
          do piece = 1, pieces
-            call find_parts(n, j, v, one, piece, part(:, piece))
+            call find_parts(n, j, size(v, 1), v, one, piece, part(:, piece))
          end do
       else
          !$omp parallel do
          do piece = 1, pieces
-            call find_parts(n, j, v, one, piece, part(:, piece))
+            call find_parts(n, j, size(v, 1), v, one, piece, part(:, piece))
          end do
          !$omp end parallel do
       end if
@@ -151,55 +152,65 @@ contains
       end do
       if (n <= worth_threads) then
          do piece = 1, pieces
-            call remove_parts(n, j, v, one, piece, now, part(restart + 1, piece))
+            call remove_parts(n, j, size(v, 1), v, one, piece, now, part(restart + 1, piece))
          end do
       else
          !$omp parallel do
          do piece = 1, pieces
-            call remove_parts(n, j, v, one, piece, now, part(restart + 1, piece))
+            call remove_parts(n, j, size(v, 1), v, one, piece, now, part(restart + 1, piece))
          end do
          !$omp end parallel do
       end if
       length = sqrt(sum(part(restart + 1, :pieces)))
    end function take_away
 
-   !> Inner products of a piece of the next vector with the preceding vectors
-   subroutine find_parts(n, j, v, one, piece, part)
-      !> Length of the vectors in use, and their number
+   !> Inner products of a piece of the next vector with those before it
+   subroutine find_parts(n, j, rows, v, one, piece, part)
+      !> Length of the vectors that counts, and their number
       integer, intent(in) :: n, j
-      !> Vectors
-      real(wp), contiguous, intent(in) :: v(:, :)
-      !> Length of a piece, and its index
+      !> The vectors, and the length of their columns
+      integer, intent(in) :: rows
+      real(wp), intent(in) :: v(rows, j + 1)
+      !> Length of a piece, and its number
       integer, intent(in) :: one, piece
       !> Inner products
       real(wp), intent(inout) :: part(:)
-      integer :: first, k
+      integer :: first, k, length
 
       first = one*(piece - 1) + 1
-      do k = 1, j
-         part(k) = inner(min(one, n + 1 - first), v(first:, k), v(first:, j + 1))
+      length = min(one, n + 1 - first)
+      do k = 1, j - 3, 4
+         call inner_four(length, rows, v(first, k), v(first, j + 1), part(k:k + 3))
+      end do
+      do k = 4*(j/4) + 1, j
+         part(k) = inner(length, v(first, k), v(first, j + 1))
       end do
    end subroutine find_parts
 
-   !> Subtract the components along the preceding vectors from a piece of the next vector
-   subroutine remove_parts(n, j, v, one, piece, part, left)
-      !> Length of the vectors in use, and their number
+   !> Take the others away from a piece of the next vector
+   subroutine remove_parts(n, j, rows, v, one, piece, part, left)
+      !> Length of the vectors that counts, and their number
       integer, intent(in) :: n, j
-      !> Vectors
-      real(wp), contiguous, intent(inout) :: v(:, :)
-      !> Length of a piece, and its index
+      !> The vectors, and the length of their columns
+      integer, intent(in) :: rows
+      real(wp), intent(inout) :: v(rows, j + 1)
+      !> Length of a piece, and its number
       integer, intent(in) :: one, piece
       !> Component along each vector
       real(wp), intent(in) :: part(:)
       !> Square sum of the remainder
       real(wp), intent(out) :: left
-      integer :: first, k
+      integer :: first, k, length
 
       first = one*(piece - 1) + 1
-      do k = 1, j
-         call add(min(one, n + 1 - first), -part(k), v(first:, k), v(first:, j + 1))
+      length = min(one, n + 1 - first)
+      do k = 1, j - 3, 4
+         call add_four(length, rows, -part(k:k + 3), v(first, k), v(first, j + 1))
       end do
-      left = inner(min(one, n + 1 - first), v(first:, j + 1), v(first:, j + 1))
+      do k = 4*(j/4) + 1, j
+         call add(length, -part(k), v(first, k), v(first, j + 1))
+      end do
+      left = inner(length, v(first, j + 1), v(first, j + 1))
    end subroutine remove_parts
 
    !> out := M^-1 v, bordered
@@ -247,7 +258,7 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
 
-      workspace%trial = v
+      call copy_long(size(v), v, workspace%trial)
       call apply_d(workspace, workspace%trial)
       if (allocated(problem%second)) then
          workspace%trial_slip = workspace%trial

@@ -186,9 +186,9 @@ contains
 
    !> Relative residual of the contact conditions and of the prescribed forces
    !>
-   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), where g in the first term is the lower of the friction
-   !> bound and the yield limit if the latter varies
-   pure real(wp) function true_residual(problem, p, slip, r) result(residual)
+   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), g in the first term the lower of the bound of friction
+   !> and the yield limit where that changes
+   real(wp) function true_residual(problem, p, slip, r) result(residual)
       !> Traction bounds, prescribed forces, yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
@@ -207,8 +207,8 @@ contains
       residual = sqrt(residual)
    end function true_residual
 
-   !> Contribution of the contact conditions to true_residual
-   pure real(wp) function contact_residual(problem, p, slip, r) result(residual)
+   !> The part of true_residual that the contact conditions have
+   real(wp) function contact_residual(problem, p, slip, r) result(residual)
       !> Traction bounds and yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
@@ -219,8 +219,8 @@ contains
       residual = sqrt(squared_residual(problem, p, slip, r))
    end function contact_residual
 
-   !> Square of contact_residual
-   pure real(wp) function squared_residual(problem, p, slip, r) result(square)
+   !> Its square
+   real(wp) function squared_residual(problem, p, slip, r) result(square)
       !> As in contact_residual
       type(tangential_problem), intent(in) :: problem
       real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :)

@@ -5,7 +5,7 @@ program test_operators
    use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_operator, only : elastic_operator, normal_inverse_of_two, normal_of_two
    use contact_elastic_previous, only : previous_operator
    use contact_test_case_builder, only : random_numbers
    use contact_test_harness, only : test_suite
@@ -62,6 +62,14 @@ contains
          call operator%normal(pn, un)
          call direct(table%nn, pn, vn)
          call near(suite, [un], [vn], name // ": normal")
+         call normal_of_two(operator, pt, ut)
+         call direct(table%nn, pt(:, :, 1), vt(:, :, 1))
+         call direct(table%nn, pt(:, :, 2), vt(:, :, 2))
+         call near(suite, [ut], [vt], name // ": normal, two fields")
+         call normal_inverse_of_two(operator, pt, ut)
+         call operator%normal_inverse(pt(:, :, 1), vt(:, :, 1))
+         call operator%normal_inverse(pt(:, :, 2), vt(:, :, 2))
+         call near(suite, [ut], [vt], name // ": inverse, two fields")
          call operator%tangential(pt, ut)
          call direct_pair(table, pt, vt)
          call near(suite, [ut], [vt], name // ": tangential")

@@ -14,13 +14,13 @@ enum { LONGEST = 19, ROOM = 2 * LONGEST + 1, FIELDS = 7 };
 
 /* Fields of two components, flags, sums; what a loop may change comes first */
 typedef struct {
-  double a[ROOM], b[ROOM], c[ROOM], sums[2];
+  double a[ROOM], b[ROOM], c[ROOM], sums[4];
 } buffers;
 
 static double from[FIELDS][ROOM], creep[2], r, factor;
 static int contact[LONGEST];
 
-enum { INNER, ADD, MEAN_GAP, RESIDUALS, CHOOSE_FREE, MEAN, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
+enum { INNER, ADD, INNER_FOUR, ADD_FOUR, GAP_SUMS, RESIDUALS, CHOOSE_FREE, FREE_SUMS, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
        PROJECT_CHANGE, JACOBIAN, JOIN, COLUMN, KINDS };
 
 static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
@@ -31,19 +31,21 @@ static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
     switch (kind) { \
       case INNER: z->sums[0] = inner_##processor(n, f[0], f[1]); break; \
       case ADD: add_##processor(n, factor, f[0], z->a); break; \
-      case MEAN_GAP: z->sums[0] = mean_gap_##processor(n, f[0], f[1], f[2]); break; \
+      case INNER_FOUR: inner_four_##processor(n, ROOM, f[0], f[4], z->sums); break; \
+      case ADD_FOUR: add_four_##processor(n, ROOM, f[4], f[0], z->a); break; \
+      case GAP_SUMS: gap_sums_##processor(n, f[0], f[1], f[2], z->sums); break; \
       case RESIDUALS: z->sums[0] = residuals_##processor(n, r, f[0], f[1], f[2], z->a); break; \
       case CHOOSE_FREE: choose_free_##processor(n, f[2], f[0], 0.5, z->a, z->b); break; \
-      case MEAN: z->sums[0] = mean_##processor(n, f[3], f[0]); break; \
+      case FREE_SUMS: free_sums_##processor(n, f[3], f[0], z->sums); break; \
       case PROJECT: project_##processor(n, f[3], r, z->a, f[0], f[1], z->sums); break; \
       case TURN: turn_##processor(n, factor, f[0], f[1], z->a, z->b); break; \
       case GO_ALONG: z->sums[0] = go_along_##processor(n, factor, f[0], z->a); break; \
-      case SLIP_RESIDUAL: residual_##processor(n, contact, f[4], f[0], f[1], r, z->sums); break; \
-      case STEP: step_##processor(n, contact, f[4], factor, f[0], f[1], z->a); break; \
-      case LINEARISE: linearise_##processor(n, contact, f[4], f[0], f[1], r, z->a, z->b, z->c); break; \
-      case PROJECT_CHANGE: project_change_##processor(n, f[3], f[5], z->a); break; \
-      case JACOBIAN: jacobian_##processor(n, f[2], f[5], f[0], f[1], r, creep, z->a); break; \
-      case JOIN: join_##processor(n, f[2], f[5], f[0], f[1], r, z->a); break; \
+      case SLIP_RESIDUAL: residual_##processor(n, n, contact, f[4], f[0], f[1], r, z->sums); break; \
+      case STEP: step_##processor(n, n, contact, f[4], factor, f[0], f[1], z->a); break; \
+      case LINEARISE: linearise_##processor(n, n, contact, f[4], f[0], f[1], r, z->a, z->b, z->c); break; \
+      case PROJECT_CHANGE: project_change_##processor(n, n, f[3], f[5], z->a); break; \
+      case JACOBIAN: jacobian_##processor(n, n, f[2], f[5], f[0], f[1], r, creep, z->a); break; \
+      case JOIN: join_##processor(n, n, f[2], f[5], f[0], f[1], r, z->a); break; \
       default: column_##processor(n, n / 2 + 1, f[0], factor, contact[0], contact[1], f[1], z->a); break; \
     } \
   }
@@ -65,7 +67,16 @@ static void define_pressures(int kind, int k, buffers *z) {
   switch (kind) {
     case INNER: z->sums[0] += h * u; break;
     case ADD: z->a[k] += factor * h; break;
-    case MEAN_GAP: z->sums[0] += p > 0.0 ? h + u : 0.0; break;
+    case INNER_FOUR:
+      for (int f = 0; f < 4; f++) z->sums[f] += from[f][k] * from[4][k];
+      break;
+    case ADD_FOUR:
+      for (int f = 0; f < 4; f++) z->a[k] += from[4][f] * from[f][k];
+      break;
+    case GAP_SUMS:
+      z->sums[0] += p > 0.0 ? h + u : 0.0;
+      z->sums[1] += p > 0.0;
+      break;
     case RESIDUALS:
       z->a[k] = p > 0.0 || gap > 0.0 ? gap : 0.0;
       z->sums[0] = fmax(z->sums[0], fabs(z->a[k]));
@@ -74,7 +85,10 @@ static void define_pressures(int kind, int k, buffers *z) {
       z->a[k] = (p > 0.0 || z->b[k] > 0.0) && h < 0.5;
       if (z->a[k] == 0.0) z->b[k] = 0.0;
       break;
-    case MEAN: z->sums[0] += is_free ? h : 0.0; break;
+    case FREE_SUMS:
+      z->sums[0] += is_free ? h : 0.0;
+      z->sums[1] += is_free;
+      break;
     case PROJECT:
       z->a[k] = is_free ? z->a[k] - r : 0.0;
       z->sums[0] += z->a[k] * h;
@@ -131,7 +145,6 @@ static void define_tractions(int kind, int n, int k, buffers *z) {
 }
 
 static void define(int kind, int n, buffers *z) {
-  double number = 0.0;
   for (int k = 0; k < n; k++) {
     if (kind == COLUMN) {
       const double f = k <= n / 2 ? from[0][k] : factor * from[0][n - k], re = f * from[1][2 * k], im = f * from[1][2 * k + 1];
@@ -142,9 +155,7 @@ static void define(int kind, int n, buffers *z) {
     } else {
       define_tractions(kind, n, k, z);
     }
-    number += kind == MEAN_GAP ? from[2][k] > 0.0 : from[3][k];
   }
-  if ((kind == MEAN || kind == MEAN_GAP) && number > 0.0) z->sums[0] /= number;
 }
 
 static int differences(const buffers *found, const buffers *right) {
@@ -170,7 +181,7 @@ static void fill(buffers *start) {
   factor = any_number();
   creep[0] = any_number();
   creep[1] = any_number();
-  start->sums[0] = start->sums[1] = 0.0;
+  for (int f = 0; f < 4; f++) start->sums[f] = 0.0;
 }
 
 int main(void) {

@@ -1,0 +1,47 @@
+!> Lengths of transforms
+module contact_fft_sizes
+   use contact_fft_library, only : fast_lengths
+   implicit none (type, external)
+   private
+
+   public :: fast_size, good_size, largest_fast_size
+
+   !> Windows whose padded sides are not longer are small
+   integer, parameter :: largest_fast_size = 128
+
+contains
+
+   !> Smallest even number 2^a 3^b 5^c 7^d (a >= 1) that is at least n, or 1 for n <= 1
+   pure integer function good_size(n) result(size)
+      !> Number of points that are needed, with those of the padding
+      integer, intent(in) :: n
+      integer :: rest, factor
+      integer, parameter :: primes(4) = [2, 3, 5, 7]
+
+      size = max(1, n)
+      if (size == 1) return
+      if (mod(size, 2) == 1) size = size + 1
+      do
+         rest = size
+         do factor = 1, 4
+            do while (mod(rest, primes(factor)) == 0)
+               rest = rest/primes(factor)
+            end do
+         end do
+         if (rest == 1) return
+         size = size + 2
+      end do
+   end function good_size
+
+   !> Even length of at least n that is transformed quickly, or 1 for n <= 1
+   pure integer function fast_size(n)
+      !> Number of points that are needed, with those of the padding
+      integer, intent(in) :: n
+
+      if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
+         fast_size = good_size(n)
+      else
+         fast_size = minval(fast_lengths, fast_lengths >= n)
+      end if
+   end function fast_size
+end module contact_fft_sizes
