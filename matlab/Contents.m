@@ -56,7 +56,7 @@
 %
 % The library: begin and end.
 %
-%   cntc_buildmex               - build the gateway by which Octave reaches the library.
+%   cntc_buildmex               - build the gateway between Octave and the library.
 %   cntc_initlibrary            - load the library and begin a run.
 %   cntc_managelicense          - no licence is needed; returns 0.
 %   cntc_getmagicnumbers        - struct with the numbers that stand for flags, fields, and so on.

@@ -16,9 +16,9 @@ PACKAGE = TOP / "python/contact"
 PAGE = TOP / "doc/user/python_reference.md"
 HEAD = """# Python: classes and functions
 
-Reference, generated from the docstrings of the package by `tests/house/python_page.py`; for examples see [Python](python.md). Units
-chosen by the caller are written as dimensions: L length, F force, T time, A angle, V velocity ([units](library.md#units-and-signs)).
-Names of totals and fields are those of [results](results.md).
+Reference, generated from the docstrings of the package by `tests/house/python_page.py`; examples are in [Python](python.md). Units
+chosen by the caller are written as dimensions: L length, F force, T time, A angle, V velocity
+([units](library.md#units-and-signs)). Names of totals and fields are those of [results](results.md).
 """
 #: Titles of the parts; the classes and functions of each in the order of their sources
 PARTS = {"Problems": ("problem", "wheel_rail", "_element"), "Derivatives": ("_jacobian",), "Results in files": ("_load",),
