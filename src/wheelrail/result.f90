@@ -120,9 +120,9 @@ contains
    !> Total forces of the wheel on the rail, and positions that were found, in the order in which they are written
    pure subroutine wheel_rail_totals(self, pair, list)
       class(wheel_rail_result), intent(in) :: self
-      !> Side of the track and position of the wheelset, with the sign of its side
+      !> For the side of the track and the position of the wheelset, which is that of its side
       type(wheel_rail_spec), intent(in) :: pair
-      !> List to fill with the rows of wheel and rail; previous rows are removed
+      !> Emptied, then filled with the rows of wheel and rail
       type(total_list), intent(inout) :: list
 
       call list%start(pair%left)
