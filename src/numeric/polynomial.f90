@@ -91,7 +91,7 @@ contains
          end if
          x = x + step
          if (abs(step) <= precision) return
-         ! the remaining error after a Newton step is at max_steps bend/slope times its square; doubled for the change of the slope
+         ! the remaining error after a Newton step is at most bend/slope times its square; doubled for the change of the slope
          ! itself
          if (newton .and. 2.0_wp*bend*step**2 <= precision*slope) return
       end do
