@@ -69,6 +69,8 @@ contains
       if (roller) track%cant = 0.0_wp
       if (track%gaught > 0.0_wp) then
          call a%check("GAUGSQ|RAILY0", "GAUGSQ")
+         if (abs(place(1)) >= 0.5_wp) call a%warn("GAUGSQ|RAILY0", " is not used: GAUGSQ is reserved for the choice of a &
+            &further gauge face")
          call a%check("GAUGWD|RAILZ0", "GAUGWD")
          track%gaugwd = place(2)
       else

@@ -302,6 +302,13 @@ class Statements(Case):
         self.assertEqual([case["converged"] for case in results], [False, True, True])
         self.assertEqual([len(case["patches"]) for case in results], [0, 0, 1])
 
+    def test_reserved_gauge_sequence(self):
+        """GAUGSQ has no effect; a value other than 0 gives a warning, and the forces of 0"""
+        results, out = self.solve(self.case(), self.case().replace(" 14 0 1435", " 14 2 1435"))
+        self.assertEqual(len(re.findall("GAUGSQ.* = 2 is not used", out)), 1)
+        fy = [case["totals"]["fy_tr"]["value"] for case in results]
+        self.assertEqual(fy[0], fy[1])
+
     def test_no_contact(self):
         """The height of a wheel that meets no rail is not carried over, whatever happens in between"""
         results, out = self.solve(self.case(), self.case(y=300.0), self.case(y=300.0), self.case())
