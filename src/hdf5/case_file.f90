@@ -71,7 +71,7 @@ contains
       call file%text("reason", "", "the run goes on, or was ended from outside")
       call file%close_attributes()
       call file%renew()
-      if (file%has_failed()) call file%finish_file(error)
+      if (file%container%failed) call file%finish_file(error)
    end subroutine tell_start
 
    subroutine abandon(self)
@@ -98,7 +98,7 @@ contains
 
       call self%cut(cases, patches, name_of)
       do k = 1, size(told_at_the_end)
-         call self%drop_attribute(trim(told_at_the_end(k)))
+         call self%container%drop_attribute(trim(told_at_the_end(k)))
       end do
       if (limits%confined) below = folder
       call self%origin%start_again(self%container, input, folder, below)
@@ -112,7 +112,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (self%is_open()) then
-         call self%drop_attribute("reason")
+         call self%container%drop_attribute("reason")
          call self%open_group("")
          call describe_run(self, run)
          call self%close_attributes()

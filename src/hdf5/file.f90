@@ -70,7 +70,6 @@ module contact_hdf5_file
       !> Remove the file in the making; what stands under its name stays
       procedure :: abandon
       procedure :: is_open
-      procedure :: has_failed
       !> Begin and end a case
       procedure :: begin_case
       procedure :: end_case
@@ -91,8 +90,6 @@ module contact_hdf5_file
       procedure :: close_group
       !> Instead of close_group: the values become attributes of the file
       procedure :: close_attributes
-      !> Remove an attribute of the file
-      procedure :: drop_attribute
       !> Bring the readable file up to date
       procedure :: renew
       !> Size of the file in the making [bytes]
@@ -214,20 +211,6 @@ contains
       class(hdf5_file), intent(in) :: self
       is_open = self%container%is_open
    end function is_open
-
-   !> Has anything gone wrong?
-   pure logical function has_failed(self)
-      class(hdf5_file), intent(in) :: self
-      has_failed = self%container%failed
-   end function has_failed
-
-   !> Remove an attribute of the file; nothing happens when there is none of that name
-   subroutine drop_attribute(self, name)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name !! As the file has it
-
-      call self%container%drop_attribute(name)
-   end subroutine drop_attribute
 
    !> The values of the group become attributes of the file
    subroutine close_attributes(self)

@@ -7,6 +7,7 @@ module contact_input_experiment_file
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_problems, only : problem_list, severity
    use contact_input_reader, only : read_case
+   use contact_input_toml_case, only : read_toml_case
    use contact_input_toml_cases, only : case_address, toml_cases
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : input_lexer, input_value
@@ -220,8 +221,8 @@ contains
       subroutine read_it()
          associate (store => self%stores(self%current))
             coefficients = store%coefficients
-            call self%cases%read_case(store%memory, this%module_number, .true., store%spec, .true., this%spec, this%problems, &
-               & coefficients, this%digits, self%is_repeat)
+            call read_toml_case(self%cases%document, self%cases%node, store%memory, self%cases%used, this%module_number, .true., &
+               & store%spec, .true., this%spec, this%problems, coefficients, this%digits, self%is_repeat)
          end associate
       end subroutine read_it
    end subroutine read_variation
@@ -300,8 +301,8 @@ contains
          this%cpid = address%cpid
          this%first_line = address%line
          this%number = self%next_number()
-         call self%cases%read_case(store%memory, address%module_number, ends_module, store%spec, store%cases > 0, this%spec, &
-            & this%problems, store%coefficients, this%digits)
+         call read_toml_case(self%cases%document, self%cases%node, store%memory, self%cases%used, address%module_number, &
+            & ends_module, store%spec, store%cases > 0, this%spec, this%problems, store%coefficients, this%digits)
          self%lexer%line = min(address%last_line, self%lexer%count_lines())
          store%spec = this%spec
          store%cases = store%cases + 1

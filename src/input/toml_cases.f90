@@ -2,12 +2,6 @@
 module contact_input_toml_cases
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
-   use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : case_digits
-   use contact_grid_potential_contact, only : potential_contact
-   use contact_input_problems, only : problem_list
-   use contact_input_toml_case, only : read_toml_case
-   use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : integer_text, real_text
@@ -37,20 +31,18 @@ module contact_input_toml_cases
 
    !> The cases of a file
    type :: toml_cases
-      type(toml_document), private :: document
+      type(toml_document) :: document
       character(len=:), allocatable, private :: file
       !> Which nodes of the document have been taken
-      logical, allocatable, private :: used(:)
+      logical, allocatable :: used(:)
       !> Table of the case in hand, 0 before the first, and its address
-      integer, private :: node = 0
+      integer :: node = 0
       type(case_address), private :: address
    contains
       procedure :: open_text
       procedure :: rewind => rewind_cases
       !> Go to the next case
       procedure :: go_on
-      !> Read the case in hand
-      procedure :: read_case
       !> Find numbers that the case in hand gives, and give them other values
       procedure :: find_number
       procedure :: set_number
@@ -206,34 +198,6 @@ contains
             & self%document%nodes(place)%column)
       end subroutine refuse
    end subroutine find_address
-
-   !> Read the case in hand, as read_toml_case
-   subroutine read_case(self, memory, module_number, ends_module, previous, has_previous, spec, problems, coefficients, digits, &
-      & is_repeat)
-      !> The cases of a text
-      class(toml_cases), intent(inout) :: self
-      !> Of its result element
-      type(toml_memory), intent(inout) :: memory
-      !> 1 or 3
-      integer, intent(in) :: module_number
-      !> Is the case the last one?
-      logical, intent(in) :: ends_module
-      !> Whose values stay where nothing is said
-      type(case_spec), intent(in) :: previous
-      !> Is there a case before?
-      logical, intent(in) :: has_previous
-      type(case_spec), intent(out) :: spec
-      type(problem_list), intent(inout) :: problems
-      !> Grid of the influence coefficients that a file had for cases before
-      type(potential_contact), intent(inout) :: coefficients
-      !> Digits that stand for the case
-      type(case_digits), intent(out) :: digits
-      !> Was the case read before, with other values of its numbers? Default false
-      logical, intent(in), optional :: is_repeat
-
-      call read_toml_case(self%document, self%node, memory, self%used, module_number, ends_module, previous, has_previous, &
-         & spec, problems, coefficients, digits, is_repeat)
-   end subroutine read_case
 
    !> The node of a number "group.key" that the case in hand gives; 0 when it gives none
    pure integer function find_number(self, name) result(index)

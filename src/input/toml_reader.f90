@@ -11,7 +11,6 @@ module contact_input_toml_reader
    use contact_input_toml_tables, only : find, is_tables, leaves_of, number_of, sets_of, told, toml_memory, toml_tables
    use contact_input_toml_values, only : check_item, count_values, fill_list, take_number
    use contact_text_bounds, only : bounds_of, bounds_table
-   use contact_text_lexer, only : printable
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
@@ -453,14 +452,7 @@ contains
       k = self%place_of(name)
       if (k == 0) return
       text = key_of_item(self%items, k)
-      if (self%nodes(k) == 0) return
-      associate (node => self%document%nodes(self%nodes(k)))
-         if (node%kind == toml_kind%string) then
-            text = trim(text) // ' = "' // printable(self%document%text_of(self%nodes(k))) // '"'
-         else
-            text = trim(text) // " = " // printable(self%document%text_of(self%nodes(k)))
-         end if
-      end associate
+      if (self%nodes(k) > 0) text = told(self, trim(text), self%nodes(k))
    end function show_value
 
    !> Line and column of a value

@@ -264,7 +264,7 @@ contains
    end function len_told
 
    !> "key = value" as it was given
-   function told(self, key, index) result(text)
+   pure function told(self, key, index) result(text)
       class(toml_tables), intent(in) :: self
       !> As the file writes it
       character(len=*), intent(in) :: key

@@ -52,6 +52,10 @@ module contact_output_case_record
       real(wp) :: seconds = 0.0_wp
    end type case_head
 
+   !> How an iteration ended, in words, by members of ending
+   character(len=*), parameter :: ending_names(ending%not_started:ending%out_of_time) = [character(len=15) :: "nothing to do", &
+      & "converged", "iteration limit", "stagnated", "diverged", "beyond friction", "out of time"]
+
 contains
 
    pure logical function is_complete(self)
@@ -306,31 +310,9 @@ contains
       if (report%order > 0) call record%count(problem // "_order", "order of the discretisation", report%order)
       if (report%order_reason /= "") call record%text(problem // "_order_reason", "why it is not the one that was asked for", &
          & trim(report%order_reason))
-      call record%text(problem // "_ended", "how the iteration ended", trim(ending_name(report)))
+      call record%text(problem // "_ended", "how the iteration ended", trim(ending_names(report%ended)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
       if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)
       call record%number(problem // "_tolerance", "", "tolerance that was asked for", report%tolerance)
    end subroutine describe_report
-
-   !> How an iteration ended, in words
-   pure function ending_name(report) result(name)
-      type(solve_report), intent(in) :: report
-      character(len=15) :: name
-
-      if (report%ended == ending%not_started) then
-         name = "nothing to do"
-      else if (report%ended == ending%converged) then
-         name = "converged"
-      else if (report%ended == ending%iteration_limit) then
-         name = "iteration limit"
-      else if (report%ended == ending%stagnated) then
-         name = "stagnated"
-      else if (report%ended == ending%beyond_friction) then
-         name = "beyond friction"
-      else if (report%ended == ending%out_of_time) then
-         name = "out of time"
-      else
-         name = "diverged"
-      end if
-   end function ending_name
 end module contact_output_case_record

@@ -23,7 +23,6 @@ module contact_output_input_record
       character(len=11) :: unit = ""
       character(len=80) :: title = ""
       logical :: is_count = .false., is_list = .false.
-      integer :: n = 0
       real(wp), allocatable :: values(:)
       !> A word instead
       character(len=:), allocatable :: text
@@ -161,8 +160,8 @@ contains
             end if
             if (allocated(row%text)) then
                call self%record%text(trim(row%key), trim(row%title), row%text)
-            else if (row%n > 1 .or. row%is_list) then
-               call self%record%numbers(trim(row%key), trim(row%unit), trim(row%title), row%values(:row%n))
+            else if (size(row%values) > 1 .or. row%is_list) then
+               call self%record%numbers(trim(row%key), trim(row%unit), trim(row%title), row%values)
             else if (row%is_count) then
                call self%record%count(trim(row%key), trim(row%title), nint(row%values(1)))
             else
@@ -253,16 +252,9 @@ contains
    subroutine append(row, values)
       type(key_values), intent(inout) :: row
       real(wp), intent(in) :: values(:)
-      real(wp), allocatable :: longer(:)
 
-      if (.not. allocated(row%values)) allocate(row%values(2))
-      if (row%n + size(values) > size(row%values)) then
-         allocate(longer(2*row%n + size(values)))
-         longer(:row%n) = row%values(:row%n)
-         call move_alloc(longer, row%values)
-      end if
-      row%values(row%n + 1:row%n + size(values)) = values
-      row%n = row%n + size(values)
+      if (.not. allocated(row%values)) allocate(row%values(0))
+      row%values = [row%values, values]
    end subroutine append
 
    !> A list under its own name
@@ -285,5 +277,6 @@ contains
       if (present(units)) self%keys(at)%unit = units(1)
       self%keys(at)%is_list = .true.
       if (n > 0) call append(self%keys(at), values(:n))
+      if (n == 0) call append(self%keys(at), [real(wp) ::])
    end subroutine take_list
 end module contact_output_input_record

@@ -111,7 +111,7 @@ contains
 
    !> The end of the collection while the run goes on
    subroutine tell_unfinished(self)
-      type(vtk_files), intent(inout) :: self
+      class(vtk_files), intent(inout) :: self
 
       call write_end(self, "not complete, " // integer_text(self%planned) // " cases were planned")
       call self%file%flush_now()
@@ -119,7 +119,7 @@ contains
 
    !> The closing lines with a remark
    subroutine write_end(self, remark)
-      type(vtk_files), intent(in) :: self
+      class(vtk_files), intent(in) :: self
       character(len=*), intent(in) :: remark
       character(len=remark_length) :: padded
 
@@ -135,12 +135,20 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: case_number, part
 
+      call add_entry(self, '    <DataSet timestep="' // integer_text(case_number) // '" part="' // integer_text(part) // &
+         & '" file="' // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
+   end subroutine list_file
+
+   !> A line in front of the end of the collection
+   subroutine add_entry(self, line)
+      class(vtk_files), intent(inout) :: self
+      character(len=*), intent(in) :: line
+
       call self%file%seek(self%last)
-      call self%file%line('    <DataSet timestep="' // integer_text(case_number) // '" part="' // integer_text(part) // '" file="' &
-         & // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
+      call self%file%line(line)
       self%last = self%file%place()
       call tell_unfinished(self)
-   end subroutine list_file
+   end subroutine add_entry
 
    !> Say in the list that a file of a case could not be written
    subroutine list_loss(self, case_number)
@@ -148,10 +156,7 @@ contains
       integer, intent(in) :: case_number
 
       self%lost = self%lost + 1
-      call self%file%seek(self%last)
-      call self%file%line(loss // integer_text(case_number) // " -->")
-      self%last = self%file%place()
-      call tell_unfinished(self)
+      call add_entry(self, loss // integer_text(case_number) // " -->")
    end subroutine list_loss
 
    !> How many cases of a list have lost a file
@@ -333,24 +338,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(wheel_rail_patch), intent(in), optional :: place
       type(vtk_grid) :: grid
-      real(wp), allocatable :: points(:, :), displacement(:, :), tensor(:, :)
+      real(wp), allocatable :: points(:, :), displacement(:, :)
+      !> Components in the order of VTK: xx, yy, zz, xy, yz, xz; axes of the patch
+      integer, parameter :: vtk_order(6) = [1, 4, 6, 2, 5, 3]
       real(wp) :: s
       integer :: k, n
 
       s = side_sign(spec)
       n = size(block%position, 2)
-      allocate(points(3, n), displacement(3, n), tensor(6, n))
+      allocate(points(3, n), displacement(3, n))
       do k = 1, n
          points(:, k) = in_track(block%position(:, k)*[1.0_wp, s, 1.0_wp], s, place)
          displacement(:, k) = turned(block%displacement(:, k)*[1.0_wp, s, 1.0_wp], s, place)
       end do
-      ! the order of VTK is xx, yy, zz, xy, yz, xz; axes of the patch
-      tensor(1, :) = block%stress(1, :)
-      tensor(2, :) = block%stress(4, :)
-      tensor(3, :) = block%stress(6, :)
-      tensor(4, :) = block%stress(2, :)
-      tensor(5, :) = block%stress(5, :)
-      tensor(6, :) = block%stress(3, :)
       call start_grid(grid, [block%nx, block%ny, block%nz], .false., 20*n)
       call put(grid, "von Mises [N/mm2]", 1, block%sigvm)
       call put(grid, "mean stress [N/mm2]", 1, block%sighyd)
@@ -359,7 +359,7 @@ contains
       call put(grid, "sigma 2 [N/mm2]", 1, block%sigma2)
       call put(grid, "sigma 3 [N/mm2]", 1, block%sigma3)
       call put(grid, "displacement [mm]", 3, reshape(displacement, [3*n]))
-      call put(grid, "stress, axes of the patch [N/mm2]", 6, reshape(tensor, [6*n]))
+      call put(grid, "stress, axes of the patch [N/mm2]", 6, reshape(block%stress(vtk_order, :), [6*n]))
       call finish_grid(grid, name, reshape(points, [size(points)]), error, spec%limits)
    end subroutine write_block
 

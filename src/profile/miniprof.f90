@@ -24,6 +24,9 @@ module contact_profile_miniprof
 
 contains
 
+   !> Read the points, and what the header prescribes
+   !>
+   !> Long because the parts of the file share what was read so far; each is an internal procedure of at most 28 lines.
    subroutine read_miniprof(text, profile, log, error)
       !> The complete file
       type(input_lexer), intent(in) :: text

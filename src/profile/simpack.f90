@@ -29,7 +29,9 @@ module contact_profile_simpack
 
 contains
 
-   !> Read the points and the prescribed processing
+   !> Read the points and the processing
+   !>
+   !> Long because the parts of the file share what was read so far; each is an internal procedure of at most 43 lines.
    subroutine read_simpack(text, side, profile, log, error)
       !> The complete file
       type(input_lexer), intent(in) :: text

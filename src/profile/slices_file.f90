@@ -49,6 +49,9 @@ module contact_profile_slices_file
 
 contains
 
+   !> Read positions and names of the slices, features, kinks
+   !>
+   !> Long because the parts of the file share what was read so far; each is an internal procedure of at most 22 lines.
    subroutine read_slices_file(text, side, list, error)
       !> The complete file; its reading position is advanced
       type(input_lexer), intent(inout) :: text

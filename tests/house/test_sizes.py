@@ -14,9 +14,6 @@ MOST_OF_FILE, MOST_OF_PROCEDURE = 500, 100
 #: File, procedure ("" for the whole file): to be split, or to be given a reason
 OPEN = {
     ("src/experiment/run.f90", ""),
-    ("src/profile/miniprof.f90", "read_miniprof"),
-    ("src/profile/simpack.f90", "read_simpack"),
-    ("src/profile/slices_file.f90", "read_slices_file"),
     ("src/text/lexer.f90", ""),
 }
 #: Head of a procedure: attributes, type of the result, name
