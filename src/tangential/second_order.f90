@@ -11,7 +11,8 @@
 !> Derivation: doc/theory/second_order.md.
 module contact_tangential_second_order
    use contact_base_kinds, only : wp
-   use contact_tangential_slip_turns, only : local_mean, mean_slip, turn_between
+   use contact_tangential_slip_means, only : local_mean, mean_length, mean_slip
+   use contact_tangential_slip_turns, only : turn_between
    implicit none (type, external)
    private
 
@@ -155,12 +156,16 @@ contains
       real(wp), intent(in) :: ratio
       real(wp) :: terms(3)
       real(wp) :: along, square
+      !> Fitted to residuals of tractions in proportion to pressures, by the adjoint of adhesion, of ellipses with sides of elements
+      !> of 1:4 to 4:1
+      real(wp), parameter :: of_direction = 1.0_wp/24.0_wp, of_steps = 0.1204_wp, few_steps = 12.9_wp, narrow = 0.746_wp
+      real(wp), parameter :: of_diagonal = 0.0229_wp, few_rows = 31.0_wp, of_ratio = 0.42_wp
 
       along = slope*ratio
       square = slope**2
-      terms(3) = along/(24.0_wp*(1.0_wp + along**2)) &
-         & + sign(0.1204_wp*square/(ratio*(square + 12.9_wp) + 0.746_wp*square*ratio**2), slope)
-      terms(1) = 0.0229_wp*abs(slope)*square/((square + 31.0_wp)*ratio**0.42_wp)
+      terms(3) = of_direction*along/(1.0_wp + along**2) &
+         & + sign(of_steps*square/(ratio*(square + few_steps) + narrow*square*ratio**2), slope)
+      terms(1) = of_diagonal*abs(slope)*square/((square + few_rows)*ratio**of_ratio)
       terms(2) = -terms(1)
    end function oblique_terms
 
@@ -340,7 +345,8 @@ contains
             if (.not. any(abs(w) > 0.0_wp)) cycle
             turn = [1.0_wp, 0.0_wp]
             if (self%turns) turn = turn_between(w, mean%value)
-            slip(ix, iy, :) = norm2(mean%value)/norm2(w)*[turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
+            slip(ix, iy, :) = mean_length(size(contact, 1), size(contact, 2), mean, ahead, ix, iy)/norm2(w) &
+               & *[turn(1)*w(1) - turn(2)*w(2), turn(2)*w(1) + turn(1)*w(2)]
          end do
       end do
    end subroutine centre_slip
