@@ -13,8 +13,9 @@ module contact_cases_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, set_elements, stay_below
    use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, take_curvatures
-   use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, is_near_enough, most_elements, &
-      & most_levels, not_converged, prepare_level, refuse_case, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
+   use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
+      & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
+      & smaller_tolerance, solver_tolerance, stopping_share, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
@@ -175,8 +176,8 @@ contains
       type(patch_result), allocatable :: best
       type(accuracy_law) :: law
       type(level_grid) :: grid, next
-      real(wp) :: expected
-      integer :: fixed(2), acting, cases
+      real(wp) :: expected, before
+      integer :: fixed(2), cases
       logical :: is_solved, is_lost, near, tightened
 
       report%asked = spec%iteration%accuracy
@@ -185,9 +186,10 @@ contains
       fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       call first_grid(session, spec, law, fixed, grid)
       expected = 0.0_wp
+      before = 0.0_wp
       do while (report%levels < most_levels)
          report%eps = grid%eps
-         call solve_level(session, spec, grid, log, result, is_solved, report%last_seconds, error, folder)
+         call solve_level(session, spec, grid, report%levels > 0, log, result, is_solved, report%last_seconds, error, folder)
          is_lost = allocated(error)
          if (is_lost) then
             call session%series%clear()
@@ -212,9 +214,9 @@ contains
          near = is_near_enough(report%estimated, expected, report%asked)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
-         acting = result%tangential%order
-         if (spec%motion == motion%steady_rolling) law%order = min(law%order, merge(law%order, 1.0_wp, acting == 2))
-         if (.not. near) call next_counts(result, report, law%order, fixed, next%counts)
+         if (spec%motion == motion%steady_rolling .and. result%tangential%order /= 2) law = first_order_alone(law)
+         if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), fixed, &
+            & next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
             report%reason = "more than " // integer_text(product(next%counts)) // " elements are not allowed"
@@ -226,7 +228,8 @@ contains
             exit
          end if
          expected = 0.0_wp
-         if (report%estimated >= 0.0_wp) expected = report%estimated*(minval(real(grid%counts, wp)/next%counts))**law%order
+         before = report%estimated
+         if (report%estimated >= 0.0_wp) expected = report%estimated*(minval(real(grid%counts, wp)/next%counts))**law%falls
          best = result
          grid = next
       end do

@@ -61,12 +61,14 @@ contains
    end subroutine first_grid
 
    !> Solve a case on one grid, behind those that it continues
-   subroutine solve_level(session, spec, grid, log, result, is_solved, seconds, error, folder)
+   subroutine solve_level(session, spec, grid, refines, log, result, is_solved, seconds, error, folder)
       type(contact_session), intent(inout) :: session
       !> As it was asked for
       type(case_spec), intent(in) :: spec
       !> Elements, window and tolerance
       type(level_grid), intent(in) :: grid
+      !> Does the session hold the solution of this case on a coarser grid?
+      logical, intent(in) :: refines
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
       !> Did all iterations converge, also those of the cases before?
@@ -87,20 +89,22 @@ contains
          do k = 1, session%series%before(spec)
             before = session%series%steps(k)
             before%limits = spec%limits
-            call solve_step(session, before, grid, log, result, is_solved, error, folder)
+            call solve_step(session, before, grid, .false., log, result, is_solved, error, folder)
             if (allocated(error)) return
          end do
       end if
-      call solve_step(session, spec, grid, log, result, is_solved, error, folder)
+      call solve_step(session, spec, grid, refines .and. .not. has_history(spec), log, result, is_solved, error, folder)
       seconds = wall_clock() - began
    end subroutine solve_level
 
    !> Solve one case on one grid
-   subroutine solve_step(session, spec, grid, log, result, is_solved, error, folder)
+   subroutine solve_step(session, spec, grid, refines, log, result, is_solved, error, folder)
       type(contact_session), intent(inout) :: session
       !> As it was asked for
       type(case_spec), intent(in) :: spec
       type(level_grid), intent(in) :: grid
+      !> Do iterations start from the solution of this case on a coarser grid?
+      logical, intent(in) :: refines
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
       !> Stays true where iterations converge
@@ -116,6 +120,8 @@ contains
          if (spec%link == time_link%repeat_step) level%link = session%series%steps(session%series%used)%link
          if (level%link /= time_link%initiate) level%estimate = estimate_choice%previous
       end if
+      session%refines = refines .and. result%ncon > 0
+      if (session%refines) level%estimate = estimate_choice%previous
       level%parts%grid = part_source%given
       level%parts%geometry = part_source%given
       if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
@@ -123,6 +129,7 @@ contains
       if (grid%lengths(1) > 0.0_wp .and. spec%motion == motion%steady_rolling) level%rolling%dq = grid%lengths(1)/grid%counts(1)
       call log%defer()
       call solve_case(session, level, log, result, error, folder)
+      session%refines = .false.
       if (.not. allocated(error)) is_solved = is_solved .and. result%status%is_solved()
    end subroutine solve_step
 end module contact_cases_accuracy_level

@@ -146,7 +146,7 @@ contains
       end if
       n = (expected_across(law, spec%iteration%accuracy)/usual_share)**2*more_elements
       remembers = spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none
-      if (remembers .or. (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile)) n = uneven*n
+      if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile) n = uneven*n
       most = most_elements(spec%limits)
       if (allocated(spec%wheel_rail)) most = min(most, real(spec%iteration%npot_max, wp))
       cost%at_most = n > most

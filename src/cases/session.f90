@@ -17,6 +17,7 @@ module contact_cases_session
    use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_patch_border, only : find_border
    use contact_patch_error_estimate, only : coarse_level, estimate_errors, release_coarse_level
+   use contact_patch_finer_level, only : interpolate_fields
    use contact_patch_time_steps, only : clear_time_step, link_time_steps
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -42,6 +43,8 @@ module contact_cases_session
       type(potential_contact) :: advised
       !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy [1/mm]; 0 for none
       real(wp) :: curvatures(2) = 0.0_wp
+      !> Does the next case go on from its own solution on other elements?
+      logical :: refines = .false.
       !> The cases that the next one may continue, where they have an accuracy
       type(accuracy_series) :: series
    end type contact_session
@@ -84,6 +87,7 @@ contains
       call set_problem(spec, folder, session%problem, log, error)
       call tell_hertz(session%problem, result)
       if (allocated(error)) return
+      if (session%refines) call interpolate_fields(session%problem%grid, session%state%now)
       call link_time_steps(session%problem, spec%link, session%state, error)
       if (allocated(error)) then
          call forget(session, result)

@@ -8,8 +8,9 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+   use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, first_order_alone, &
+      & is_near_enough, most_elements, most_levels, not_converged, observed_order, prepare_level, &
+      & refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : typical_half_side
    use contact_cases_spec, only : case_spec
@@ -128,8 +129,8 @@ contains
          report%sides = sides
          if (is_near_enough(report%estimated, expected, report%asked)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
-         if (spec%motion == motion%steady_rolling .and. report%order /= 2) law%order = min(law%order, 1.0_wp)
-         call next_sides(spec, session%memory, report, law%order, sides, next)
+         if (spec%motion == motion%steady_rolling .and. report%order /= 2) law = first_order_alone(law)
+         call next_sides(spec, session%memory, report, observed_order(law, report%estimated, before, expected), sides, next)
          if (.not. product(sides/next) >= worth**2) then
             report%reason = "smaller elements would be more than NPOT_MAX or the limits allow"
             exit
@@ -139,7 +140,7 @@ contains
             exit
          end if
          expected = 0.0_wp
-         if (report%estimated >= 0.0_wp) expected = report%estimated*maxval(next/sides)**law%order
+         if (report%estimated >= 0.0_wp) expected = report%estimated*minval(next/sides)**law%falls
          before = report%estimated
          best = result
          sides = next

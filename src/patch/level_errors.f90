@@ -36,24 +36,27 @@ module contact_patch_level_errors
    !> Errors of tangential forces and moment are at least this part of the largest of them
    real(wp), parameter :: other_component = 0.2_wp
    !> Where slip turns round without adhesion in between, elements do not see where: forces are off by this part of what an
-   !> element carries there. Root of the mean square over positions of the grid, two rollers of aluminium and steel
-   real(wp), parameter :: reversal_share = 0.7_wp
+   !> element carries there. Root of the mean square over positions of the grid, two rollers of aluminium and steel; in shifts of
+   !> like bodies, where single elements at the edge of what slips back do so (kind shifts, seed 7101)
+   real(wp), parameter :: reversal_share = 0.7_wp, reversal_in_shifts = 0.18_wp
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
-   !> with seeds 1001 and 1002. Forces of steady rolling; of shifts
-   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp
+   !> with seed 5301. Forces of steady rolling; of shifts
+   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.12_wp
+   !> The same of a single layer in rolling, whose slip has a length of its own: factor of n^-1 (seed 4001)
+   real(wp), parameter :: layer_floor = 0.3_wp
    !> Elements that do not resolve the relaxation of viscoelastic bodies: factor of n^-1, by order (seeds 8101 and 8103)
    real(wp), parameter :: relaxing_floor(2) = [0.05_wp, 0.15_wp]
    !> Part of these that moments have where both forces are prescribed; of random contacts (seed 3101)
    real(wp), parameter :: moment_alone = 0.5_wp
-   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
-   !> there also of the energy of tractions
-   real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
+   !> Power: factor of n^-order of the power of full sliding, in rolling, and of the work of shifts (seed 5301); of n^-2 and
+   !> adhesion in steady rolling; with a layer, of n^-1, there also of the energy of tractions
+   real(wp), parameter :: power_floor(2) = [0.1_wp, 0.07_wp], adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
    !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
    !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
    !> part and of n^-order of that of tractions, and part of the error of that by the levels; error in general over n^-2 of the
    !> part of pressures; of random contacts of tests/accuracy
-   real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp, usual_energy = 0.07_wp
+   real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp, usual_energy = 0.055_wp
    !> What levels tell of the power of the motion: part that has their sign, and part that has not; of random contacts of
    !> tests/accuracy (seeds 1001 and 1002)
    real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
@@ -63,7 +66,10 @@ module contact_patch_level_errors
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
    !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak of
    !> like and of unlike bodies
-   real(wp), parameter :: trust = 0.8_wp, peak_trust(2) = [0.65_wp, 0.75_wp]
+   real(wp), parameter :: trust = 0.7_wp, peak_trust(2) = [0.65_wp, 0.75_wp]
+   !> Elements across on which the coarse level of a third of them sees what a peak is like; with fewer its difference is larger
+   !> than its order says, and counts with a smaller power; of viscoelastic bodies and bumpy profiles (seeds 55 and 5301)
+   real(wp), parameter :: clear_peak = 20.0_wp
    !> Parts of the elastic energy have errors of opposite signs more often than not: median of their sum over the root of squares
    real(wp), parameter :: opposite = 0.45_wp
    !> Part of a residual that shows in forces; measured between tolerances of 1e-2 and 1e-4
@@ -115,7 +121,8 @@ contains
          floor = driven_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
          if (scale%is_moment_alone .and. row%law == error_law%friction) floor = moment_alone*floor
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
-         if (row%law == error_law%friction) floor = max(floor, reversal_share*scale%reversal)
+         if (row%law == error_law%friction) floor = max(floor, scale%reversal &
+            & *merge(reversal_share, reversal_in_shifts, scale%order < normal_order .or. scale%coupling > 0.0_wp))
       case (error_law%power)
          e = error_of_power(scale, difference, unit)
          floor = 0.0_wp
@@ -159,16 +166,21 @@ contains
       type(scale_type), intent(in) :: scale
 
       if (scale%order <= first_order) then
-         floor = rolling_floor(1)/scale%mean_across
+         floor = merge(rolling_floor(1), layer_floor, scale%clean .or. scale%steps)/scale%mean_across
       else
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)/scale%mean_across**2
       end if
-      ! elements that do not resolve the relaxation have the first order
-      floor = sqrt(scale%adhesion)*max(floor, merge(relaxing_floor(2), relaxing_floor(1), scale%order > first_order) &
-         & *scale%relaxation/scale%mean_across)
+      floor = sqrt(scale%adhesion)*max(floor, unrelaxed(scale))
       if (scale%order > first_order) floor = floor + falling_floor*scale%falling/scale%mean_across**2
       if (is_unseen(scale)) floor = floor*scale%irregular
    end function friction_floor
+
+   !> Its part of first order by elements that do not resolve the relaxation of the bodies, over the root of the part that sticks
+   pure real(wp) function unrelaxed(scale) result(floor)
+      type(scale_type), intent(in) :: scale
+
+      floor = merge(relaxing_floor(2), relaxing_floor(1), scale%order > first_order)*scale%relaxation/scale%mean_across
+   end function unrelaxed
 
    !> The same with what pressures of unlike bodies bring in, of first order by both schemes
    pure real(wp) function driven_floor(scale) result(floor)
@@ -252,10 +264,10 @@ contains
          & e = hypot(scale%motion_change, scale%surplus - scale%coarse_surplus)
       e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*e
       if (is_unseen(scale)) e = 0.0_wp
-      floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
+      floor = merge(power_floor(1), power_floor(2), scale%order < normal_order)*sqrt(scale%adhesion)/scale%across**nint(scale%order)
       if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
          & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
-      floor = floor*full_power
+      floor = max(floor, sqrt(scale%adhesion)*unrelaxed(scale))*full_power
       e = e + heat
       if (scale%jumps) e = trusted(e, floor, trust)
       e = max(e, floor)
@@ -315,7 +327,8 @@ contains
       peak = peak_of(result%pn)
       floor = peak_floor/scale%across**2
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
-      e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp))
+      e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp) &
+         & *min(1.0_wp, scale%across/clear_peak)**3)
       floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
       e = max(e, floor, unresolved*(largest_bend(result%pn)/result%pmax - smooth_bend/scale%across**2))

@@ -1,7 +1,8 @@
 """What --accuracy costs beside the cheapest fixed grid of each contact: python3 best_grids.py [--count N] [--wheels N] [--seed S]
 
 The contacts of asked.py with the same seed. Each is solved with --accuracy, and on fixed grids from coarse to fine, by the second
-order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked.
+order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked, in
+each of its cases where these are a series.
 Times are user and system time of a process with one contact, the least of some, without that of a process that solves nothing: from
 scratch, with influence coefficients and plans of transforms. With --further they are those of one more contact in the same file,
 which finds plans, and on a fixed grid coefficients, too. With --instructions counts of valgrind take the place of times, which
@@ -16,10 +17,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from asked import FIXED, FIXED_WHEELS, contact_errors, exact_totals, parser_of, value_of, wheel_error, wheel_of
+from asked import FIXED, FIXED_WHEELS, error_of, exact_totals, parser_of, value_of, wheel_error, wheel_of
 from cost import processor_time
 from error_cases import contact, text_of, wheel, wheel_text
-from errors import run
+from errors import patch_of, run
 
 #: How often a contact is solved more, and repeated
 COPIES, RUNS = 4, 3
@@ -82,15 +83,16 @@ def contacts_compared(program, asked, folder):
     source = random.Random(asked.seed)
     for c in [contact(source, asked.kinds[k % len(asked.kinds)]) for k in range(asked.count)]:
         references = [run(program, folder, "reference", [text_of(c, n, (source.random(), source.random()), 1e-7)], False,
-                          ("--order", "2")).get(c["steps"], {}) for n in (asked.reference, 2 * asked.reference)]
-        exact = exact_totals(c, references)
-        if exact is None:
+                          ("--order", "2")) for n in (asked.reference, 2 * asked.reference)]
+        exact = [exact_totals(c, [records.get(case, {}) for records in references]) for case in range(1, c["steps"] + 1)]
+        if None in exact:
             continue
         offset = (source.random(), source.random())
 
         def error(records, c=c, exact=exact):
             told = records.get(c["steps"], {}).get("patches", [{}])[0].get("accuracy", {})
-            return contact_errors([c], records, [exact])[0], told
+            patches = [patch_of(records, case) for case in range(1, c["steps"] + 1)]
+            return max(math.inf if p is None else error_of(c, p["totals"], e[0]) for p, e in zip(patches, exact)), told
 
         for tolerance in asked.asked:
             yield c["kind"], tolerance, *compare(lambda n, eps, c=c, o=offset: text_of(c, n, o, eps), FIXED + FINEST, error,

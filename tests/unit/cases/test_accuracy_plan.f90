@@ -1,0 +1,70 @@
+!> How an accuracy is sought: when a grid will do, and the order that estimates of two grids show
+program test_accuracy_plan
+   use contact_base_choices, only : force_control, motion
+   use contact_base_kinds, only : wp
+   use contact_cases_accuracy_plan, only : accuracy_law, expected_across, expected_law, finer_across, first_order_alone, &
+      & is_near_enough, observed_order
+   use contact_cases_spec, only : case_spec
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   real(wp), parameter :: asked = 1.0e-3_wp
+   type(test_suite) :: suite
+
+   call suite%start("accuracy_plan")
+   call ends(suite)
+   call orders(suite)
+   call kinds(suite)
+   call suite%finish()
+
+contains
+
+   subroutine ends(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call suite%check(is_near_enough(0.6_wp*asked, 0.0_wp, asked), "the first grid, well below")
+      call suite%check(.not. is_near_enough(0.8_wp*asked, 0.0_wp, asked), "the first grid, narrowly below")
+      call suite%check(is_near_enough(0.8_wp*asked, 0.5_wp*asked, asked), "two samples of which one is narrowly below")
+      call suite%check(.not. is_near_enough(0.8_wp*asked, 1.2_wp*asked, asked), "two samples, the other one above")
+      call suite%check(.not. is_near_enough(0.95_wp*asked, 0.1_wp*asked, asked), "an estimate that is too near, whatever else")
+      call suite%check(.not. is_near_enough(0.1_wp*asked, 2.0_wp*asked, asked), "an estimate that is small by accident")
+      call suite%check(.not. is_near_enough(-1.0_wp, 0.1_wp*asked, asked), "no estimate")
+   end subroutine ends
+
+   subroutine orders(suite)
+      type(test_suite), intent(inout) :: suite
+      type(accuracy_law) :: law
+      real(wp) :: before, ratio
+
+      law = accuracy_law(factor=0.6_wp, order=1.8_wp, falls=2.1_wp)
+      before = 5.0e-3_wp
+      ratio = 2.5_wp
+      associate (expected => before*ratio**(-law%falls))
+         call suite%close_to(observed_order(law, before*ratio**(-1.4_wp), before, expected), 1.4_wp, 1.0e-12_wp, "as observed")
+         call suite%close_to(observed_order(law, before*ratio**(-3.0_wp), before, expected), 2.1_wp, 1.0e-12_wp, "not more")
+         call suite%close_to(observed_order(law, before*ratio**(-0.2_wp), before, expected), 1.0_wp, 1.0e-12_wp, &
+            & "not less than one")
+      end associate
+      call suite%close_to(observed_order(law, before, 0.0_wp, 0.0_wp), 2.1_wp, 1.0e-12_wp, "of the first grid")
+      law = first_order_alone(law)
+      call suite%close_to(observed_order(law, before, 0.0_wp, 0.0_wp), 1.0_wp, 1.0e-12_wp, "where the first order acts")
+      call suite%check(finer_across(30.0_wp, 2.0_wp*asked, asked, 1.0_wp) > finer_across(30.0_wp, 2.0_wp*asked, asked, 2.0_wp), &
+         & "a lower order needs more elements")
+   end subroutine orders
+
+   !> Kinds of contact whose estimates are larger have a finer first grid
+   subroutine kinds(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      real(wp) :: plain
+
+      spec%motion = motion%steady_rolling
+      spec%material%poiss = 0.28_wp
+      spec%material%gg = 82000.0_wp
+      plain = expected_across(expected_law(spec), asked)
+      spec%force = force_control%fx_and_fy
+      call suite%check(expected_across(expected_law(spec), asked) > plain, "forces prescribed")
+      spec%force = force_control%creepages
+      spec%material%gg = [82000.0_wp, 20000.0_wp]
+      call suite%check(expected_across(expected_law(spec), asked) > plain, "unlike bodies")
+   end subroutine kinds
+end program test_accuracy_plan
