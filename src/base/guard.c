@@ -20,6 +20,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "kept_blocks.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WATCHED 0
@@ -37,6 +38,7 @@ void contact_guard_free(int owner);
 int contact_guard_new_owner(void);
 void contact_guard_set_owner(int owner);
 void contact_guard_expect(int refusals);
+void contact_guard_use_blocks(struct kept_blocks *blocks);
 void contact_guard_whole_process(void);
 _Noreturn void contact_guard_without_memory(void);
 int contact_guard_is_watched(void);
@@ -57,6 +59,7 @@ int contact_guard(void (*work)(void *), void *data, int owner) {
 void contact_guard_free(int owner) { (void)owner; }
 void contact_guard_set_owner(int owner) { (void)owner; }
 void contact_guard_expect(int refusals) { (void)refusals; }
+void contact_guard_use_blocks(struct kept_blocks *blocks) { (void)blocks; }
 void contact_guard_whole_process(void) {}
 _Noreturn void contact_guard_without_memory(void) { abort(); }
 int contact_guard_is_watched(void) { return 0; }
@@ -88,6 +91,8 @@ static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
   struct guard *guard;
   /* To whom blocks belong; does the code look at refusals itself? */
   int owner, expects;
+  /* Where it takes blocks from and gives them back to; NULL: the heap */
+  struct kept_blocks *blocks;
   /* Critical sections that the thread is in */
   int criticals;
   void **critical[max_criticals];
@@ -239,12 +244,16 @@ void contact_guard_set_owner(int owner) { me.owner = owner; }
 /* Does the code that follows check the result of its own allocations (1) or not (0)? */
 void contact_guard_expect(int refusals) { me.expects = refusals; }
 
+/* From now on this thread takes blocks from those that an owner keeps, and gives them back there; NULL: no longer */
+void contact_guard_use_blocks(struct kept_blocks *blocks) { me.blocks = blocks; }
+
 /* ---- guards ---- */
 
 /* Run the work. If it runs out of memory it is abandoned, and the cause is returned */
 int contact_guard(void (*work)(void *), void *data, int owner) {
   struct guard guard;
   const int owner_before = me.owner;
+  struct kept_blocks *const blocks_before = me.blocks;
   guard.outer = me.guard;
   guard.criticals = me.criticals;
   guard.cause = done;
@@ -255,6 +264,7 @@ int contact_guard(void (*work)(void *), void *data, int owner) {
   }
   me.guard = guard.outer;
   me.owner = owner_before;
+  me.blocks = blocks_before;
   me.expects = 0;
   return guard.cause;
 }
@@ -281,16 +291,23 @@ static void *serve(size_t n, size_t align, int own) {
 }
 
 static void *request(size_t n, int own) {
-  void *p = real.malloc(n);
+  void *p = NULL;
+  const int keeps = own && me.blocks != NULL;
+  if (keeps) p = contact_kept_take(me.blocks, n);
+  if (p == NULL) p = real.malloc(keeps ? contact_kept_size(n) : n);
   if (p == NULL) return serve(n, 16, own);
   if (own && n >= recorded) note(p, me.owner);
   return p;
 }
 
 static void *cleared(size_t count, size_t size, int own) {
-  void *p = real.calloc(count, size);
+  void *p = NULL;
+  size_t n;
+  const int keeps = own && me.blocks != NULL && !__builtin_mul_overflow(count, size, &n);
+  if (keeps) p = contact_kept_take(me.blocks, n);
+  if (p != NULL) memset(p, 0, n);
+  if (p == NULL) p = keeps ? real.calloc(1, contact_kept_size(n)) : real.calloc(count, size);
   if (p == NULL) {
-    size_t n;
     if (__builtin_mul_overflow(count, size, &n)) n = SIZE_MAX;
     p = serve(n, 16, own);
     if (p != NULL) memset(p, 0, n);
@@ -306,12 +323,22 @@ static void release(void *p) {
     return;
   }
   forget(p);
+  if (me.blocks != NULL && p != NULL && contact_kept_put(me.blocks, p, real.usable_size(p))) return;
   real.free(p);
 }
 
 static void *resized(void *p, size_t n, int own) {
   if (p == NULL) return request(n, own);
   size_t old;
+  if (own && me.blocks != NULL && n > 0 && !in_reserve(p)) {
+    old = real.usable_size(p);
+    if (n <= old && old/2 <= n) return p;
+    void *q = request(n, own);
+    if (q == NULL) return NULL;
+    memcpy(q, p, old < n ? old : n);
+    release(p);
+    return q;
+  }
   if (in_reserve(p)) {
     old = piece_of(p)->size - unit;
     if (n <= old && n > 0) return p;

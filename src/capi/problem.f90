@@ -10,6 +10,7 @@ module contact_capi_problem
    use contact_base_choices, only : grid_form, kernel_model, pressure_model
    use contact_base_constants, only : pi
    use contact_base_guard, only : free_left_blocks, new_owner
+   use contact_base_kept_blocks, only : kept_blocks
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, rolling_spec
@@ -118,6 +119,8 @@ module contact_capi_problem
       logical :: was_calculated = .false.
       !> Owner of the memory that calculations allocate
       integer :: owner = 0
+      !> Blocks of memory that a calculation leaves for the next one
+      type(kept_blocks) :: kept
       !> Number of threads of whoever calculates, outside
       integer :: threads_of_caller = 1
       !> One thread at a time. It and what follows stay where they are when all else is replaced
@@ -175,6 +178,7 @@ contains
       type(library_problem), pointer, intent(inout) :: problem
 
       call release_slot(problem%problem_slot)
+      call problem%kept%release()
       call omp_destroy_lock(problem%lock)
       deallocate(problem)
       nullify(problem)
@@ -209,6 +213,7 @@ contains
       integer(int8), pointer :: old(:), new(:)
       integer(c_intptr_t) :: length
 
+      call problem%kept%release()
       fresh => new_problem(problem%ire, problem%icp, problem%module_number)
       length = transfer(c_loc(problem%lock), length) - transfer(c_loc(problem), length)
       call c_f_pointer(c_loc(problem), old, [length])

@@ -211,6 +211,8 @@ contains
             call begin_turn(int(max_threads(), c_int))
             call note_call(c_loc(problem), call_stage%calculation)
             call set_owner(problem%owner)
+            ! arrays of wheel and rail follow a contact that moves
+            if (problem%module_number == 1) call problem%kept%use_them()
             call forget_complaint(problem)
             problem%threads_of_caller = omp_get_max_threads()
             call omp_set_num_threads(threads_inside())
@@ -336,6 +338,7 @@ contains
       call end_turn()
       call note_call(c_loc(problem), call_stage%inside)
       call set_owner(0)
+      call problem%kept%stop_using()
       !$omp critical (contact_registry)
       ! The file can be read while the caller goes on
       call library%log%out%flush_now()

@@ -19,6 +19,7 @@ module contact_cases_patch_setup
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
    use contact_simplified_flexibility, only : ellipse, slope_reduction
+   use contact_simplified_problem, only : simplified_model
    use contact_cases_numbers, only : require_positive
    implicit none (type, external)
    private
@@ -226,13 +227,16 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      if (allocated(problem%simplified)) deallocate(problem%simplified)
-      if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) return
+      if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) then
+         if (allocated(problem%simplified)) deallocate(problem%simplified)
+         return
+      end if
       if (allocated(problem%friction)) then
          ! friction follows from the rigid slip velocity, particles carry nothing along
          problem%remembers_friction = .false.
       end if
-      allocate(problem%simplified)
+      if (.not. allocated(problem%simplified)) allocate(problem%simplified)
+      problem%simplified = simplified_model()
       associate (model => problem%simplified)
          model%choice = spec%material_model
          model%flx = spec%material%flx

@@ -191,7 +191,8 @@ contains
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
             & folder, session%wanted(2), problem%wheel, problem%wheel_surface, log, error, spec%limits%confined)
          if (allocated(error)) return
-         z = problem%rail%z%node_range()
+         z = 0.0_wp
+         if (spec%wheel_rail%new_rail_profile .or. spec%wheel_rail%roller) z = problem%rail%z%node_range()
          associate (height => spec%wheel_rail%track%gaught)
             if (spec%wheel_rail%new_rail_profile .and. height > z(2) - z(1)) call log%warning("GAUGHT = " // &
                & real_text(height) // " mm, but the profile of the rail is only " // real_text(z(2) - z(1)) // &
@@ -222,7 +223,7 @@ contains
       type(case_spec), allocatable :: first_set
 
       associate (problem => session%problem, template => session%problem%template)
-         problem%spec = spec%wheel_rail
+         problem%spec = spec%wheel_rail%pair_spec
          call check_files(session, spec, folder, log, error)
          if (allocated(error)) return
          problem%force_prescribed = spec%normal == normal_control%force

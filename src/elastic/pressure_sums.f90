@@ -24,6 +24,8 @@ module contact_elastic_pressure_sums
       procedure :: prepare
       !> Weighted sum of displacements
       procedure :: weighted
+      !> Displacements where there are pressures
+      procedure :: displace
    end type pressure_sums
 
 contains
@@ -97,4 +99,43 @@ contains
          end do
       end do
    end function weighted
+
+   !> Displacements of the elements with pressures [mm]; 0 in the others
+   pure subroutine displace(self, p, u)
+      class(pressure_sums), intent(in) :: self
+      !> Pressures [N/mm2], of the shape of the window
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Positive where the surfaces move apart, of the same shape
+      real(wp), contiguous, intent(inout) :: u(:, :)
+      real(wp) :: row(4)
+      integer :: ix, iy, k, l, m, first, last
+
+      u = 0.0_wp
+      do l = 1, size(p, 2)
+         last = 0
+         first = 0
+         do k = 1, size(p, 1)
+            if (p(k, l) <= 0.0_wp) cycle
+            if (first == 0) first = k
+            last = k
+         end do
+         if (last == 0) cycle
+         do iy = 1, size(p, 2)
+            do ix = 1, size(p, 1)
+               if (p(ix, iy) <= 0.0_wp) cycle
+               ! four sums at once do not wait for each other; coefficients are even in both directions
+               row = 0.0_wp
+               do k = first, last - 3, 4
+                  do m = 0, 3
+                     row(m + 1) = row(m + 1) + self%table%nn(k + m - ix, l - iy)*p(k + m, l)
+                  end do
+               end do
+               do m = k, last
+                  row(1) = row(1) + self%table%nn(m - ix, l - iy)*p(m, l)
+               end do
+               u(ix, iy) = u(ix, iy) + sum(row)
+            end do
+         end do
+      end do
+   end subroutine displace
 end module contact_elastic_pressure_sums

@@ -18,6 +18,8 @@ module contact_patch_derived
 
    !> Lower bound of the velocity in the computation of the time step [mm/s]
    real(wp), parameter :: min_velocity = 1.0e-10_wp
+   !> Elements in contact up to which sums of displacements take less time than transforms
+   integer, parameter :: few_elements = 200
 
 contains
 
@@ -222,6 +224,14 @@ contains
       result%ux = workspace%simplified_solution%compliance(1)*result%px
       result%uy = workspace%simplified_solution%compliance(2)*result%py
       if (allocated(problem%given_pressure)) return
+      if (.not. problem%want_exterior .and. result%ncon <= few_elements .and. workspace%sums%suits(problem%model)) then
+         if (.not. allocated(workspace%sums)) allocate(workspace%sums)
+         associate (grid => problem%grid)
+            call workspace%sums%prepare(problem%model, grid%dx, grid%dy, grid%mx, grid%my)
+         end associate
+         call workspace%sums%displace(state%now%pn, result%un)
+         return
+      end if
       call pressure_displacement(problem, workspace, state%now%pn, result%un)
       if (.not. problem%want_exterior) then
          where (result%division == element%exterior) result%un = 0.0_wp

@@ -27,21 +27,15 @@ contains
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
       integer :: across(2)
-      integer :: column(size(division, 1))
-      integer :: ix, iy, row
+      integer :: ix, iy
 
       across = 0
-      column = 0
       do iy = 1, size(division, 2)
-         row = 0
-         do ix = 1, size(division, 1)
-            if (division(ix, iy) <= element%exterior) cycle
-            row = row + 1
-            column(ix) = column(ix) + 1
-         end do
-         across(1) = max(across(1), row)
+         across(1) = max(across(1), count(division(:, iy) > element%exterior))
       end do
-      if (size(column) > 0) across(2) = maxval(column)
+      do ix = 1, size(division, 1)
+         across(2) = max(across(2), count(division(ix, :) > element%exterior))
+      end do
       where (shape(division) < has_direction) across = 0
    end function elements_across
 

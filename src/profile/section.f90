@@ -148,6 +148,7 @@ contains
       real(wp), intent(in) :: y
       !> Height along the normal of the patch, into the rail [mm]; unchanged where there is no surface
       real(wp), intent(inout) :: z
+      !> Is there a surface?
       logical, intent(out) :: found
       real(wp) :: c(0:3), place, here
       integer :: k

@@ -12,7 +12,7 @@ module contact_simplified_fastrip
    implicit none (type, external)
    private
 
-   public :: strip_data, apply_strip_theory, slip_half_length, scaled_creepages
+   public :: strip_data, apply_strip_theory, slip_half_length
 
    !> Data of the contact for strip theory
    type :: strip_data
@@ -34,7 +34,7 @@ module contact_simplified_fastrip
 contains
 
    !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
-   pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division)
+   pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division, scratch)
       !> Ellipse, material, force and creepages that strip theory starts from
       type(strip_data), intent(in) :: data
       !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
@@ -49,9 +49,13 @@ contains
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
       !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
+      !> Of the shape of p; its contents do not matter
+      real(wp), contiguous, intent(inout) :: scratch(:, :, :)
+      type(creepage_coefficients) :: c
       integer :: mx, iy, first, last
 
       mx = size(contact, 1)
+      c = kalker_coefficients(data%area%aa, data%area%bb, data%nu)
       do iy = 1, size(contact, 2)
          if (mu(iy)*data%fn <= 0.0_wp) cycle
          last = 0
@@ -67,20 +71,23 @@ contains
                if (.not. contact(last + 1, iy)) exit
                last = last + 1
             end do
-            call one_strip(data, x(first:last), y(iy), dx, mu(iy), bound(first:last, iy), p(first:last, iy, :), &
-               & slip(first:last, iy, :), division(first:last, iy))
+            call one_strip(data, c, x(first:last), y(iy), dx, mu(iy), bound(first:last, iy), p(first:last, iy, :), &
+               & slip(first:last, iy, :), division(first:last, iy), scratch(first:last, iy, :))
          end do
       end do
    end subroutine apply_strip_theory
 
    !> One strip: adhesion from strip theory where that is possible
-   pure subroutine one_strip(data, x, y, dx, mu, bound, p, slip, division)
+   pure subroutine one_strip(data, c, x, y, dx, mu, bound, p, slip, division, f)
       type(strip_data), intent(in) :: data
+      !> Kalker's coefficients of its ellipse [-]
+      type(creepage_coefficients), intent(in) :: c
       real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
       real(wp), intent(inout) :: p(:, :), slip(:, :)
       integer, intent(inout) :: division(:)
+      !> Scratch, shape (size(x), 2): tractions by strip theory relative to the largest bound [-]
+      real(wp), intent(inout) :: f(:, :)
       real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, whole, stick, xi, length
-      real(wp) :: f(size(x), 2)
       integer :: i, n
 
       n = size(x)
@@ -89,7 +96,7 @@ contains
       middle = 0.5_wp*(x(1) + x(n))
       creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
       creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
-      call scaled_creepages(data, mu, creep, spin)
+      call scale_creepages(data, c, mu, creep, spin)
       ! seen from the leading edge: rolling towards decreasing x is a mirror image
       creep(1) = data%direction*creep(1)
       spin = data%direction*spin
@@ -139,24 +146,23 @@ contains
    !> Scale the creepages and the spin of the contact to those of a strip, in place
    !>
    !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
-   pure subroutine scaled_creepages(data, mu, creep, spin)
-      !> Ellipse, material, force and creepages that strip theory starts from
+   pure subroutine scale_creepages(data, c, mu, creep, spin)
       type(strip_data), intent(in) :: data
+      !> Kalker's coefficients of the ellipse [-]
+      type(creepage_coefficients), intent(in) :: c
       !> Coefficient of friction [-]
       real(wp), intent(in) :: mu
       !> Creepages [-] on entry, scaled on exit
       real(wp), intent(inout) :: creep(2)
       !> Scaled spin [-]
       real(wp), intent(out) :: spin
-      type(creepage_coefficients) :: c
       real(wp) :: unit
 
-      c = kalker_coefficients(data%area%aa, data%area%bb, data%nu)
       unit = -data%slope*data%gg/(mu*peak_pressure(data))
       creep(1) = unit*2.0_wp*(1.0_wp - data%nu)*c%c11/pi**2*creep(1)
       creep(2) = unit*2.0_wp*(1.0_wp - data%nu)*c%c22/pi**2*creep(2)
       spin = unit*3.0_wp*sqrt(data%area%aa*data%area%bb)*c%c23/(2.0_wp*pi)*data%spin
-   end subroutine scaled_creepages
+   end subroutine scale_creepages
 
    !> Half-length of the slip area by strip theory [mm]; huge in full sliding
    !>

@@ -73,7 +73,7 @@ module contact_simplified_problem
 
    !> Tractions and the quantities derived from them
    type :: simplified_solution
-      !> Tractions [N/mm2], slip and rigid slip per step [mm], all of shape (mx, my, 2)
+      !> Tractions [N/mm2], slip and rigid slip per step [mm], all of shape (mx, my, 2); strip theory overwrites the last one
       real(wp), allocatable :: p(:, :, :), slip(:, :, :), shift(:, :, :)
       !> Traction bound [N/mm2], element states, shape (mx, my)
       real(wp), allocatable :: bound(:, :)
@@ -162,7 +162,7 @@ contains
       end if
       if (is_fastrip(problem%model%choice)) then
          call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, problem%dx, solution%mu, &
-            & problem%contact, solution%bound, solution%p, solution%slip, solution%division)
+            & problem%contact, solution%bound, solution%p, solution%slip, solution%division, scratch=solution%shift)
       end if
       solution%force = problem%dx*problem%dy*[sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))] &
          & /(problem%mu_scal*problem%fn + tiny(1.0_wp))

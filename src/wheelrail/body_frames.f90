@@ -5,7 +5,7 @@ module contact_wheelrail_body_frames
    use contact_base_kinds, only : wp
    use contact_wheelrail_frame, only : cross, frame, new_frame, roll_axes
    use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -26,7 +26,7 @@ contains
    !> Frames of the last solution
    pure function frames_of(pair, result) result(frames)
       !> For the position of the wheelset and its side of the track
-      type(wheel_rail_spec), intent(in) :: pair
+      class(pair_spec), intent(in) :: pair
       !> For the markers
       type(wheel_rail_result), intent(in) :: result
       type(body_frames) :: frames

@@ -141,14 +141,15 @@ contains
       !> Meshes of the last gap on entry: their arrays are kept
       type(gap_curve), allocatable, intent(inout) :: closer(:)
       type(gap_curve), allocatable :: fewer(:)
-      real(wp) :: y, lowest
+      real(wp) :: y, lowest, smallest
       integer :: i, n, first, last
 
       if (.not. allocated(closer)) allocate(closer(0))
+      smallest = minval(gap%gap)
       n = 0
       do i = 2, gap%n - 1
          if (gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
-         if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > minval(gap%gap) + looked_at) cycle
+         if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > smallest + looked_at) cycle
          call smallest_in_row(gap%y(i - 1:i + 1), gap%gap(i - 1:i + 1), y, lowest)
          if (abs(gap_at(rail, wheel, placement, gap, y) - lowest) &
             & <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
@@ -253,6 +254,9 @@ contains
       start = gap%y(1)
       associate (nodes => wheel%y%s)
          do k = 1, size(nodes) - 1
+            if (gap%is_surveyed) then
+               if (.not. gap%survey%needs_piece(k)) cycle
+            end if
             ! the surface faces the rail where places run with falling y
             if (lateral(k) > lateral(k + 1)) call add_piece(k, lateral(k:k + 1))
          end do
@@ -305,7 +309,7 @@ contains
       lowest = lowest - 0.5_wp*bend*shift**2
    end subroutine smallest_in_row
 
-   !> Lateral positions in the track of the locus at the ends of pieces that a survey found near the rail; estimates at the others [mm]
+   !> Lateral positions in the track of the locus at the ends of pieces that a survey needs; estimates at the others [mm]
    subroutine some_lateral_positions(wheel, placement, rail, survey, lateral)
       !> As in `lateral_positions`
       type(profile_curve), intent(in) :: wheel

@@ -19,6 +19,8 @@ module contact_wheelrail_gap_survey
       real(wp), allocatable :: gap(:), x(:)
       !> Least gap that the estimate allows for [mm], shape (n)
       real(wp), allocatable, private :: least(:)
+      !> First and last piece of the wheel's profile above a mesh point, first > last where there is none; shape (2, n)
+      integer, allocatable, private :: pieces(:, :)
       !> Is the gap to be found exactly? Shape (n)
       logical, allocatable :: is_near(:)
       !> Are both ends of a piece of the wheel's profile to be found exactly? Shape (nodes)
@@ -36,8 +38,8 @@ module contact_wheelrail_gap_survey
    real(wp), parameter, public :: furthest = 0.5_wp
    !> Slopes across of a profile that is steeper count as this one [-]
    real(wp), parameter, public :: steepest = -1.0e-6_wp
-   !> Error of an estimate at most: this length [mm], and between nodes this part of the length of the piece
-   real(wp), parameter :: node_error = 0.02_wp, piece_error = 0.5_wp
+   !> Error of an estimate at a node without yaw angle at most [mm]
+   real(wp), parameter :: node_error = 0.01_wp
 
 contains
 
@@ -60,8 +62,8 @@ contains
 
       call self%make_room(size(wheel%y%s), size(y))
       call self%estimate_nodes(wheel, placement)
-      call self%estimate_gaps(wheel%y%s, y, z, on_rail, no_surface)
-      call self%mark(y, reach, looked_at, no_surface)
+      call self%estimate_gaps(wheel, placement, y, z, on_rail, no_surface)
+      call self%mark(reach, looked_at, no_surface)
    end subroutine look
 
    !> Arrays of the right size
@@ -75,9 +77,10 @@ contains
       end if
       if (.not. allocated(self%node)) allocate(self%node(3, nodes), self%needs_piece(nodes))
       if (allocated(self%gap)) then
-         if (size(self%gap) /= n) deallocate(self%gap, self%x, self%least, self%is_near)
+         if (size(self%gap) /= n) deallocate(self%gap, self%x, self%least, self%pieces, self%is_near)
       end if
-      if (.not. allocated(self%gap)) allocate(self%gap(n), self%x(n), self%least(n), self%is_near(n))
+      if (.not. allocated(self%gap)) allocate(self%gap(n), self%x(n), self%least(n), self%pieces(2, n), &
+         & self%is_near(n))
    end subroutine make_room
 
    !> The locus at the nodes, by the first step of the iteration for its longitudinal position
@@ -112,29 +115,41 @@ contains
    end subroutine estimate_nodes
 
    !> Gaps between the nodes on straight lines
-   pure subroutine estimate_gaps(self, nodes, y, z, on_rail, no_surface)
+   !>
+   !> A piece deviates from its chord by its largest second derivative times the square of its length over 8 at most.
+   pure subroutine estimate_gaps(self, wheel, placement, y, z, on_rail, no_surface)
       class(gap_survey), intent(inout) :: self
-      !> Arc lengths of the nodes [mm]
-      real(wp), intent(in) :: nodes(:)
+      type(profile_curve), intent(in) :: wheel
+      type(wheel_rail_placement), intent(in) :: placement
       !> See `look`
       real(wp), intent(in) :: y(:), z(:)
       logical, intent(in) :: on_rail(:)
       real(wp), intent(in) :: no_surface
-      real(wp) :: dy, t, vertical, error
+      real(wp) :: per_step, t, vertical, error, by_yaw, turned
       integer :: i, k
 
       self%gap = no_surface
       self%least = no_surface
       self%x = 0.0_wp
+      self%pieces(1, :) = size(wheel%y%s)
+      self%pieces(2, :) = 0
       if (size(y) < 2) return
-      dy = y(2) - y(1)
-      do k = 1, size(nodes) - 1
-         associate (a => self%node(:, k), b => self%node(:, k + 1))
+      per_step = 1.0_wp/(y(2) - y(1))
+      ! the second step of the iteration for the locus is smaller than the first one by the square of the yaw angle
+      by_yaw = node_error + furthest*placement%wheel_radius*abs(placement%wheel%axes(2, 1))**3
+      do k = 1, size(wheel%y%s) - 1
+         associate (a => self%node(:, k), b => self%node(:, k + 1), h => wheel%y%s(k + 1) - wheel%y%s(k), &
+            & cy => wheel%y%c(2:3, k), cz => wheel%z%c(2:3, k))
             ! the surface faces the rail where places run with falling y
             if (.not. a(2) > b(2)) cycle
-            error = node_error + piece_error*(nodes(k + 1) - nodes(k))
-            do i = max(1, ceiling((b(2) - y(1))/dy) + 1), min(size(y), floor((a(2) - y(1))/dy) + 1)
+            if (a(2) < y(1) .or. b(2) > y(size(y))) cycle
+            t = (b(3) - a(3))/(b(2) - a(2))
+            turned = max(abs(cz(1)), abs(cz(1) + 3.0_wp*h*cz(2))) + abs(t)*max(abs(cy(1)), abs(cy(1) + 3.0_wp*h*cy(2)))
+            error = by_yaw*(1.0_wp + abs(t)) + 0.25_wp*h**2*turned
+            do i = max(1, ceiling((b(2) - y(1))*per_step) + 1), min(size(y), floor((a(2) - y(1))*per_step) + 1)
                if (.not. on_rail(i)) cycle
+               self%pieces(1, i) = min(self%pieces(1, i), k)
+               self%pieces(2, i) = max(self%pieces(2, i), k)
                t = (y(i) - a(2))/(b(2) - a(2))
                vertical = z(i) - (a(3) + t*(b(3) - a(3)))
                self%least(i) = min(self%least(i), vertical - error)
@@ -147,17 +162,22 @@ contains
    end subroutine estimate_gaps
 
    !> Mark the mesh points whose gap may be small, and the pieces of the wheel above them
-   pure subroutine mark(self, y, reach, looked_at, no_surface)
+   pure subroutine mark(self, reach, looked_at, no_surface)
       class(gap_survey), intent(inout) :: self
       !> See `look`
-      real(wp), intent(in) :: y(:), reach, looked_at, no_surface
-      real(wp) :: most, lowest, dy
-      integer :: i, k, n
+      real(wp), intent(in) :: reach, looked_at, no_surface
+      real(wp) :: most, lowest
+      integer :: i, n
       logical :: is_minimum
 
-      n = size(y)
-      most = minval(2.0_wp*self%gap - self%least) + reach
-      lowest = minval(self%gap)
+      n = size(self%gap)
+      most = no_surface
+      lowest = no_surface
+      do i = 1, n
+         most = min(most, 2.0_wp*self%gap(i) - self%least(i))
+         lowest = min(lowest, self%gap(i))
+      end do
+      most = most + reach
       self%is_near = .false.
       do i = 1, n
          if (.not. self%gap(i) < no_surface) cycle
@@ -167,13 +187,10 @@ contains
          if (self%least(i) <= most .or. is_minimum) self%is_near(max(1, i - 1):min(n, i + 1)) = .true.
       end do
       self%needs_piece = .false.
-      if (n < 2) return
-      dy = y(2) - y(1)
-      do k = 1, size(self%needs_piece) - 1
-         associate (low => min(self%node(2, k), self%node(2, k + 1)), high => max(self%node(2, k), self%node(2, k + 1)))
-            i = max(1, ceiling((low - y(1))/dy))
-            self%needs_piece(k) = any(self%is_near(i:min(n, floor((high - y(1))/dy) + 2)))
-         end associate
+      do i = 1, n
+         ! exact ends of pieces may lie beside a mesh point where the estimates do not
+         if (self%is_near(i)) self%needs_piece(max(1, self%pieces(1, i) - 1):min(size(self%needs_piece), &
+            & self%pieces(2, i) + 1)) = .true.
       end do
    end subroutine mark
 end module contact_wheelrail_gap_survey

@@ -55,6 +55,8 @@ module contact_wheelrail_geometry
       real(wp) :: reach = 0.2_wp
       !> Do trials of the height follow each other as in a loop over time, and does the first one follow the last case?
       logical :: follows = .false., follows_last = .false.
+      !> Does the search for the height begin where the last one ended, too? Otherwise only pressures do
+      logical :: follows_height = .false.
       !> Part of EPS that the pressures of the present trial are solved to
       real(wp) :: pressure_eps = 1.0_wp
       !> The same for tangential tractions

@@ -163,7 +163,8 @@ contains
          return
       end if
       is_settled = .false.
-      if (memory%geometry%follows) then
+      search%is_sharp = memory%geometry%follows .and. .not. memory%geometry%follows_height
+      if (memory%geometry%follows_height) then
          if (memory%geometry%follows_last) &
             & search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
          call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)

@@ -36,8 +36,8 @@ module contact_wheelrail_height_search
       real(wp), private :: small = 1.0_wp
       !> Number of trials of the case before this search
       integer, private :: trials_before = 0
-      !> Are the pressures of all trials made sharp?
-      logical, private :: all_sharp = .false.
+      !> Are the pressures of all trials solved closer than within EPS? Their starting values do not matter to the force then
+      logical :: is_sharp = .false.
       !> But for the first one, which only has to tell the next height?
       logical, private :: is_rough = .false.
    contains
@@ -189,7 +189,7 @@ contains
       ! without iterations in the patches, the first trial is as accurate as any
       is_plain = .not. problem%template%solves_for_pressure() .and. allocated(problem%template%simplified)
       has_derivative = problem%template%solves_for_pressure() .and. .not. allocated(problem%template%simplified)
-      self%all_sharp = .true.
+      self%is_sharp = .true.
       z = self%guess
       best = huge(best)
       last_miss = huge(last_miss)
@@ -230,7 +230,8 @@ contains
             & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
          if (.not. z > self%touch) exit
       end do
-      self%all_sharp = .false.
+      self%is_sharp = .false.
+      self%is_rough = .false.
       self%balance%z = self%z
       self%balance%force = self%force
       self%guess = self%z
@@ -377,7 +378,7 @@ contains
       if (self%off > problem%template%settings%eps .and. self%off*self%small < near_by*problem%template%settings%eps) &
          & memory%geometry%pressure_eps = sharper*self%small
       memory%geometry%traction_eps = 1.0_wp
-      if (self%all_sharp) then
+      if (self%is_sharp) then
          memory%geometry%pressure_eps = merge(first_pressures, smooth_part(problem), self%is_rough)*self%small
          memory%geometry%traction_eps = merge(first_tractions, min(1.0_wp, smooth_tractions*smooth_part(problem)), self%is_rough)
       end if

@@ -22,7 +22,7 @@ module contact_wheelrail_jacobian
    use contact_wheelrail_problem, only : follows_surface, parameters_at, wheel_rail_problem
    use contact_wheelrail_reference_motion, only : find_reference_motions, reference_motion
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -299,7 +299,7 @@ contains
       real(wp), intent(in) :: approach(:)
       !> Derivatives of CKSI, CETA, CPHI, shape (3, inputs)
       real(wp), intent(inout) :: creepage(:, :)
-      type(wheel_rail_spec), allocatable :: spec
+      type(pair_spec), allocatable :: spec
       real(wp) :: step, pitch_rate
       integer :: k
 

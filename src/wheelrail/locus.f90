@@ -122,13 +122,17 @@ contains
 
    !> Point of the locus with a given lateral position on a piece of the profile, by the Illinois method
    function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
+      !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_in_piece`
       type(profile_curve), intent(in) :: rail
+      !> Lateral position in the track [mm]
       real(wp), intent(in) :: y
-      !> Number of the piece, and the lateral positions of its ends, y_low <= y <= y_high
+      !> Number of the piece
       integer, intent(in) :: piece
+      !> Lateral positions of its ends [mm], y_low <= y <= y_high
       real(wp), intent(in) :: y_high, y_low
       real(wp) :: point(3)
       real(wp) :: a, b, fa, fb, s, f

@@ -7,7 +7,7 @@ module contact_wheelrail_placement
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_creepage, only : rigid_motion
    use contact_wheelrail_frame, only : frame, new_frame
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -31,7 +31,7 @@ contains
    !> -1 for the left side of the track, 1 for the right one
    pure real(wp) function side_sign(wheel_rail)
       !> Its side of the track counts
-      type(wheel_rail_spec), intent(in) :: wheel_rail
+      class(pair_spec), intent(in) :: wheel_rail
       side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
 
@@ -106,7 +106,7 @@ contains
    !> Frames of wheel and rail for a given height of the wheelset
    subroutine place_wheel_rail(wheel_rail, wheel, top_z, gauge_y, z_ws, deflection, placement)
       !> Track, deviations of the rail, and position of the wheelset, as they were given for the side of the track
-      type(wheel_rail_spec), intent(in) :: wheel_rail
+      class(pair_spec), intent(in) :: wheel_rail
       !> Profile of the wheel in its own coordinates; its radius is measured there
       type(profile_curve), intent(in) :: wheel
       !> Results of gauge_point; not used with absolute placement
@@ -146,7 +146,7 @@ contains
    !> Motion of the rail, or of the roller about its axle
    pure function rail_motion(wheel_rail, placement) result(motion)
       !> Velocities of rail and roller, as they were given
-      type(wheel_rail_spec), intent(in) :: wheel_rail
+      class(pair_spec), intent(in) :: wheel_rail
       !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       type(rigid_motion) :: motion
@@ -171,7 +171,7 @@ contains
    !> Motion of the wheel: that of the wheelset plus the rates of its flexible deviations, about the origin of the wheel profile
    pure function wheel_motion(wheel_rail, placement, pitch_rate) result(motion)
       !> Velocities of wheelset and wheel, as they were given
-      type(wheel_rail_spec), intent(in) :: wheel_rail
+      class(pair_spec), intent(in) :: wheel_rail
       !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> Pitch rate of the wheelset [rad/s]

@@ -8,7 +8,7 @@ module contact_wheelrail_problem
    use contact_patch_problem, only : patch_problem
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -25,7 +25,7 @@ module contact_wheelrail_problem
 
    !> The problem of a wheel on a rail
    type :: wheel_rail_problem
-      type(wheel_rail_spec) :: spec
+      type(pair_spec) :: spec
       !> Prepared profiles in their own coordinates
       type(profile_curve) :: rail, wheel
       !> A rail that varies along the track, a wheel that is out of round; unallocated otherwise. The profile above is then that of

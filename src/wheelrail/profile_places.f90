@@ -5,7 +5,7 @@ module contact_wheelrail_profile_places
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : gauge_point, side_sign
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -16,7 +16,7 @@ contains
    !> Positions of points of a profile in the track, y with the sign of the wheel's side; all y, then all z [mm]
    function places_in_track(spec, result, is_wheel, y, z) result(list)
       !> For the side of the track
-      type(wheel_rail_spec), intent(in) :: spec
+      class(pair_spec), intent(in) :: spec
       !> Of the last case
       type(wheel_rail_result), intent(in) :: result
       !> Profile of the wheel? Otherwise of the rail
@@ -43,7 +43,7 @@ contains
    !> Innermost point within the gauge height, y, z; offsets of the profile in the track, y, z; point at gauge height, y, z [mm]
    function gauge_places(spec, result, curve) result(list)
       !> Gauge height, cant, and the side of the track
-      type(wheel_rail_spec), intent(in) :: spec
+      class(pair_spec), intent(in) :: spec
       !> Of the last case
       type(wheel_rail_result), intent(in) :: result
       !> Profile of the rail

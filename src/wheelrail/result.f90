@@ -11,7 +11,7 @@ module contact_wheelrail_result
    use contact_base_choices, only : motion
    use contact_patch_quantities, only : error_law, orientation, total_list
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
    private
 
@@ -121,7 +121,7 @@ contains
    pure subroutine wheel_rail_totals(self, pair, list)
       class(wheel_rail_result), intent(in) :: self
       !> For the side of the track and the position of the wheelset, which is that of its side
-      type(wheel_rail_spec), intent(in) :: pair
+      class(pair_spec), intent(in) :: pair
       !> Emptied, then filled with the rows of wheel and rail
       type(total_list), intent(inout) :: list
 

@@ -44,6 +44,7 @@ contains
       if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
       memory%geometry%follows = seeks_height_alone(problem)
       memory%geometry%follows_last = memory%geometry%follows .and. follows_last(problem, memory)
+      memory%geometry%follows_height = memory%geometry%follows .and. has_one_height(problem%template)
       if (.not. (problem%use_previous .or. memory%geometry%follows_last)) then
          memory%slot%state%started = .false.
          memory%used = 0
@@ -139,7 +140,7 @@ contains
 
       alone = problem%in_loop .and. problem%force_prescribed .and. .not. problem%geometry_only &
          & .and. problem%force == force_control%creepages
-      if (alone) alone = has_one_height(problem%template)
+      if (alone) alone = has_one_height(problem%template) .or. problem%template%solves_for_pressure()
    end function seeks_height_alone
 
    !> Is the last case near enough for its results to be estimates?

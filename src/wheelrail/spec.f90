@@ -8,7 +8,7 @@ module contact_wheelrail_spec
    implicit none (type, external)
    private
 
-   public :: wheel_rail_spec, profile_spec, search_spec, track_spec, rail_spec, wheelset_spec
+   public :: pair_spec, wheel_rail_spec, profile_spec, search_spec, track_spec, rail_spec, wheelset_spec
 
    !> A profile file and the options for reading it
    type :: profile_spec
@@ -96,18 +96,22 @@ module contact_wheelrail_spec
       real(wp) :: flexible(6) = 0.0_wp, flexible_rate(6) = 0.0_wp
    end type wheelset_spec
 
-   !> One wheel on one rail or roller
-   type :: wheel_rail_spec
+   !> One wheel on one rail or roller, but for the files of their profiles
+   type :: pair_spec
       !> Left side of the track? Roller rig?
       logical :: left = .false., roller = .false.
       !> Is the position determined by the vertical force? Member of normal_control
       integer :: position_control = 0
-      !> Has the case new profiles?
-      logical :: new_rail_profile = .false., new_wheel_profile = .false.
       type(search_spec) :: search
       type(track_spec) :: track
       type(rail_spec) :: rail
       type(wheelset_spec) :: wheelset
+   end type pair_spec
+
+   !> The same with the profiles
+   type, extends(pair_spec) :: wheel_rail_spec
+      !> Has the case new profiles?
+      logical :: new_rail_profile = .false., new_wheel_profile = .false.
       type(profile_spec) :: rail_profile, wheel_profile
    end type wheel_rail_spec
 end module contact_wheelrail_spec

@@ -12,7 +12,8 @@ program test_search
    use contact_profile_request, only : profile_request, profile_side
    use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
+   use contact_wheelrail_flat_patch, only : distance_scratch, patch_frame, patch_grid, start_places, &
+      & undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
    use contact_wheelrail_placement, only : gauge_point, wheel_rail_placement, place_wheel_rail
@@ -196,6 +197,7 @@ contains
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       type(frame) :: plane
+      type(distance_scratch) :: scratch
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :), y(:)
       real(wp) :: approach, exact, worst
@@ -227,7 +229,8 @@ contains
       call suite%close_to(regions(1)%box%x, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen), 1.0e-3_wp, "longitudinal extent")
       plane = patch_frame(in_track, placement, regions(1))
       call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
-      call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, approach, strangers)
+      call start_places(in_track, regions(1), scratch)
+      call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, strangers)
       worst = 0.0_wp
       do iy = 1, grid%my
          do ix = 1, grid%mx
@@ -292,6 +295,7 @@ contains
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       type(frame) :: plane
+      type(distance_scratch) :: scratch
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :)
       real(wp) :: top_z, gauge_y, approach
@@ -334,6 +338,7 @@ contains
          call place_wheel_rail(pair, wheel, top_z, gauge_y, cases(4, k), [0.0_wp, 0.0_wp], placement)
          in_track = rail_in_track(rail, placement)
          call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
+         call compare_survey(suite, trim(what), in_track, wheel, placement, pair%search%ds, gap)
          call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
          call suite%equal(size(regions), 1, trim(what) // ": one patch")
          if (size(regions) /= 1) cycle
@@ -342,12 +347,38 @@ contains
          call suite%close_to(plane%roll(), cases(8, k), 1.0e-4_wp, trim(what) // ": contact angle")
          call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
          call suite%equal(grid%npot(), nint(cases(10, k)), trim(what) // ": elements")
-         call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, &
-            & approach, strangers)
+         call start_places(in_track, regions(1), scratch)
+         call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, strangers)
          call suite%close_to(approach, cases(9, k), 2.5e-4_wp, trim(what) // ": approach")
          call suite%check(size(parts_of(regions(1))) == merge(2, 1, k == 5), trim(what) // ": blended parts")
          if (k == 5 .and. size(parts_of(regions(1))) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &
             & "interaction of blended parts")
       end do
    end subroutine benchmark
+
+   !> A gap that is found exactly near its smallest value only, against one that is found everywhere
+   subroutine compare_survey(suite, what, rail, wheel, placement, ds, whole)
+      type(test_suite), intent(inout) :: suite
+      !> Name of the position
+      character(len=*), intent(in) :: what
+      !> As for `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      real(wp), intent(in) :: ds
+      !> The gap of this position
+      type(gap_curve), intent(in) :: whole
+      !> [mm]; estimates are right within their own bound
+      real(wp), parameter :: reach = 0.2_wp, estimate_error = 0.05_wp
+      type(gap_curve) :: surveyed
+      integer :: estimated
+
+      call measure_gap(rail, wheel, placement, ds, surveyed, reach=reach)
+      call suite%close_to(smallest_gap(surveyed), smallest_gap(whole), 1.0e-12_wp, what // ": smallest gap, estimates beyond")
+      associate (difference => abs(surveyed%gap - whole%gap), near => whole%gap < minval(whole%gap) + reach)
+         call suite%close_to(maxval(difference, mask=near), 0.0_wp, 1.0e-10_wp, what // ": gaps within reach")
+         call suite%close_to(maxval(difference, mask=whole%gap < no_surface), 0.0_wp, estimate_error, what // ": estimates")
+         estimated = count(difference > 1.0e-9_wp)
+      end associate
+      call suite%check(estimated > whole%n/4, what // ": much of the gap is estimated")
+   end subroutine compare_survey
 end program test_search

@@ -13,7 +13,8 @@ program test_variable
    use contact_test_files, only : write_file
    use contact_test_harness, only : environment, reference_folder, test_suite
    use contact_wheelrail_bodies, only : find_rail, find_wheel, wheel_rail_bodies, place_bodies
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
+   use contact_wheelrail_flat_patch, only : distance_scratch, patch_frame, patch_grid, start_places, &
+      & undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track
    use contact_wheelrail_placement, only : place_wheel_rail
@@ -133,6 +134,7 @@ contains
       type(contact_region), allocatable :: first(:), second(:), misses(:)
       integer :: strangers
       type(frame) :: plane
+      type(distance_scratch) :: scratch
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :), same(:, :)
       real(wp) :: z, pen, same_pen
@@ -167,8 +169,8 @@ contains
       call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
       call patch_grid(bodies%rail, [pair%search%dx, pair%search%ds], first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
-      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, start_places(bodies%rail, first(1)), grid, h, &
-         & pen, strangers)
+      call start_places(bodies%rail, first(1), scratch)
+      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, scratch, grid, h, pen, strangers)
       call variable_distance(bodies, plane, .false., grid, same, same_pen, strangers)
       call suite%close_to(same_pen, pen, 2.0e-5_wp, what // ": approach")
       ! Slices are sampled every 0.5 mm, which shows at the jumps of curvature between arcs

@@ -35,6 +35,8 @@ contains
       type(profile_curve) :: wheel
       type(profile_request) :: request
       type(log_type) :: log
+      ! kept from patch to patch, as a loop over time does
+      type(wheel_rows) :: rows
       type(error_type), allocatable :: error
       real(wp) :: y(161), z(161), worst
       integer :: i, j, k, l, lost, differ
@@ -58,7 +60,7 @@ contains
             do k = 1, size(places)
                do l = 1, size(numbers)
                   call look_at_patch(wheel, new_frame([0.0_wp, places(k), wheel%height(places(k))], rolls(i), yaws(j)), &
-                     & numbers(l), worst, lost, differ)
+                     & numbers(l), rows, worst, lost, differ)
                end do
             end do
          end do
@@ -69,18 +71,19 @@ contains
    end subroutine compare
 
    !> Largest difference between heights of a patch and those of its points
-   subroutine look_at_patch(wheel, seen, points, worst, lost, differ)
+   subroutine look_at_patch(wheel, seen, points, rows, worst, lost, differ)
       type(profile_curve), intent(in) :: wheel
       !> Plane, seen from the wheel
       type(frame), intent(in) :: seen
       !> In a row
       integer, intent(in) :: points
+      !> Of other patches on entry
+      type(wheel_rows), intent(inout) :: rows
       !> Raised where differences are larger [mm]
       real(wp), intent(inout) :: worst
       !> Points without wheel, and those that only one of both finds
       integer, intent(inout) :: lost, differ
       real(wp), parameter :: half = 7.0_wp
-      type(wheel_rows) :: rows
       real(wp) :: n(points), place, height, x, s
       logical :: found
       integer :: ix, iy
