@@ -30,13 +30,10 @@ module contact_cases_stress_errors
    real(wp), parameter :: stress_floor = 0.12_wp, friction_floor = 0.2_wp
    !> The same with an interfacial layer, whose tractions have errors of first order, over these
    real(wp), parameter :: layer_share = 3.0_wp
-   !> What levels tell above the errors in general counts with this power, see contact_patch_level_errors, and with less where
-   !> fewer elements across are in contact than this: a third of them tells more than its order
-   real(wp), parameter :: stress_trust = 0.75_wp, clear_stress = 16.0_wp
+   !> What levels tell above the errors in general counts with this power, see contact_patch_level_errors
+   real(wp), parameter :: stress_trust = 0.75_wp
    !> Part of the difference of the levels in transient rolling, whose order is not clean; of random contacts (seed 301)
    real(wp), parameter :: unclean = 0.5_wp
-   !> Part of the relative error of forces in steps of transient rolling that the largest stresses have (seed 5301)
-   real(wp), parameter :: beside = 0.75_wp
 
    !> Stresses at a point, and their errors by the levels: xx, xy, xz, yy, yz, zz [N/mm2]
    type :: stress_change
@@ -141,17 +138,8 @@ contains
       general = (stress_floor*largest + friction_floor*friction)/result%ncon*merge(layer_share, 1.0_wp, has_layer)
       e = hypot(equivalent(change%normal + change%friction + change%by_normal, by_tresca) - largest, &
          & equivalent(change%normal + change%friction + change%by_friction, by_tresca) - largest)
-      e = max(trusted(e, general, stress_trust*min(1.0_wp, sqrt(real(result%ncon, wp))/clear_stress)), general, &
-         & in_steps(result)*result%errors%traction*friction)
+      e = max(trusted(e, general, stress_trust), general, result%errors%traction*friction)
    end function error_of_largest
-
-   !> Part of the relative error of tangential forces that the largest stresses have: in steps of transient rolling errors lie
-   !> beside them
-   pure real(wp) function in_steps(result) result(part)
-      type(patch_result), intent(in) :: result
-
-      part = merge(beside, 1.0_wp, result%motion == motion%transient_rolling .and. result%tangential%order /= 2)
-   end function in_steps
 
    !> Stresses at a point, and the parts of their differences to those of the coarser level that are their errors
    subroutine compare_stresses(spec, coarse, result, place, change)

@@ -48,9 +48,9 @@ module contact_patch_level_errors
    real(wp), parameter :: relaxing_floor(2) = [0.05_wp, 0.15_wp]
    !> Part of these that moments have where both forces are prescribed; of random contacts (seed 3101)
    real(wp), parameter :: moment_alone = 0.5_wp
-   !> Power: factor of n^-order of the power of full sliding, in rolling, and of the work of shifts (seed 5301); of n^-2 and
-   !> adhesion in steady rolling; with a layer, of n^-1, there also of the energy of tractions
-   real(wp), parameter :: power_floor(2) = [0.1_wp, 0.07_wp], adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
+   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
+   !> there also of the energy of tractions
+   real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
    !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
    !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
@@ -64,9 +64,9 @@ module contact_patch_level_errors
    !> where slip turns, of its turn across the contact times n^-2 (seed 2001)
    real(wp), parameter :: falling_floor = 6.0_wp, turning_floor = 0.15_wp
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
-   !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak of
-   !> like and of unlike bodies
-   real(wp), parameter :: trust = 0.7_wp, peak_trust(2) = [0.65_wp, 0.75_wp]
+   !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak,
+   !> of like and of unlike bodies
+   real(wp), parameter :: trust(2) = [0.7_wp, 0.8_wp], peak_trust(2) = [0.65_wp, 0.75_wp]
    !> Elements across on which the coarse level of a third of them sees what a peak is like; with fewer its difference is larger
    !> than its order says, and counts with a smaller power; of viscoelastic bodies and bumpy profiles (seeds 55 and 5301)
    real(wp), parameter :: clear_peak = 20.0_wp
@@ -120,7 +120,7 @@ contains
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
          floor = driven_floor(scale) + turning_floor*scale%turning/scale%mean_across**2
          if (scale%is_moment_alone .and. row%law == error_law%friction) floor = moment_alone*floor
-         if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
+         if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))
          if (row%law == error_law%friction) floor = max(floor, scale%reversal &
             & *merge(reversal_share, reversal_in_shifts, scale%order < normal_order .or. scale%coupling > 0.0_wp))
       case (error_law%power)
@@ -229,6 +229,13 @@ contains
          & /(normal_floor*max(abs(row%value), tiny(ratio))))
    end function irregularity
 
+   !> Power with which differences of levels count in forces and power, see trusted
+   pure real(wp) function trust_in(scale) result(power)
+      type(scale_type), intent(in) :: scale
+
+      power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
+   end function trust_in
+
    !> What differences of levels tell, and the error of so many elements in general, together
    pure real(wp) function trusted(told, floor, power) result(e)
       !> By the levels, and in general
@@ -264,12 +271,12 @@ contains
          & e = hypot(scale%motion_change, scale%surplus - scale%coarse_surplus)
       e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*e
       if (is_unseen(scale)) e = 0.0_wp
-      floor = merge(power_floor(1), power_floor(2), scale%order < normal_order)*sqrt(scale%adhesion)/scale%across**nint(scale%order)
+      floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
       if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
          & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
       floor = max(floor, sqrt(scale%adhesion)*unrelaxed(scale))*full_power
       e = e + heat
-      if (scale%jumps) e = trusted(e, floor, trust)
+      if (scale%jumps) e = trusted(e, floor, trust_in(scale))
       e = max(e, floor)
       ! of unlike bodies the balance tells errors of pressures, too, that hardly show in power by the second order
       if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
@@ -285,7 +292,7 @@ contains
 
       floor = friction_floor(scale)*max(scale%power, unit)
       told = part_of(scale, scale%order)*abs(scale%motion_change)
-      if (scale%jumps) told = trusted(told, floor, trust)
+      if (scale%jumps) told = trusted(told, floor, trust_in(scale))
       e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
       ! a surplus that jumps with the offset of the grid may be small by accident: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, part_of(scale, scale%order)*abs(scale%coarse_surplus))
