@@ -1,7 +1,8 @@
-!> Messages in the terms of those who write digits
+!> Messages with choices given as control digits
 !>
-!> Below the readers a message names a choice as the readable format does: `sequence = "initiate"`, or, where there are several,
-!> `iteration.solver = "convex_gs" or "gauss_seidel"`. Users of input files and of the library read `P = 2` and `G = 2 or 3`.
+!> Below the reader, messages name choices as the readable format does: `sequence = "initiate"`, or, if there are several,
+!> `iteration.solver = "convex_gs" or "gauss_seidel"`. For users of input files and of the library they are replaced by digits: `P
+!> = 2` and `G = 2 or 3`.
 module contact_control_digit_terms
    use contact_base_error, only : error_type
    use contact_control_words, only : digit_of_word, key_table
@@ -12,11 +13,11 @@ module contact_control_digit_terms
 
 contains
 
-   !> A message with digits in the place of choices
+   !> Replace the choices in a message by digits
    pure subroutine tell_in_digits(message, text)
-      !> A sentence with choices such as `sequence = "initiate"`
+      !> Sentence with choices such as `sequence = "initiate"`
       character(len=*), intent(in) :: message
-      !> The sentence with P = 2 in their place
+      !> The sentence with digits, `P = 2`
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: key_letters = "abcdefghijklmnopqrstuvwxyz_.", before = ' = "'
       character(len=:), allocatable :: figures
@@ -40,15 +41,15 @@ contains
       text = text // message(done + 1:)
    end subroutine tell_in_digits
 
-   !> "G = 2, 3 or 5" for the words behind a key
+   !> Digits for the words of a key, "G = 2, 3 or 5"
    pure subroutine take_words(message, key, at, figures, last)
       character(len=*), intent(in) :: message
-      !> iteration.solver, and where the quotation mark before its first word stands
+      !> Key, such as iteration.solver, and position of the quotation mark before its first word
       character(len=*), intent(in) :: key
       integer, intent(in) :: at
-      !> "" when there is no such choice
+      !> Empty if there is no such choice
       character(len=:), allocatable, intent(out) :: figures
-      !> Where the words end
+      !> Position of the end of the words
       integer, intent(out) :: last
       character(len=4), parameter :: between(2) = [character(len=4) :: ", ", " or "]
       character(len=:), allocatable :: separator
@@ -77,13 +78,13 @@ contains
       end do
    end subroutine take_words
 
-   !> The digit behind a word, of whichever module
+   !> Find the digit of a word, in either module
    pure subroutine find_choice(key, word, name, digit)
-      !> iteration.solver, and what stands in quotation marks behind it
+      !> Key, such as iteration.solver, and the word in quotation marks after it
       character(len=*), intent(in) :: key, word
       !> Letter of the digit
       character(len=2), intent(out) :: name
-      !> -1 when there is none
+      !> -1: none
       integer, intent(out) :: digit
       integer :: dot, row
 
@@ -98,9 +99,9 @@ contains
       end do
    end subroutine find_choice
 
-   !> An error with digits in the place of choices; nothing on success
+   !> Replace the choices in the message of an error by digits
    pure subroutine tell_error_in_digits(error)
-      !> Unallocated: nothing is done
+      !> Unchanged if unallocated
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: text
 

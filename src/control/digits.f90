@@ -1,9 +1,9 @@
-!> The control digits: digit, named choice and words, in one table for both modules
+!> Control digits: digit, named choice and description, in one table for both modules
 !>
-!> The table serves reading, checking, refusing what is not built, writing of input files and
-!> the tables of doc/user. Decoding and encoding of the three control words is here too.
+!> The table is used for reading, checking, refusal of choices that are not implemented, writing of input files, and the tables of
+!> doc/user. Decoding and encoding of the three control words are here as well.
 !>
-!> Long because it is mostly the table, one entry per value of a digit.
+!> Long because most of it is the table, one entry per value of a digit.
 module contact_control_digits
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, &
       & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, time_link, variation
@@ -15,20 +15,21 @@ module contact_control_digits
    public :: row_of, belongs, is_known, is_built, choice_of, digit_of, digit_text, allowed_text, digit_value, put_digit
    public :: decode_words, word_text
 
-   !> Length of the words for a value, and of the list of all values of a digit
+   !> Length of the description of a value, and of the list of all values of a digit
    integer, parameter, public :: text_length = 80, list_length = 28
    !> Length of the word for a value in the readable format
    integer, parameter, public :: word_length = 18
 
-   !> All digits in the order of the control words; C1 has module 1 only
+   !> All digits in the order of the control words; C1 in module 1 only
    character(len=2), parameter :: digit_names(*) = [character(len=2) :: &
       & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
-   !> Where the words 1, 2 and 3 begin and end among them, C1 apart; the digits of a case have one number more
+   !> Positions of the first and last digit of words 1, 2 and 3 in the list, without C1; the digits of a case have one number more,
+   !> GAPWGT
    integer, parameter :: first_of_word(3) = [2, 8, 16], last_of_word(3) = [7, 14, 23], number_of_digits = size(digit_names) + 1
-   !> Letters of the names that have no figure
+   !> Letters of the names that have a letter only
    integer, parameter :: single_letters(*) = merge(iachar(digit_names(:)(1:1)), -1, digit_names(:)(2:2) == " ")
 
-   !> The digits of a case: integers only, in the order of digit_names, so that they are a list, too
+   !> Digits of a case: integers only, in the order of digit_names, so that they can be used as a list
    type :: case_digits
       sequence
       !> Configuration, module 1 only
@@ -36,30 +37,30 @@ module contact_control_digits
       integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
       integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1
       integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
-      !> Weighting of gaps, in front of M2; it has no letter
+      !> Weighting of gaps, written before M2; it has no letter
       integer :: gapwgt = 0
    end type case_digits
 
-   !> The same as a list: of one type into the other by transfer, without memory from the heap
+   !> The same as a list: converted by `transfer`, without heap memory
    type :: digit_list
       integer :: value(number_of_digits) = 0
    end type digit_list
 
-   !> One value of one control digit
+   !> One value of a control digit
    type :: digit_row
       !> Letter of the digit; the second material digit is called M2
       character(len=2) :: name
       !> The digit
       integer :: digit
-      !> Member of the enumeration in contact_base_choices, or the digit itself where there is none
+      !> Member of the enumeration in contact_base_choices, or the digit itself if there is none
       integer :: choice
-      !> Module that knows this value, 0 for both
+      !> Module that has this value, 0 for both
       integer :: module_number
-      !> Can this version compute it?
+      !> Is it implemented in this version?
       logical :: built
-      !> What it means; for what is not built: the name of the effect
+      !> Meaning; the name of the effect if it is not implemented
       character(len=text_length) :: text
-      !> The choice in the readable format; blank where it is said by what a case gives, or not at all
+      !> The choice in the readable format; blank if it follows from the data of a case, or is not expressed there
       character(len=word_length) :: word = ""
    end type digit_row
 
@@ -232,23 +233,23 @@ module contact_control_digits
 
    !> Every accepted value of every digit, in the order of digit_names
    type(digit_row), parameter :: digit_table(*) = [word1_rows, word2_rows, word3_rows]
-   !> The names one beside the other, and their first letters, with an end
+   !> Names as a separate list, and their first letters with a terminator
    character(len=2), parameter :: row_names(*) = digit_table%name
    integer, parameter :: letters(*) = [iachar(row_names(:)(1:1)), 0]
    integer :: i
-   !> The first row with a letter, 0: none, and the next one with the same letter; the last one is followed by itself
+   !> First row of each letter, 0: none, and the next row with the same letter; the last one refers to itself
    integer, parameter :: first_row(0:127) = [(findloc(letters(:size(digit_table)), i, dim=1), i=0, 127)]
    integer, parameter :: next_row(*) = [(i + findloc(letters(i + 1:), letters(i), dim=1), i=1, size(digit_table))]
-   !> Place of the name that is one letter, 0: none
+   !> Position in the list of the name that is this letter only, 0: none
    integer, parameter :: place_of_letter(0:127) = [(findloc(single_letters, i, dim=1), i=0, 127)]
 
 contains
 
-   !> Row of the table, 0 when there is none
+   !> Row of the table, 0: none
    pure integer function row_of(name, digit, module_number) result(row)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -264,9 +265,9 @@ contains
       end do
    end function row_of
 
-   !> Does a module know this row?
+   !> Does a row apply to a module?
    elemental logical function belongs(row, module_number)
-      !> Of the table
+      !> Row of the table
       type(digit_row), intent(in) :: row
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -274,11 +275,11 @@ contains
       belongs = row%module_number == both .or. row%module_number == module_number
    end function belongs
 
-   !> Does the format know this value of the digit?
+   !> Does the format have this value of the digit?
    pure logical function is_known(name, digit, module_number)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -286,11 +287,11 @@ contains
       is_known = row_of(name, digit, module_number) > 0
    end function is_known
 
-   !> Can this version compute it? False for unknown values too
+   !> Is this value implemented in this version? False for unknown values as well
    pure logical function is_built(name, digit, module_number)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -301,11 +302,11 @@ contains
       if (row > 0) is_built = digit_table(row)%built
    end function is_built
 
-   !> Named choice behind a digit; an unknown digit is handed back as it is
+   !> Named choice of a digit; an unknown digit is returned unchanged
    pure integer function choice_of(name, digit, module_number) result(choice)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -316,11 +317,11 @@ contains
       if (row > 0) choice = digit_table(row)%choice
    end function choice_of
 
-   !> Digit that stands for a named choice, -1 when there is none
+   !> Digit of a named choice, -1: none
    pure integer function digit_of(name, choice, module_number) result(digit)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> Member of the choices in contact_base_choices that belong to it
+      !> Member of the enumeration in contact_base_choices that belongs to it
       integer, intent(in) :: choice
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -339,11 +340,11 @@ contains
       end do
    end function digit_of
 
-   !> What the digit means, in words
+   !> Meaning of a digit, in words
    pure function digit_text(name, digit, module_number) result(text)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -355,9 +356,9 @@ contains
       if (row > 0) text = digit_table(row)%text
    end function digit_text
 
-   !> The known values of a digit, "0, 1, 2, 3", for messages
+   !> The known values of a digit for messages, "0, 1, 2, 3"
    pure function allowed_text(name, module_number) result(text)
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -371,7 +372,7 @@ contains
       text = text(3:)
    end function allowed_text
 
-   !> Place of a name in digit_names, 0 when there is none
+   !> Position of a name in digit_names, 0: none
    pure integer function place_of(name) result(k)
       character(len=*), intent(in) :: name
 
@@ -381,10 +382,10 @@ contains
       if (len_trim(name) > 1) k = findloc(digit_names, name, dim=1)
    end function place_of
 
-   !> Value of the digit with the given name, -1 when there is none
+   !> Value of the digit with the given name, -1: none
    pure integer function digit_value(digits, name) result(digit)
       type(case_digits), intent(in) :: digits
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
       type(digit_list) :: list
       integer :: k
@@ -396,12 +397,12 @@ contains
       digit = list%value(k)
    end function digit_value
 
-   !> Give a control digit a value
+   !> Set a control digit
    pure subroutine put_digit(digits, name, value)
       type(case_digits), intent(inout) :: digits
-      !> Capital letter of the digit, C1 and the like with a figure
+      !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> As the input has it
+      !> Value as in the input
       integer, intent(in) :: value
       type(digit_list) :: list
       integer :: k
@@ -413,19 +414,18 @@ contains
       digits = transfer(list, digits)
    end subroutine put_digit
 
-   !> Take the control words apart, from the right
+   !> Decode the control words, starting from the right
    !>
-   !> Leading digits that are absent are zero. What stands left of V and X stays in these digits
-   !> and makes them out of range; what stands left of P is C1 in module 1 and ignored in module 3. The sign is the
-   !> caller's concern.
+   !> Missing leading digits are zero. Excess digits to the left of V and X are added to these digits, which are then out of range;
+   !> digits to the left of P are C1 in module 1 and are ignored in module 3. Signs are checked by the caller.
    pure subroutine decode_words(word1, word2, word3, module_number, digits, second)
       !> C1 P B T N F S; V L D C M Z E; X H G I A O W R
       integer, intent(in) :: word1, word2, word3
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> GAPWGT keeps its value when there is no second number
+      !> Digits of the case; GAPWGT is kept if there is no second number
       type(case_digits), intent(inout) :: digits
-      !> Second number of word 2, 10 GAPWGT + M2; absent means that the damping is kept
+      !> Second number of word 2, 10 GAPWGT + M2; absent: damping is kept
       integer, intent(in), optional :: second
       type(digit_list) :: list
       integer :: c1
@@ -443,7 +443,7 @@ contains
       digits%gapwgt = max(0, second)/10
    end subroutine decode_words
 
-   !> The decimal digits of a word; the first one gets all that is left of the others
+   !> Decimal digits of a word; the first one holds all that remains to the left of the others
    pure subroutine take_apart(word, list)
       integer, intent(in) :: word
       integer, intent(out) :: list(:)
@@ -457,7 +457,7 @@ contains
       list(1) = rest
    end subroutine take_apart
 
-   !> A control word as it is written in files, without C1 and X
+   !> A control word as written in files, without C1 and X
    pure function word_text(digits, word) result(text)
       type(case_digits), intent(in) :: digits
       !> 1, 2 or 3

@@ -1,6 +1,6 @@
 !> Flags of the library: control digits and settings by their codes, in one table
 !>
-!> The table serves setting, getting and the range of what is accepted.
+!> The table is used for setting and getting, and defines the accepted range.
 module contact_control_flags
    implicit none (type, external)
    private
@@ -12,7 +12,7 @@ module contact_control_flags
       integer :: frclaw = 1976, discns = 1977, inflcf = 1978, mater = 1979, exrhs = 1980, xflow = 1981, heat = 1982
       integer :: iestim = 1983, output = 1984, flow = 1985, return = 1986, matfil = 1987, sens = 1988
       integer :: ifmeth = 1989, ifvari = 1990, sbsout = 1991, sbsfil = 1992, npomax = 1993
-      !> Flags that the published interface does not have: see CNTC_own_... in interface.txt
+      !> Flags that are not in the published interface: see CNTC_own_... in interface.txt
       integer :: own_heat = 9001, own_border = 9002, own_stepped = 9003, own_angle = 9004, own_across = 9005
       integer :: own_classical = 9006, own_order = 9007, own_errors = 9008, own_accuracy = 9009, own_reached = 9010
       integer :: own_wear = 9011, own_approximate = 9012
@@ -22,24 +22,24 @@ module contact_control_flags
    type(flag_list), parameter :: flag = flag_list()
 
    type :: out_of_range_list
-      !> Refused; the nearest accepted value is taken; 0 is taken
+      !> The call is refused; the nearest accepted value is used; 0 is used
       integer :: refused = 1, nearest = 2, zero = 3
    end type out_of_range_list
-   !> What happens with a value that is out of range: what the published interface promises, see CNTC_ic_... there
+   !> Treatment of values out of range, as documented for the published interface, see CNTC_ic_... there
    type(out_of_range_list), parameter :: out_of_range = out_of_range_list()
 
    !> One flag
    type :: flag_row
       integer :: code = 0
-      !> Name of the control digit behind it; blank for other settings
+      !> Name of its control digit; blank for other settings
       character(len=2) :: digit = ""
-      !> Range of accepted values, and member of out_of_range
+      !> Range of accepted values, and treatment of others (member of out_of_range)
       integer :: lowest = 0, highest = 0, outside = out_of_range%refused
-      !> May it be set by cntc_setflags, and read by cntc_getflags?
+      !> Can it be set by cntc_setflags, and read by cntc_getflags?
       logical :: can_set = .true., can_get = .true.
    end type flag_row
 
-   !> All flags; the range is that of module 1 where the modules differ
+   !> All flags, with the range of module 1 where the modules differ
    type(flag_row), parameter :: flag_table(*) = [ &
       & flag_row(flag%units, "  ", 1934, 1937, out_of_range%refused, .true., .false.), &
       & flag_row(flag%config, "C1", 0, 5, out_of_range%nearest), &
@@ -87,7 +87,7 @@ module contact_control_flags
 
 contains
 
-   !> Row of the table, 0 when there is none
+   !> Row of the table, 0: none
    pure integer function row_of_flag(code) result(row)
       !> CNTC_ic_... or CNTC_if_...
       integer, intent(in) :: code
@@ -98,9 +98,9 @@ contains
       row = 0
    end function row_of_flag
 
-   !> Largest accepted value of a flag
+   !> Maximum accepted value of a flag
    pure integer function highest_of(row, module_number) result(highest)
-      !> Of the table of flags
+      !> Row of the table of flags
       type(flag_row), intent(in) :: row
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -109,17 +109,17 @@ contains
       if (row%code == flag%force .and. module_number == 3) highest = 2
    end function highest_of
 
-   !> What is stored for a value that a caller gives, which may be another one, and whether it is stored at all
+   !> The value that is stored for a value given by the caller, which may differ, and whether it is stored
    pure subroutine accepted_value(row, value, module_number, stored, accepted)
-      !> Of the table of flags
+      !> Row of the table of flags
       type(flag_row), intent(in) :: row
-      !> As the caller gave it
+      !> Value given by the caller
       integer, intent(in) :: value
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> The nearest one that the flag can have, where this is documented
+      !> Value to be stored: the nearest accepted one if this is documented
       integer, intent(out) :: stored
-      !> False where the call is refused
+      !> False if the call is refused
       logical, intent(out) :: accepted
 
       stored = value
@@ -129,7 +129,7 @@ contains
          if (row%outside == out_of_range%zero) stored = 0
          accepted = row%outside /= out_of_range%refused
       end if
-      ! output of subsurface stresses has no level 3
+      ! there is no level 3 for the output of subsurface stresses
       if (row%code == flag%sbsout .and. stored == 3) stored = 2
    end subroutine accepted_value
 end module contact_control_flags

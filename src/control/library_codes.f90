@@ -1,4 +1,4 @@
-!> Numbers that callers of the library get and give: error codes, kinds of input files
+!> Numbers exchanged with callers of the library: error codes, kinds of input files
 module contact_control_library_codes
    use contact_base_case_status, only : case_status, missed_iteration
    implicit none (type, external)
@@ -7,22 +7,22 @@ module contact_control_library_codes
    public :: code_of_contact, code_of_wheel_rail
    public :: library_code, code_text, input_type, interface_version
 
-   !> What initialisation tells callers, 100 major + 10 minor + update of the published interface
+   !> Version returned by the initialisation, 100 major + 10 minor + update of the published interface
    integer, parameter :: interface_version = 2520
 
    type :: library_code_list
       integer :: success = 0
       !> The problem is in use by another thread
       integer :: in_use = 305
-      !> More result elements at once than can be
+      !> The maximum number of result elements is exceeded
       integer :: not_allowed = -12
       integer :: search = -25, total_force = -26, normal = -27, tangential = -28, tolerance = -29
       integer :: no_patch = -31, profile = -32, friction = -33, discretisation = -34, input_file = -39, other = -99
-      !> A call that cannot be meant: result element; module 1 or 3 required; patch out of range, needed, not wanted
+      !> Invalid call: result element; module 1 or 3 required; patch number out of range, missing or not allowed
       integer :: bad_element = -101, not_module_1 = -102, not_module_3 = -103, bad_patch = -104
       integer :: patch_needed = -105, patch_unwanted = -106
    end type library_code_list
-   !> Names of the codes that routines with an error argument return
+   !> Codes returned by routines with an error argument
    type(library_code_list), parameter :: library_code = library_code_list()
 
    type :: input_type_list
@@ -45,8 +45,8 @@ contains
 
    !> Code of wheel and rail (module 1) with a result, by its status
    !>
-   !> The published interface has no code for patches that did not converge, and none for a wheel beside the rail, which cannot
-   !> reach its force: contact_case_status tells them.
+   !> The published interface has no code for patches that did not converge, nor for a wheel beside the rail that cannot reach its
+   !> force: contact_case_status reports them.
    pure integer function code_of_wheel_rail(status, patches) result(code)
       type(case_status), intent(in) :: status
       !> Number of contact patches
@@ -56,7 +56,7 @@ contains
       if (status%iteration == missed_iteration%force .and. patches > 0) code = library_code%tolerance
    end function code_of_wheel_rail
 
-   !> A code in words
+   !> Description of a code
    pure function code_text(code) result(text)
       !> Member of library_code
       integer, intent(in) :: code

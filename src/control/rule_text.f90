@@ -1,4 +1,4 @@
-!> The rules of contact_cases_rules in terms of digits
+!> The rules of contact_cases_rules, expressed in digits
 module contact_control_rule_text
    use contact_cases_rules, only : choice_kind, choice_rule, value_of
    use contact_cases_spec, only : case_spec
@@ -11,7 +11,7 @@ module contact_control_rule_text
 
 contains
 
-   !> Letter of the digit of a choice, or name of the number that stands for it
+   !> Letter of the digit of a choice, or name of the number that represents it
    pure character(len=6) function letter_of(choice)
       !> Member of choice_kind
       integer, intent(in) :: choice
@@ -33,13 +33,13 @@ contains
 
    !> "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = 2: ..."
    subroutine describe_broken_rule(rule, spec, digits, text)
-      !> The rule that is broken
+      !> The violated rule
       type(choice_rule), intent(in) :: rule
-      !> The case that breaks it
+      !> The case that violates it
       type(case_spec), intent(in) :: spec
-      !> Control digits of the case, for the names of choices
+      !> Control digits of the case, for the names of the choices
       type(case_digits), intent(in) :: digits
-      !> What is wrong, why, and what would be accepted
+      !> What is wrong, why, and what is accepted
       character(len=:), allocatable, intent(out) :: text
       character(len=:), allocatable :: found
       integer :: module_number
@@ -58,7 +58,7 @@ contains
 
    contains
 
-      !> The digit that stands for a choice of the case
+      !> Digit of a choice of the case
       integer function digit_in(choice)
          integer, intent(in) :: choice
 
@@ -70,11 +70,11 @@ contains
       end function digit_in
    end subroutine describe_broken_rule
 
-   !> The digits behind some values of a choice, "0, 1 or 3"
+   !> Digits of values of a choice, "0, 1 or 3"
    pure function allowed_digits(choice, values, module_number) result(text)
       !> Member of choice_kind
       integer, intent(in) :: choice
-      !> Its values, among others that are no choices
+      !> Values of the choice; values without a digit are skipped
       integer, intent(in) :: values(:)
       !> 1 or 3
       integer, intent(in) :: module_number

@@ -1,4 +1,4 @@
-!> From control digits to the named choices and parts of a case, and back
+!> Conversion of control digits to the named choices and parts of a case, and back
 module contact_control_translation
    use contact_base_choices, only : contact_location, slip_source
    use contact_cases_spec, only : case_spec, part_source
@@ -11,12 +11,12 @@ module contact_control_translation
 
 contains
 
-   !> Give a case the choices and parts that its digits name; groups that belong to digits that nobody knows are not there
+   !> Set choices and parts of a case from its digits; groups of unknown digits are treated as not given
    subroutine take_digits(digits, module_number, spec)
       type(case_digits), intent(in) :: digits
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> On entry the case before; its choices stay where a digit keeps them
+      !> On entry the previous case, whose choices remain if a digit keeps them
       type(case_spec), intent(inout) :: spec
 
       spec%link = choice("P", digits%p)
@@ -60,7 +60,7 @@ contains
 
    contains
 
-      !> The name behind a digit
+      !> Named choice of a digit
       pure integer function choice(name, digit)
          character(len=*), intent(in) :: name
          integer, intent(in) :: digit
@@ -69,7 +69,7 @@ contains
       end function choice
    end subroutine take_digits
 
-   !> What digits mean for wheel on rail only
+   !> Digits that have a meaning for wheel and rail only
    subroutine take_wheel_rail_digits(digits, spec)
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(inout) :: spec
@@ -94,7 +94,7 @@ contains
       end associate
    end subroutine take_wheel_rail_digits
 
-   !> The digits that stand for a case
+   !> Control digits of a case
    pure function digits_of(spec) result(digits)
       type(case_spec), intent(in) :: spec
       type(case_digits) :: digits
@@ -148,7 +148,7 @@ contains
 
    contains
 
-      !> The digit that stands for a choice
+      !> Digit of a choice
       pure integer function digit(name, choice)
          character(len=*), intent(in) :: name
          integer, intent(in) :: choice
@@ -156,7 +156,7 @@ contains
          digit = digit_of(name, choice, merge(1, 3, allocated(spec%wheel_rail)))
       end function digit
 
-      !> A digit, or 1, which keeps a part
+      !> Digit of a part: 1 if it is kept, otherwise the given digit
       pure integer function kept_or(source, digit)
          !> Member of part_source
          integer, intent(in) :: source
@@ -166,14 +166,14 @@ contains
       end function kept_or
    end function digits_of
 
-   !> Source of a part that a digit keeps or gives
+   !> Source of a part whose digit keeps it or gives it
    pure integer function given_unless(is_kept)
       logical, intent(in) :: is_kept
 
       given_unless = merge(part_source%kept, part_source%given, is_kept)
    end function given_unless
 
-   !> Source of a part whose digit is 0 to keep, 1 to renew, and more to give it
+   !> Source of a part whose digit is 0 to keep it, 1 to renew it, and larger to give it
    pure integer function source_of(digit)
       integer, intent(in) :: digit
 

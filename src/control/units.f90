@@ -1,8 +1,8 @@
-!> Unit conventions and signs of callers of the library, as tables
+!> Units and sign conventions of callers of the library, as tables
 !>
-!> Inside: mm, N, s, rad, degC, forces on body 1, a wheel on the right side of the track. What comes in
-!> is multiplied by `inward`, what goes out by `outward`; nothing else in the library knows conventions.
-!> Time and temperature are the same in all of them.
+!> Internal units are mm, N, s, rad, degC; internally forces act on body 1, and the wheel is on the right side of the track. Input
+!> is multiplied by `inward`, output by `outward`; no other part of the library depends on conventions. Time and temperature have
+!> the same units in all of them.
 module contact_control_units
    use contact_base_kinds, only : wp
    use contact_patch_quantities, only : is_lateral, orientation
@@ -14,15 +14,15 @@ module contact_control_units
    type :: convention_code_list
       integer :: contact = 1934, simpack = 1935, si = 1936, imperial = 1937
    end type convention_code_list
-   !> Codes that callers use for conventions
+   !> Codes of the conventions in the interface
    type(convention_code_list), parameter :: convention_code = convention_code_list()
 
-   !> One convention: internal value = factor times external value
+   !> A convention: internal value = factor times external value
    type :: unit_convention
       integer :: code = 1934
       !> Length, force, velocity, angle
       real(wp) :: length = 1.0_wp, force = 1.0_wp, velocity = 1.0_wp, angle = 1.0_wp
-      !> Body whose forces and tractions go out: 1 for body 1, -1 for body 2
+      !> Body on which returned forces and tractions act: 1 for body 1, -1 for body 2
       real(wp) :: body = 1.0_wp
    end type unit_convention
 
@@ -63,12 +63,12 @@ module contact_control_units
 
 contains
 
-   !> The convention with a code; an unknown code changes nothing
+   !> Find a convention by its code; unchanged for an unknown code
    pure subroutine find_convention(code, units, known)
       !> CNTC_un_...
       integer, intent(in) :: code
       type(unit_convention), intent(inout) :: units
-      !> Is there such a convention?
+      !> Does the convention exist?
       logical, intent(out) :: known
       integer :: k
 
@@ -80,9 +80,9 @@ contains
       end do
    end subroutine find_convention
 
-   !> The quantity that has a unit of the table of bounds; a number for units that caller and program share
+   !> Quantity of a unit in the table of bounds; `number` for units that are the same for caller and program
    elemental type(quantity_type) function quantity_of(unit) result(what)
-      !> As the tables write it: "N/mm2", "rad", "-"
+      !> Unit as written in the tables: "N/mm2", "rad", "-"
       character(len=*), intent(in) :: unit
 
       select case (unit)
