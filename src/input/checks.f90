@@ -1,6 +1,7 @@
-!> Checks of a case that need its digits, its numbers and the previous case together
+!> Checks of a case that depend on its digits, its numbers and the previous case together
 !>
-!> What is demanded, and why, stands in contact_cases_rules and contact_cases_continuation; here it is told at its place.
+!> The requirements and their reasons are in contact_cases_rules and contact_cases_continuation; here they are reported with their
+!> position in the input.
 module contact_input_checks
    use contact_base_choices, only : estimate_choice, time_link
    use contact_base_error, only : error_kind
@@ -23,13 +24,13 @@ contains
    !> All checks after the groups have been read
    subroutine check_case(words, a, previous, has_previous, coefficients, spec, problems)
       type(control_words), intent(in) :: words
-      !> The reader of the groups, which knows where they are
+      !> Reader of the groups, with their positions
       class(case_archive), intent(in) :: a
       !> The previous case of this result element
       type(case_spec), intent(in) :: previous
       !> Is there one?
       logical, intent(in) :: has_previous
-      !> Grid for which influence coefficients were last formed; mx = 0 when there are none
+      !> Grid for which influence coefficients were last computed; mx = 0: none
       type(potential_contact), intent(in) :: coefficients
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
@@ -52,15 +53,15 @@ contains
       end if
    end subroutine check_case
 
-   !> What a grid that is kept, or renewed, must be like
+   !> Requirements on a grid that is kept or renewed
    subroutine check_grid(words, a, previous, has_previous, coefficients, spec, problems)
       type(control_words), intent(in) :: words
-      !> The reader of the groups, which knows where they are
+      !> Reader of the groups, with their positions
       class(case_archive), intent(in) :: a
       !> The previous case, and whether there is one
       type(case_spec), intent(in) :: previous
       logical, intent(in) :: has_previous
-      !> Grid for which influence coefficients were last formed
+      !> Grid for which influence coefficients were last computed
       type(potential_contact), intent(in) :: coefficients
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
@@ -84,7 +85,7 @@ contains
             & ", I = " // integer_text(words%digits%i) // ")", grid_line(words, a))
       end if
       if (words%digits%d /= 2 .or. keeps_elements(frame, old)) return
-      ! lists with one entry for each element
+      ! lists with one entry per element
       if (spec%geometry%form == distance_form%elementwise .and. spec%parts%geometry /= part_source%given) &
          & call add_for_digit(problems, words, severity%error, "Z", "Z = " // integer_text(words%digits%z) // &
          & " keeps the undeformed distances of IBASE = 9, one per element, but the grid is not the one they were given for")
@@ -92,19 +93,19 @@ contains
          & "E = 1 keeps the extra rigid slip, one per element, but the grid is not the one it was given for")
    end subroutine check_grid
 
-   !> Line of the grid group; of the digit D when the grid is kept
+   !> Line of the grid group; that of the digit D if the grid is kept
    pure integer function grid_line(words, a)
       type(control_words), intent(in) :: words
-      !> The reader of the groups, which knows where they are
+      !> Reader of the groups, with their positions
       class(case_archive), intent(in) :: a
 
       grid_line = line_or_word(words, a, "grid")
    end function grid_line
 
-   !> Line of a group; of the second control word when it is kept
+   !> Line of a group; that of the second control word if the group is kept
    pure integer function line_or_word(words, a, group) result(line)
       type(control_words), intent(in) :: words
-      !> The reader of the groups, which knows where they are
+      !> Reader of the groups, with their positions
       class(case_archive), intent(in) :: a
       character(len=*), intent(in) :: group
 

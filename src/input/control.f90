@@ -16,28 +16,28 @@ module contact_input_control
 
    public :: control_words, read_control_words, check_digits, refuse_unbuilt_digits, add_for_digit, check_physics
 
-   !> The words with their places, for messages, and their digits
+   !> Control words with their positions, for messages, and their digits
    type :: control_words
       type(case_digits) :: digits
       !> Words 1, 2 and 3
       type(input_value) :: word(3)
       !> The second number of word 2
       type(input_value) :: second
-      !> Were choices given by keys? Then each digit has a place of its own
+      !> Were choices given by keys? Then each digit has its own position
       logical :: has_keys = .false.
       integer :: lines(size(digit_names)) = 0, columns(size(digit_names)) = 0
    end type control_words
 
 contains
 
-   !> Read the words and make named choices of their digits
+   !> Read the control words and convert their digits to named choices
    subroutine read_control_words(lexer, words, module_number, spec, error)
-      !> At the first word
+      !> Positioned at the first word
       type(input_lexer), intent(inout) :: lexer
       type(control_words), intent(out) :: words
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> On entry the previous case; its effective choices stay where a digit says "keep"
+      !> On entry the previous case; its effective choices remain if a digit says "keep"
       type(case_spec), intent(inout) :: spec
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: values(2)
@@ -53,7 +53,7 @@ contains
       if (allocated(error)) return
       words%word(3) = values(1)
 
-      ! the weighting stays when there is no second number
+      ! the weighting is kept if there is no second number
       if (allocated(spec%wheel_rail)) words%digits%gapwgt = spec%wheel_rail%search%gap_weight
       associate (word => words%word%i)
          if (words%second%given) then
@@ -69,9 +69,9 @@ contains
       call take_digits(words%digits, module_number, spec)
    end subroutine read_control_words
 
-   !> Range of each digit, and what digits demand of each other and of the previous case
+   !> Check the range of each digit, and the requirements of digits on each other and on the previous case
    !>
-   !> Digits that mean nothing are corrected, with a warning: P to 2 and I to 0 in a first case, C = 0 to 1 in module 1.
+   !> Digits without a meaning are corrected with a warning: P to 2 and I to 0 in a first case, C = 0 to 1 in module 1.
    subroutine check_digits(words, module_number, previous, has_previous, spec, problems)
       type(control_words), intent(inout) :: words
       !> 1 or 3
@@ -90,7 +90,7 @@ contains
          words%digits%c = 1
       end if
       if (.not. has_previous) call start_sequence(words, problems)
-      ! once more, with digits that may have been corrected
+      ! repeated with the digits that may have been corrected
       if (module_number == 1 .or. .not. has_previous) call take_digits(words%digits, module_number, spec)
       if (has_previous) then
          call check_kept(words, previous, spec, problems)
@@ -110,7 +110,7 @@ contains
       call check_physics(words, spec, problems)
    end subroutine check_digits
 
-   !> Control words have no sign, GAPWGT has a range, and each digit must be one that the module knows
+   !> Check that control words are not negative, that GAPWGT is in its range, and that each digit exists in the module
    subroutine check_ranges(words, module_number, problems)
       type(control_words), intent(in) :: words
       !> 1 or 3
@@ -138,7 +138,7 @@ contains
       end do
    end subroutine check_ranges
 
-   !> A first case of module 3 has nothing to keep
+   !> Check that a first case of module 3 keeps nothing
    subroutine check_first_contact(words, problems)
       type(control_words), intent(in) :: words
       type(problem_list), intent(inout) :: problems
@@ -155,7 +155,7 @@ contains
       end associate
    end subroutine check_first_contact
 
-   !> A first case of module 1 has nothing to keep
+   !> Check that a first case of module 1 keeps nothing
    subroutine check_first_pair(words, problems)
       type(control_words), intent(in) :: words
       type(problem_list), intent(inout) :: problems
@@ -172,7 +172,7 @@ contains
       end associate
    end subroutine check_first_pair
 
-   !> What a later case keeps must be there
+   !> Check that the data kept by a later case exist
    subroutine check_kept(words, previous, spec, problems)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: previous, spec
@@ -192,7 +192,7 @@ contains
       end associate
    end subroutine check_kept
 
-   !> Track and wheelset that a later case keeps must fit to it
+   !> Check that a track and wheelset kept by a later case are compatible with it
    subroutine check_kept_wheelset(words, previous, problems)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: previous
@@ -210,10 +210,10 @@ contains
       end associate
    end subroutine check_kept_wheelset
 
-   !> What digits of module 3 demand of each other
+   !> Requirements of the digits of module 3 on each other
    subroutine check_contact(words, previous_motion, problems)
       type(control_words), intent(in) :: words
-      !> T of the previous case, of this one when there is none
+      !> T of the previous case; of this one if there is none
       integer, intent(in) :: previous_motion
       type(problem_list), intent(inout) :: problems
 
@@ -227,7 +227,7 @@ contains
       end associate
    end subroutine check_contact
 
-   !> What digits of module 1 demand of each other
+   !> Requirements of the digits of module 1 on each other
    subroutine check_wheel_rail(words, problems)
       type(control_words), intent(in) :: words
       type(problem_list), intent(inout) :: problems
@@ -239,7 +239,7 @@ contains
       end associate
    end subroutine check_wheel_rail
 
-   !> What a first case of either module corrects, with a warning, and cannot keep
+   !> Correct, with a warning, digits that a first case of either module cannot have, and check what it cannot keep
    subroutine start_sequence(words, problems)
       type(control_words), intent(inout) :: words
       type(problem_list), intent(inout) :: problems
@@ -264,12 +264,12 @@ contains
       end associate
    end subroutine start_sequence
 
-   !> What choices demand of each other, see contact_cases_rules
+   !> Requirements of choices on each other, see contact_cases_rules
    subroutine check_physics(words, spec, problems, line_of_grid)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
-      !> When it is known, the rules about the form of the grid; otherwise all others, which hold for digits alone
+      !> Present: check the rules on the form of the grid; absent: check all others, which depend on digits only
       integer, intent(in), optional :: line_of_grid
       character(len=:), allocatable :: text
       integer :: k, kind
@@ -289,9 +289,9 @@ contains
       end do
    end subroutine check_physics
 
-   !> Refuse by name what the format knows but this version cannot compute: the one door for files and calls of both modules
+   !> Refuse, by name, choices that the format has but this version does not implement: used for files and calls of both modules
    !>
-   !> A digit that keeps something counts as the one that is kept.
+   !> A digit that keeps a choice is treated as the digit of that choice.
    subroutine refuse_unbuilt_digits(words, module_number, spec, problems)
       type(control_words), intent(in) :: words
       !> 1 or 3
@@ -314,7 +314,7 @@ contains
       end do
    end subroutine refuse_unbuilt_digits
 
-   !> What to use instead of a digit of module 1 that is not built, with a semicolon before it; blank when nothing is known
+   !> Alternative to a digit of module 1 that is not implemented, preceded by a semicolon; blank if there is none
    pure function alternative(spec, name) result(text)
       type(case_spec), intent(in) :: spec
       !> Letter of the digit
@@ -346,7 +346,7 @@ contains
       end select
    end function kept_digit
 
-   !> Add a problem at the word to which a digit belongs
+   !> Add a problem at the position of the word that contains a digit
    subroutine add_for_digit(problems, words, kind, name, message)
       type(problem_list), intent(inout) :: problems
       type(control_words), intent(in) :: words

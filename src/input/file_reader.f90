@@ -1,4 +1,4 @@
-!> The archive that gives values to a case from an input file
+!> Archive that reads the values of a case from an input file
 module contact_input_file_reader
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -11,25 +11,25 @@ module contact_input_file_reader
 
    public :: file_reader, new_file_reader
 
-   !> Most groups of a case
+   !> Maximum number of groups of a case
    integer, parameter :: max_groups = 32
 
-   !> First number of a group; line 0 before it was read
+   !> Position of the first number of a group; line 0 before it is read
    type :: group_place
       character(len=16) :: name = ""
       integer :: line = 0, column = 0
    end type group_place
 
-   !> Reads the lines of an input file and tells which numbers are beyond their bounds
+   !> Reads the lines of an input file and reports numbers out of bounds
    type, extends(case_archive) :: file_reader
-      !> The file, and what is wrong with the values of the case
+      !> The file, and the problems found in the values of the case
       type(input_lexer), pointer :: lexer => null()
       type(problem_list), pointer :: problems => null()
-      !> Why reading cannot go on; unallocated while it can
+      !> Reason why reading cannot continue; unallocated while it can
       type(error_type), allocatable :: error
-      !> The words of the last line
+      !> Words of the last line
       type(input_value), allocatable :: values(:)
-      !> Where the groups begin that were read, and number of the one in hand, 0 outside of groups
+      !> Positions of the groups read so far, and index of the current group, 0 outside of groups
       type(group_place) :: groups(max_groups)
       integer :: group_count = 0, group = 0
    contains
@@ -49,7 +49,7 @@ module contact_input_file_reader
 
 contains
 
-   !> A reader that begins at the next line of a file
+   !> Create a reader that starts at the next line of a file
    function new_file_reader(lexer, problems) result(reader)
       !> Both must outlive the reader
       type(input_lexer), intent(in), target :: lexer
@@ -62,7 +62,7 @@ contains
       allocate(reader%values(size(reader%items)))
    end function new_file_reader
 
-   !> Read the items in hand; those beyond their bounds are told
+   !> Read the current items; values out of bounds are reported
    subroutine read_line(self)
       class(file_reader), intent(inout) :: self
       character(len=size(self%items)) :: types
@@ -91,7 +91,7 @@ contains
       call self%finish_line()
    end subroutine read_line
 
-   !> The first number of a group tells where it is
+   !> Record the position of a group, which is that of its first number
    subroutine note_place(group, first)
       type(group_place), intent(inout) :: group
       type(input_value), intent(in) :: first
@@ -101,7 +101,7 @@ contains
       group%column = first%column
    end subroutine note_place
 
-   !> The numbers that follow belong to a group
+   !> Begin a group: the following numbers belong to it
    subroutine open_group_of_file(self, text)
       class(file_reader), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -111,14 +111,14 @@ contains
       self%groups(self%group) = group_place(name=text)
    end subroutine open_group_of_file
 
-   !> The numbers that follow do not belong to the group
+   !> End a group: the following numbers do not belong to it
    subroutine close_group_of_file(self)
       class(file_reader), intent(inout) :: self
 
       self%group = 0
    end subroutine close_group_of_file
 
-   !> Line on which a group begins, 0 when it was not read
+   !> Line on which a group begins, 0: not read
    pure integer function line_of(self, name) result(line)
       class(file_reader), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -130,7 +130,7 @@ contains
       end do
    end function line_of
 
-   !> A problem at the beginning of the group in hand; outside of groups on the last line
+   !> Add a problem at the beginning of the current group; outside of groups at the last line
    subroutine tell_of_group_of_file(self, is_error, text)
       class(file_reader), intent(inout) :: self
       logical, intent(in) :: is_error
@@ -145,7 +145,7 @@ contains
       end associate
    end subroutine tell_of_group_of_file
 
-   !> Where reading stopped, if it did
+   !> Add the position at which reading stopped, if it did
    subroutine add_context_of_file(self, text)
       class(file_reader), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -153,7 +153,7 @@ contains
       call add_context(self%error, text)
    end subroutine add_context_of_file
 
-   !> Letter of the type of an item, as read_group wants it
+   !> Letter of the type of an item, as required by read_group
    pure character function letter_of(item) result(letter)
       type(archive_item), intent(in) :: item
 
@@ -166,7 +166,7 @@ contains
       if (item%is_optional) letter = achar(iachar(letter) - 32)
    end function letter_of
 
-   !> Give the variable of an item its value
+   !> Set the variable of an item
    subroutine take_value(self, item, value)
       class(file_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
@@ -182,17 +182,17 @@ contains
          item%s%value = value%s
          return
       end if
-      ! the name is looked up once more for what is wrong only
+      ! the name is looked up again only to describe the problem
       if (.not. (item%is_unchecked .or. is_within(item%row, value%r))) call self%problems%check_bounds(value)
       select case (item%kind)
       case (item_kind%integer); item%i = value%i
-      ! only the sign has a meaning
+      ! only the sign is significant
       case (item_kind%branch); item%i = int(sign(min(1000.0_wp, anint(abs(value%r) + 0.49_wp)), value%r))
       case default; item%r = value%r
       end select
    end subroutine take_value
 
-   !> Read exactly n numbers and tell the first that is beyond the bounds
+   !> Read exactly n numbers and report the first that is out of bounds
    subroutine read_list(self, name, values, n, units, bounds)
       class(file_reader), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -215,7 +215,7 @@ contains
       if (self%is_good .and. outside%given) call self%problems%check_bounds(outside, trim(bounds_table(row)%name))
    end subroutine read_list
 
-   !> A value cannot be used, is doubtful or was replaced: "name = word" and the reason, at its place
+   !> Report that a value cannot be used, is doubtful or was replaced: "name = word" and the reason, at its position
    subroutine tell_of_value(self, is_error, name, text)
       class(file_reader), intent(inout) :: self
       logical, intent(in) :: is_error
@@ -229,7 +229,7 @@ contains
       call self%problems%add(merge(severity%error, severity%warning, is_error), trim(self%shown(name)) // text, line, column)
    end subroutine tell_of_value
 
-   !> Reading cannot go on because of a value, or of what was read before when there is no name
+   !> Stop reading because of a value, or of data read before if there is no name
    subroutine stop_reading(self, name, text)
       class(file_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, text
@@ -259,7 +259,7 @@ contains
       call self%problems%check_bounds(value)
    end subroutine check_value
 
-   !> "name = word", with blanks behind
+   !> "name = word", padded with blanks
    pure function show_value(self, name) result(text)
       class(file_reader), intent(in) :: self
       character(len=*), intent(in) :: name

@@ -1,4 +1,4 @@
-!> What is wrong with the values of a case, collected instead of stopping at the first
+!> Problems with the values of a case, collected so that reading continues after the first
 module contact_input_problems
    use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : wp
@@ -13,27 +13,27 @@ module contact_input_problems
    type :: severity_list
       !> The case cannot be used
       integer :: error = 1
-      !> Something was corrected or looks dubious
+      !> A value was corrected or is doubtful
       integer :: warning = 2
-      !> The case is right, but this version cannot compute it
+      !> The case is valid but not implemented in this version
       integer :: unsupported = 3
    end type severity_list
    !> Kinds of problems
    type(severity_list), parameter :: severity = severity_list()
 
-   !> One problem with its place in the file
+   !> A problem with its position in the file
    type :: input_problem
       !> Member of severity
       integer :: severity = 0
-      !> The words and the place
+      !> Message and position
       type(error_type) :: what
    end type input_problem
 
-   !> A list that grows; the items 1...count are in use
+   !> Growing list; items 1...count are in use
    type :: problem_list
       integer :: count = 0
       type(input_problem), allocatable :: items(:)
-      !> Name of the input file; unallocated when there is none
+      !> Name of the input file; unallocated: none
       character(len=:), allocatable :: file
    contains
       procedure :: start
@@ -46,10 +46,10 @@ module contact_input_problems
 
 contains
 
-   !> Empty the list and remember the name of the file
+   !> Empty the list and store the name of the file
    subroutine start(self, file)
       class(problem_list), intent(inout) :: self
-      !> Path of the input file, for the places of complaints
+      !> Path of the input file, for the positions in messages
       character(len=*), intent(in) :: file
 
       self%count = 0
@@ -63,11 +63,11 @@ contains
       class(problem_list), intent(inout) :: self
       !> Member of severity
       integer, intent(in) :: kind
-      !> One sentence: what is wrong, and what would be accepted
+      !> One sentence: what is wrong, and what is accepted
       character(len=*), intent(in) :: message
-      !> Position in the file, column 0 when the line as a whole is meant
+      !> Line in the file
       integer, intent(in) :: line
-      !> Column in the line, from 1; absent: not known
+      !> Column in the line, from 1; absent or 0: the line as a whole
       integer, intent(in), optional :: column
       type(input_problem), allocatable :: longer(:)
 
@@ -109,7 +109,7 @@ contains
    !> The first problem that is not a warning, as an error
    subroutine first_failure(self, error)
       class(problem_list), intent(in) :: self
-      !> The first problem that refuses the case; unallocated without one
+      !> First problem because of which the case is refused; unallocated: none
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
@@ -120,12 +120,12 @@ contains
       end do
    end subroutine first_failure
 
-   !> A number must keep its bounds
+   !> Check the bounds of a number
    subroutine check_bounds(self, value, name)
       class(problem_list), intent(inout) :: self
-      !> Number with its place in the file
+      !> Number with its position in the file
       type(input_value), intent(in) :: value
-      !> Name of the bounds in the table; default the name of the value
+      !> Name of the bounds in the table; default: name of the value
       character(len=*), intent(in), optional :: name
       character(len=:), allocatable :: complaint
 
@@ -137,7 +137,7 @@ contains
       if (allocated(complaint)) call self%add(severity%error, complaint, value%line, value%column)
    end subroutine check_bounds
 
-   !> The words that begin a printed problem
+   !> Words at the beginning of a printed problem
    pure function opening(problem) result(words)
       type(input_problem), intent(in) :: problem
       character(len=16) :: words
@@ -146,9 +146,9 @@ contains
       if (problem%severity == severity%warning) words = " Input: WARNING."
    end function opening
 
-   !> A problem as it is printed, " Input: ERROR. file:line:column: words"
+   !> A problem as printed, " Input: ERROR. file:line:column: words"
    pure function problem_text(problem) result(text)
-      !> One problem that was noted
+      !> A problem of the list
       type(input_problem), intent(in) :: problem
       character(len=len_trim(opening(problem)) + 1 + len(full_text(problem%what))) :: text
 

@@ -1,4 +1,4 @@
-!> One case of an input file: control words, the groups that they ask for, then all checks
+!> One case of an input file: control words, the groups required by them, then all checks
 module contact_input_reader
    use contact_base_error, only : add_context, error_type
    use contact_cases_continuation, only : frame_of
@@ -22,12 +22,11 @@ contains
 
    !> Read a case
    !>
-   !> The case starts as a copy of the previous one, so that what a digit keeps is there, and the
-   !> groups that are read overwrite it. Values that break a rule are reported in `problems` and
-   !> reading goes on; `error` means that reading cannot go on.
+   !> The case starts as a copy of the previous one, so that kept data are present, and the groups that are read replace theirs.
+   !> Values that violate a rule are reported in `problems` and reading continues; `error` means that reading cannot continue.
    subroutine read_case(lexer, module_number, previous, has_previous, case_number, spec, problems, error, coefficients, &
       & first_line, digits)
-      !> At the first word of the case
+      !> Positioned at the first word of the case
       type(input_lexer), intent(inout), target :: lexer
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -35,17 +34,17 @@ contains
       type(case_spec), intent(in) :: previous
       !> Is there a previous case?
       logical, intent(in) :: has_previous
-      !> For messages
+      !> Number of the case, for messages
       integer, intent(in) :: case_number
       type(case_spec), intent(out) :: spec
       type(problem_list), intent(inout), target :: problems
       type(error_type), allocatable, intent(out) :: error
-      !> Grid for which influence coefficients of module 3 were last formed, kept from case to case by the
-      !> caller; when absent, the grid of the previous case counts
+      !> Grid for which influence coefficients of module 3 were last computed, kept from case to case by the caller; absent: the
+      !> grid of the previous case
       type(potential_contact), intent(inout), optional :: coefficients
-      !> Line of the first control word, 0 when there is none
+      !> Line of the first control word, 0: none
       integer, intent(out), optional :: first_line
-      !> Digits as the case gave them
+      !> Digits as given by the case
       type(case_digits), intent(out), optional :: digits
       type(control_words) :: words
       type(file_reader) :: a

@@ -1,4 +1,4 @@
-!> Values of the readable format as numbers and texts of a case: kinds, units, bounds, lengths of lists
+!> Conversion of values of the readable format to numbers and texts of a case: kinds, units, bounds, lengths of lists
 module contact_input_toml_values
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, item_kind
@@ -15,16 +15,16 @@ module contact_input_toml_values
 
 contains
 
-   !> Bounds of the value of an item
+   !> Check the bounds of the value of an item
    subroutine check_item(self, item, key, node, bounds)
       class(toml_tables), intent(inout) :: self
-      !> With its value
+      !> Item with its value
       type(archive_item), intent(in) :: item
-      !> As the file writes it
+      !> Key as written in the file
       character(len=*), intent(in) :: key
-      !> Of the value in the tree of the document
+      !> Index of the value in the tree of the document
       integer, intent(in) :: node
-      !> Name of the bounds in the table; default that of the item
+      !> Name of the bounds in the table; default: that of the item
       character(len=*), intent(in), optional :: bounds
       character(len=:), allocatable :: complaint, name
       real(wp) :: value
@@ -42,12 +42,12 @@ contains
       if (allocated(complaint)) call self%add_problem(severity%error, node, complaint)
    end subroutine check_item
 
-   !> The lengths of lists follow from the lists; -1 for what is no length, or where there is no list
+   !> Determine lengths of lists from the lists; -1 for items that are not a length, or without a list
    subroutine count_values(self, name, number)
       class(toml_tables), intent(inout) :: self
-      !> Of the item
+      !> Name of the item
       character(len=*), intent(in) :: name
-      !> Values in the list
+      !> Number of values in the list
       integer, intent(out) :: number
       integer :: array, per, option
 
@@ -89,14 +89,14 @@ contains
       end if
    end subroutine count_values
 
-   !> A value of the kind that an item needs
+   !> Set an item from a value of the required kind
    subroutine take_number(self, item, index, complaint)
       class(toml_tables), intent(in) :: self
-      !> Its value is set
+      !> Item whose value is set
       type(archive_item), intent(inout) :: item
-      !> Of the value in the tree of the document
+      !> Index of the value in the tree of the document
       integer, intent(in) :: index
-      !> Why it is none; unallocated when it is
+      !> Reason why the value cannot be used; unallocated if it can
       character(len=:), allocatable, intent(out) :: complaint
       character(len=:), allocatable :: unit
       real(wp) :: value
@@ -137,7 +137,7 @@ contains
       end associate
    end subroutine take_number
 
-   !> Place of a control character, 0 for none
+   !> Position of the first control character, 0: none
    pure integer function index_of_control(text) result(k)
       character(len=*), intent(in) :: text
 
@@ -147,20 +147,20 @@ contains
       k = 0
    end function index_of_control
 
-   !> Numbers of an array and of those in it
+   !> Numbers of an array, including nested arrays
    recursive subroutine fill_list(self, array, key, row, values, filled, units)
       class(toml_tables), intent(inout) :: self
-      !> Node in the tree of the document
+      !> Index of the array in the tree of the document
       integer, intent(in) :: array
-      !> As the file writes it
+      !> Key as written in the file
       character(len=*), intent(in) :: key
-      !> Of the bounds
+      !> Row of the bounds in the table
       integer, intent(in) :: row
-      !> In internal units; those that the array lacks stay
+      !> Values in internal units; those that are missing in the array are unchanged
       real(wp), intent(inout) :: values(:)
-      !> Number of values that have been taken
+      !> Number of values read so far
       integer, intent(inout) :: filled
-      !> Internal unit of each component, where they differ
+      !> Internal unit of each component, if they differ
       character(len=*), intent(in), optional :: units(:)
       character(len=:), allocatable :: complaint, unit
       integer :: k
