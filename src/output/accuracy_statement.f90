@@ -1,4 +1,4 @@
-!> What became of an accuracy that was asked for, in the .out file
+!> Outcome of a requested accuracy, in the .out file
 module contact_output_accuracy_statement
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_kinds, only : wp
@@ -12,10 +12,10 @@ module contact_output_accuracy_statement
 
 contains
 
-   !> Lines of the .out file: what was asked, what was chosen, what is left, and what it cost
+   !> Write the lines of the .out file: requested accuracy, what was chosen, estimated error, and computing time
    subroutine write_accuracy(log, report)
       type(log_type), intent(inout) :: log
-      !> Of the case
+      !> Report of the case on its accuracy
       type(accuracy_report), intent(in) :: report
       character(len=:), allocatable :: line
 
@@ -45,7 +45,7 @@ contains
       call log%result(line // ", " // short(report%seconds) // " s, of which the last one " // short(report%last_seconds) // " s")
    end subroutine write_accuracy
 
-   !> A number in two digits
+   !> A number with two significant digits
    pure function short(number) result(text)
       real(wp), intent(in) :: number
       character(len=len_trim(adjustl(scientific(number, 10, 1)))) :: text

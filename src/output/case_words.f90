@@ -1,4 +1,4 @@
-!> A case in words: what is simulated, what is not, how, and what it is expected to cost
+!> Description of a case in words: what is simulated and what is not, by which method, and the expected cost
 module contact_output_case_words
    use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
    use contact_base_kinds, only : wp
@@ -17,16 +17,16 @@ module contact_output_case_words
 
 contains
 
-   !> One case
+   !> Describe one case
    subroutine tell_case(module_number, reid, number, first_line, spec, is_usable, told)
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> Result element, 0 for the default one; number in the file, from 1; line where the case begins
+      !> Result element, 0 for the default one; index in the file, from 1; line on which the case begins
       integer, intent(in) :: reid, number, first_line
       type(case_spec), intent(in) :: spec
-      !> Can it be computed? Otherwise there is no estimate
+      !> Can it be computed? If not, there is no estimate of the cost
       logical, intent(in) :: is_usable
-      !> The words, line by line
+      !> Receives the description, line by line
       type(text_buffer), intent(inout) :: told
       character(len=:), allocatable :: title
       type(case_cost) :: cost
@@ -88,7 +88,7 @@ contains
 
    contains
 
-      !> One line
+      !> Add one line
       subroutine say(line)
          character(len=*), intent(in) :: line
          character(len=:), allocatable :: text
@@ -97,7 +97,7 @@ contains
          call told%add_line("  " // trim(text))
       end subroutine say
 
-      !> A choice in words, with blanks behind
+      !> Description of a choice, padded with blanks
       pure function digit(name, choice) result(text)
          character(len=*), intent(in) :: name
          integer, intent(in) :: choice
@@ -106,7 +106,7 @@ contains
          text = digit_text(name, digit_of(name, choice, module_number), module_number)
       end function digit
 
-      !> The same with a blank before it, where it has a meaning
+      !> The same preceded by a blank; blank if it has no meaning
       pure function digit_if(has_meaning, name, choice) result(text)
          logical, intent(in) :: has_meaning
          character(len=*), intent(in) :: name
@@ -118,7 +118,7 @@ contains
       end function digit_if
    end subroutine tell_case
 
-   !> Effects that a case leaves out, with blanks behind
+   !> Effects that a case neglects, padded with blanks
    pure function absent(spec) result(text)
       type(case_spec), intent(in) :: spec
       character(len=240) :: text

@@ -52,9 +52,9 @@ contains
    !> Title, explanation and column heading
    subroutine write_table_head(log, motion_kind, fields)
       type(log_type), intent(inout) :: log
-      !> Member of motion
+      !> Member of `motion`
       integer, intent(in) :: motion_kind
-      !> Those that have columns of their own
+      !> Fields with a separate column
       type(element_field), intent(in) :: fields(:)
       character(len=1 + width*size(fields)) :: more
       integer :: k
@@ -86,20 +86,20 @@ contains
       end if
    end subroutine write_table_head
 
-   !> Has a field a column of its own?
+   !> Does a field have a separate column?
    elemental logical function has_column(field)
       type(element_field), intent(in) :: field
 
       has_column = associated(field%values) .and. field%figures > 0
    end function has_column
 
-   !> Write the line of one element; slip per step becomes relative slip
+   !> Write the line of one element; slip per step is converted to relative slip
    subroutine write_element(log, motion_kind, result, fields, ix, iy)
       type(log_type), intent(inout) :: log
-      !> Member of motion
+      !> Member of `motion`
       integer, intent(in) :: motion_kind
       type(patch_result), intent(in) :: result
-      !> Those that have columns of their own
+      !> Fields with a separate column
       type(element_field), intent(in) :: fields(:)
       integer, intent(in) :: ix, iy
       character(len=:), allocatable :: line

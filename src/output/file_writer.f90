@@ -1,4 +1,4 @@
-!> The archive that writes a case as an input file
+!> Archive that writes a case as an input file
 module contact_output_file_writer
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file
@@ -10,16 +10,16 @@ module contact_output_file_writer
 
    public :: file_writer, put_words
 
-   !> Sixteen figures tell most numbers apart, seventeen all
+   !> Columns of a number: sixteen digits identify most numbers, seventeen all
    integer, parameter :: width = 24
-   !> Longest list that is written on one line, and numbers per line of longer ones
+   !> Maximum length of a list that is written on one line, and numbers per line of longer lists
    integer, parameter :: short_list = 8, per_line = 4
 
-   !> Writes the numbers of each line, and their names as a comment
+   !> Writes the numbers of each line, followed by their names as a comment
    type, extends(case_archive) :: file_writer
       !> An open file
       type(output_file), pointer :: file => null()
-      !> What is said behind the names of the lines of the group in hand
+      !> Remark after the names on the lines of the current group
       character(len=:), allocatable, private :: remark
    contains
       procedure :: end_line => write_line
@@ -30,7 +30,7 @@ module contact_output_file_writer
 
 contains
 
-   !> Write the items in hand
+   !> Write the current items
    subroutine write_line(self)
       class(file_writer), intent(inout) :: self
       character(len=:), allocatable :: values, names
@@ -57,7 +57,7 @@ contains
       call self%finish_line()
    end subroutine write_line
 
-   !> Keep what is said about the group in hand
+   !> Store the remark on the current group
    subroutine keep_remark(self, text)
       class(file_writer), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -65,7 +65,7 @@ contains
       self%remark = ", " // text
    end subroutine keep_remark
 
-   !> Forget what was said about the group
+   !> Remove the remark at the end of the group
    subroutine drop_remark(self)
       class(file_writer), intent(inout) :: self
 
@@ -78,7 +78,7 @@ contains
       character(len=*), intent(in) :: name
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: n
-      !> Those of input files
+      !> Units of input files
       character(len=*), intent(in), optional :: units(:)
       character(len=*), intent(in), optional :: bounds
       integer :: first, step
@@ -91,7 +91,7 @@ contains
       end associate
    end subroutine write_list
 
-   !> Values, then their names; a comment for readers in both senses
+   !> Write values, then their names as a comment
    subroutine put_line(self, values, names)
       class(file_writer), intent(in) :: self
       character(len=*), intent(in) :: values, names
@@ -99,7 +99,7 @@ contains
       call self%file%line(" " // values // "   % " // names)
    end subroutine put_line
 
-   !> Real numbers with all their figures, with blanks behind
+   !> Real numbers to full precision, padded with blanks
    pure function number_row(values) result(text)
       real(wp), intent(in) :: values(:)
       character(len=width*size(values)) :: text
@@ -121,7 +121,7 @@ contains
       end do
    end function number_row
 
-   !> The same without the blanks
+   !> The same without trailing blanks
    pure function numbers(values) result(text)
       real(wp), intent(in) :: values(:)
       character(len=len_trim(number_row(values))) :: text
@@ -129,7 +129,7 @@ contains
       text = number_row(values)
    end function numbers
 
-   !> The three control words
+   !> Write the three control words
    subroutine put_words(self, digits, module_number)
       class(file_writer), intent(in) :: self
       type(case_digits), intent(in) :: digits
@@ -142,7 +142,7 @@ contains
          call put_line(self, word_text(digits, 1), "PBTNFS")
       end if
       call put_line(self, word_text(digits, 2) // " " // integer_text(10*digits%gapwgt + digits%m2), "VLDCMZE, GAPWGT M2")
-      ! without the digit X: there is no fourth word
+      ! without the digit X, because no fourth word is written
       call put_line(self, word_text(digits, 3), "HGIAOWR")
    end subroutine put_words
 end module contact_output_file_writer

@@ -1,4 +1,4 @@
-!> Files that exist only when complete: written under a temporary name, renamed at the end
+!> Files that exist only if complete: written under a temporary name, renamed at the end
 module contact_output_finished_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -9,14 +9,14 @@ module contact_output_finished_file
 
    public :: case_file_name, close_result, finished_file, move_file, open_result, open_result_again
 
-   !> A file in the making
+   !> A file being written
    type, extends(output_file) :: finished_file
-      !> Final and temporary name
+      !> Final name and temporary name
       character(len=:), allocatable :: name, temporary
    contains
       !> Start a file under a temporary name
       procedure :: start => start_file
-      !> Close the file and give it its name, or remove it when writing went wrong
+      !> Close the file and rename it, or remove it if writing failed
       procedure :: finish => finish_file
    end type finished_file
 
@@ -31,9 +31,9 @@ module contact_output_finished_file
 
 contains
 
-   !> What tells the files of cases apart: [_reNNN].<case>[<patch letter>], with blanks behind
+   !> Part of the file name that identifies the case: [_reNNN].<case>[<patch letter>], padded with blanks
    !>
-   !> The number of the case has at least four digits; that of a .subs file six from 10000 on, and from a million on it is left out.
+   !> The case number has at least four digits; in the name of a .subs file six from 10000 on, and it is omitted from a million on.
    pure function case_mark(case_number, extension, result_element, patch) result(mark)
       integer, intent(in) :: case_number
       character(len=*), intent(in) :: extension
@@ -50,11 +50,11 @@ contains
       if (number /= "") mark = trim(mark) // "." // number
    end function case_mark
 
-   !> Name of a file that belongs to one case: <base>[_reNNN].<case>[<patch letter>].<extension>
+   !> Name of a file of one case: <base>[_reNNN].<case>[<patch letter>].<extension>
    pure function case_file_name(base, case_number, extension, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
-      !> From 1
+      !> Case number, from 1
       integer, intent(in) :: case_number
       !> Extension without dot
       character(len=*), intent(in) :: extension
@@ -71,17 +71,17 @@ contains
       !> Final name
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
-      !> As for open_result
+      !> See open_result
       type(case_limits), intent(in), optional :: limits
 
       self%name = name
       self%temporary = name // ".tmp"
       call open_result(self, self%temporary, name, error, limits)
-      ! it may be there, empty, when there is no memory for its stream
+      ! it may exist, empty, if there was no memory for its stream
       if (allocated(error)) call remove_file(self%temporary)
    end subroutine start_file
 
-   !> Close and rename; when writing failed anywhere the temporary file is removed and the error says so
+   !> Close and rename; if writing failed at any time, the temporary file is removed and the error reports it
    subroutine finish_file(self, error)
       class(finished_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -95,13 +95,13 @@ contains
       call fatal_error(error, "the file could not be completed, it was not written", error_kind%file, file=self%name)
    end subroutine finish_file
 
-   !> Open a file of results, or say why not
+   !> Open a file of results, or report why this is impossible
    subroutine open_result(file, path, name, error, limits)
       class(output_file), intent(inout) :: file
       !> Name to open, and name for the message
       character(len=*), intent(in) :: path, name
       type(error_type), allocatable, intent(out) :: error
-      !> Is the run confined, and how much may it write? Absent: no and any
+      !> Confinement of the run and limit of its output; absent: none
       type(case_limits), intent(in), optional :: limits
       character(len=:), allocatable :: reason
 
@@ -114,15 +114,15 @@ contains
       if (allocated(reason)) call fatal_error(error, "the file cannot be written: " // reason, error_kind%file, name)
    end subroutine open_result
 
-   !> Go on with a file of results behind a place, or say why not
+   !> Continue a file of results at a position, or report why this is impossible
    subroutine open_result_again(file, name, place, error, limits)
       class(output_file), intent(inout) :: file
       !> Path of the file
       character(len=*), intent(in) :: name
-      !> Bytes that are kept
+      !> Number of bytes that are kept
       integer(c_long), intent(in) :: place
       type(error_type), allocatable, intent(out) :: error
-      !> As for open_result
+      !> See open_result
       type(case_limits), intent(in) :: limits
       character(len=:), allocatable :: reason
 
@@ -132,7 +132,7 @@ contains
          & error_kind%file, name)
    end subroutine open_result_again
 
-   !> Close a file of results and say whether all of it arrived
+   !> Close a file of results and check that it was written completely
    subroutine close_result(file, name, error)
       class(output_file), intent(inout) :: file
       !> Path of the file, for the message
@@ -144,16 +144,17 @@ contains
       if (.not. complete) call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
    end subroutine close_result
 
-   !> Rename a file; where the system refuses to replace, the old one steps aside, and comes back when that did not help
+   !> Rename a file; if the system does not replace an existing file, that file is renamed first, and restored if this does not
+   !> help
    integer function move_file(from, to) result(status)
-      !> Paths, old and new
+      !> Old and new path
       character(len=*), intent(in) :: from, to
       character(len=*), parameter :: aside = ".old"
       integer :: ignored, unit
 
       status = int(c_rename(from // c_null_char, to // c_null_char))
       if (status == 0) return
-      ! a folder of that name stays where it is
+      ! a folder of that name is not renamed
       open(newunit=unit, file=to, status="old", action="readwrite", iostat=ignored)
       if (ignored /= 0) return
       close(unit, iostat=ignored)

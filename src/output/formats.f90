@@ -1,10 +1,9 @@
 !> Numbers as fixed-width texts: the formats of the .out, .mat and .subs files
 !>
-!> Readers split lines on blanks or take fixed columns, so a number must never fill its
-!> field with stars, lose the letter of its exponent or show a negative zero. The digits are
-!> made by integer arithmetic: large tables are written an order of magnitude faster than with
-!> edit descriptors. The last digit may differ from theirs when the next one is a five and the
-!> rest is zero to 15 digits.
+!> Readers split lines on blanks or use fixed columns. A number therefore never fills its field with asterisks, loses the letter of
+!> its exponent or appears as negative zero. Digits are computed by integer arithmetic: large tables are written an order of
+!> magnitude faster than with edit descriptors. The last digit may differ from theirs if the next one is a five followed by zeros
+!> up to 15 digits.
 module contact_output_formats
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use contact_base_kinds, only : long, wp
@@ -14,24 +13,24 @@ module contact_output_formats
 
    public :: fixed, fixeds, general, generals, heading, scientific, smart, smarts, whole
 
-   !> Smaller magnitudes are shown as zero: their exponents would need three digits [-]
+   !> Smaller magnitudes are written as zero: their exponents would need three digits [-]
    real(wp), parameter :: smallest = 1.0e-99_wp
-   !> Smaller magnitudes are shown as zero by the smart format [-]
+   !> Smaller magnitudes are written as zero in the format of `smart` [-]
    real(wp), parameter :: smart_zero = 1.0e-20_wp
-   !> Largest number that is turned into an integer [-]
+   !> Maximum magnitude of a number that is converted to an integer [-]
    real(wp), parameter :: integer_limit = 9.0e15_wp
    !> Columns of the working text
    integer, parameter :: room = 40
-   !> Powers of ten that are exact
+   !> Powers of ten that are represented exactly
    real(wp), parameter :: ten(0:22) = [1.0e0_wp, 1.0e1_wp, 1.0e2_wp, 1.0e3_wp, 1.0e4_wp, 1.0e5_wp, 1.0e6_wp, &
       & 1.0e7_wp, 1.0e8_wp, 1.0e9_wp, 1.0e10_wp, 1.0e11_wp, 1.0e12_wp, 1.0e13_wp, 1.0e14_wp, 1.0e15_wp, 1.0e16_wp, &
       & 1.0e17_wp, 1.0e18_wp, 1.0e19_wp, 1.0e20_wp, 1.0e21_wp, 1.0e22_wp]
 
-   !> A number rounded to some significant digits: digits * 10**(exponent - count + 1)
+   !> A number rounded to a number of significant digits: digits * 10**(exponent - count + 1)
    type :: rounded
       !> The digits as an integer, 0 for zero
       integer(long) :: digits = 0
-      !> Power of ten of the first digit
+      !> Exponent of ten of the first digit
       integer :: exponent = 0
       logical :: negative = .false.
    end type rounded
@@ -40,7 +39,7 @@ contains
 
    !> Integer, right-aligned in width columns; longer if it does not fit
    pure function whole(value, width) result(text)
-      !> What is written
+      !> Value to be written
       integer, intent(in) :: value
       !> Number of columns
       integer, intent(in) :: width
@@ -55,10 +54,10 @@ contains
       text = work(room + 1 - len(text):)
    end function whole
 
-   !> Fixed point with the given decimals, right-aligned; large values lose decimals, then
-   !> turn to scientific notation
+   !> Fixed point with the given number of decimals, right-aligned; for large values the number of decimals is reduced, then
+   !> scientific notation is used
    pure function fixed(value, width, decimals) result(text)
-      !> What is written
+      !> Value to be written
       real(wp), intent(in) :: value
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
@@ -86,9 +85,9 @@ contains
       text = scientific(value, width, max(0, min(decimals, width - 8)))
    end function fixed
 
-   !> Normalised scientific: one non-zero digit before the point
+   !> Normalised scientific notation: one non-zero digit before the decimal point
    pure function scientific(value, width, decimals) result(text)
-      !> What is written
+      !> Value to be written
       real(wp), intent(in) :: value
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
@@ -103,10 +102,10 @@ contains
       text = with_exponent(number, number%exponent, decimals, width)
    end function scientific
 
-   !> Switching format: fixed with the given significant digits and four blanks behind for
-   !> 0.1 <= |value| < 10**digits (after rounding), else 0.dddE+xx
+   !> Fixed point with the given number of significant digits, followed by four blanks, if 0.1 <= |value| < 10**digits after
+   !> rounding; otherwise 0.dddE+xx
    pure function general(value, width, digits) result(text)
-      !> What is written
+      !> Value to be written
       real(wp), intent(in) :: value
       !> Number of columns and of significant digits
       integer, intent(in) :: width, digits
@@ -130,10 +129,10 @@ contains
       end if
    end function general
 
-   !> "Smart" format: fixed with a constant number of digits for 0.1 <= |value| < 10**places,
-   !> else scientific with the given significant digits. The switch looks at the unrounded value.
+   !> Fixed point with a constant number of digits if 0.1 <= |value| < 10**places, otherwise scientific notation with the given
+   !> number of significant digits. The choice depends on the unrounded value.
    pure function smart(value, width, places, digits) result(text)
-      !> What is written
+      !> Value to be written
       real(wp), intent(in) :: value
       !> Number of columns, digits of the fixed form, digits of the scientific form
       integer, intent(in) :: width, places, digits
@@ -159,9 +158,9 @@ contains
       end if
    end function smart
 
-   !> Values next to each other in the format G 12.4
+   !> Values side by side in the format of `general` with 12 columns and 4 digits
    pure function generals(values) result(text)
-      !> What is written
+      !> Values to be written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -170,9 +169,9 @@ contains
       end do
    end function generals
 
-   !> Values next to each other in 12 columns with four decimals
+   !> Values side by side in 12 columns each, with four decimals
    pure function fixeds(values) result(text)
-      !> What is written
+      !> Values to be written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -181,9 +180,9 @@ contains
       end do
    end function fixeds
 
-   !> Values next to each other in the format S 12/4/4
+   !> Values side by side in the format of `smart` with 12 columns, 4 places and 4 digits
    pure function smarts(values) result(text)
-      !> What is written
+      !> Values to be written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -192,15 +191,15 @@ contains
       end do
    end function smarts
 
-   !> Length of a heading, without blanks behind the last name
+   !> Length of a heading, without blanks after the last name
    pure integer function heading_length(names) result(length)
       character(len=*), intent(in) :: names(:)
       length = 12*size(names) - 7 + len_trim(names(size(names)))
    end function heading_length
 
-   !> Column names above values: two blanks, then three blanks and a name in each twelve columns
+   !> Column names for a line of values: two blanks, then three blanks and a name in every twelve columns
    pure function heading(names) result(text)
-      !> At most nine letters each
+      !> Names of at most nine characters
       character(len=*), intent(in) :: names(:)
       character(len=heading_length(names)) :: text
       integer :: i
@@ -213,7 +212,7 @@ contains
 
    !> Round to significant digits
    pure function round_to(value, count) result(number)
-      !> Finite
+      !> Finite value
       real(wp), intent(in) :: value
       !> Number of significant digits, at most 15
       integer, intent(in) :: count
@@ -226,7 +225,7 @@ contains
       number%exponent = floor(log10(abs(value)))
       number%digits = nint(shifted(abs(value), count - 1 - number%exponent), long)
       if (10*number%digits < limit) then
-         ! The logarithm was rounded up to the next power of ten
+         ! the logarithm was rounded up to the next power of ten
          number%exponent = number%exponent - 1
          number%digits = nint(shifted(abs(value), count - 1 - number%exponent), long)
       end if
@@ -236,7 +235,7 @@ contains
       end if
    end function round_to
 
-   !> value * 10**power with as little rounding as possible
+   !> value * 10**power with minimum round-off
    pure real(wp) function shifted(value, power)
       real(wp), intent(in) :: value
       integer, intent(in) :: power
@@ -252,10 +251,10 @@ contains
       end if
    end function shifted
 
-   !> Digits with a point before the last so many of them, and an exponent
+   !> Digits with the given number of decimals, and an exponent
    pure function with_exponent(number, exponent, decimals, width) result(text)
       type(rounded), intent(in) :: number
-      !> Exponent to show, decimals, columns
+      !> Exponent to be written, number of decimals, number of columns
       integer, intent(in) :: exponent, decimals, width
       character(len=width) :: text
       character(len=room) :: work
@@ -270,15 +269,15 @@ contains
       text = work(room + 1 - width:room)
    end function with_exponent
 
-   !> Put digits with a decimal point in front of what is there
+   !> Prepend digits with a decimal point
    pure subroutine prepend_fixed(work, first, digits, decimals, negative)
       character(len=room), intent(inout) :: work
       !> First used column
       integer, intent(inout) :: first
       integer(long), intent(in) :: digits
-      !> Number of digits behind the point
+      !> Number of digits after the decimal point
       integer, intent(in) :: decimals
-      !> Put a sign in front, unless all digits are zero?
+      !> Prepend a minus sign, unless all digits are zero?
       logical, intent(in) :: negative
       integer(long) :: unit
 
@@ -290,12 +289,12 @@ contains
       if (negative .and. digits > 0) call prepend_sign(work, first)
    end subroutine prepend_fixed
 
-   !> Put an integer with at least so many digits in front of what is there
+   !> Prepend an integer with at least `least` digits
    pure subroutine prepend(work, first, number, least)
       character(len=room), intent(inout) :: work
       !> First used column
       integer, intent(inout) :: first
-      !> Not negative
+      !> Non-negative
       integer(long), intent(in) :: number
       integer, intent(in) :: least
       integer(long) :: rest
@@ -311,7 +310,7 @@ contains
       end do
    end subroutine prepend
 
-   !> Put a minus sign in front of what is there
+   !> Prepend a minus sign
    pure subroutine prepend_sign(work, first)
       character(len=room), intent(inout) :: work
       !> First used column
@@ -324,7 +323,7 @@ contains
    !> NaN or infinity, right-aligned
    pure function not_a_number(value, width) result(text)
       real(wp), intent(in) :: value
-      !> At least 3 columns
+      !> Number of columns, at least 3
       integer, intent(in) :: width
       character(len=width) :: text
 

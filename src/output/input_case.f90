@@ -1,4 +1,4 @@
-!> Cases as input files: what was solved through the library can be solved by the program
+!> Cases as input files, so that cases solved through the library can be solved by the program
 module contact_output_input_case
    use contact_base_choices, only : planform_choice, pressure_model, slip_source
    use contact_base_kinds, only : wp
@@ -14,29 +14,29 @@ module contact_output_input_case
 
    public :: write_contact_case, write_input_case
 
-   !> Elements that are kept around the contact area, and sides of the window that is kept without contact
+   !> Number of elements kept around the contact area, and side of the window that is kept without contact [elements]
    integer, parameter :: margin = 2, empty_window = 5
 
 contains
 
-   !> A case with its control words and the groups that it gives
+   !> Write a case: its control words and the groups that it gives
    subroutine write_input_case(file, spec)
-      !> An open one
+      !> An open file
       type(output_file), target, intent(in) :: file
-      !> Names of profiles are written as they are here
+      !> The case; names of profiles are written unchanged
       type(case_spec), intent(in) :: spec
       type(file_writer) :: a
       type(case_spec), target :: written
 
       a%file => file
       written = spec
-      ! the format does not know them
+      ! not in the format
       written%has_wear = .false.
       call put_words(a, digits_of(spec), module_number=merge(1, 3, allocated(spec%wheel_rail)))
       call visit_case(a, written)
    end subroutine write_input_case
 
-   !> A solved case of module 3; a window that is not Hertzian is cut to the contact area and a margin
+   !> Write a solved case of module 3; a grid that is not Hertzian is cut to the contact area with a margin
    subroutine write_contact_case(file, spec, result)
       type(output_file), target, intent(in) :: file
       type(case_spec), intent(in) :: spec
@@ -52,7 +52,7 @@ contains
          written%parts%extra_slip = part_source%given
          if (.not. allocated(spec%extra_slip)) written%slip_source = slip_source%none
       end if
-      ! how materials and temperatures act, not whether they were set again
+      ! the state of materials and temperatures, regardless of whether they were set for this case
       if (spec%has_damping) written%parts%damping = part_source%given
       written%parts%heat = part_source%given
       ! planforms cannot be set through the library
@@ -61,7 +61,7 @@ contains
       call write_input_case(file, written)
    end subroutine write_contact_case
 
-   !> Leave out what lies away from the contact area, in all that is given for each element
+   !> Remove elements away from the contact area from all data that are given per element
    subroutine cut_to_contact(spec, result)
       type(case_spec), intent(inout) :: spec
       type(patch_result), intent(in) :: result
@@ -70,7 +70,7 @@ contains
       integer, allocatable :: elements(:)
 
       box = bounding_box(1, result%grid%mx, 1, result%grid%my)
-      ! approximate pressures look at the overlap all around the contact, and at the length of the window
+      ! approximate methods use the interpenetration all around the contact area, and the length of the grid
       if (allocated(result%division) .and. all(spec%pressure /= [pressure_model%kpec, pressure_model%analyn])) &
          & box = kept_window(result%division)
       associate (grid => result%grid)
@@ -82,7 +82,7 @@ contains
       if (allocated(spec%extra_slip)) spec%extra_slip = spec%extra_slip(:, elements)
    end subroutine cut_to_contact
 
-   !> The contact area with a margin, within the window; without contact its middle
+   !> Bounds of the contact area with a margin, within the grid; without contact its centre
    pure function kept_window(division) result(box)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)

@@ -1,8 +1,8 @@
 !> Totals of every case as JSON lines: one object per case and line, RFC 8259 in UTF-8
 !>
-!> A number with a unit is an object with "value" and "unit"; what is no finite number is null. Lines
-!> are written whole, so a file that was cut short holds all cases but the last. Each line tells how many cases were planned,
-!> and the last one whether they are finished.
+!> A number with a unit is an object with "value" and "unit"; a number that is not finite is null. Lines are written as a whole, so
+!> a truncated file has all cases but the last. Each line has the planned number of cases, and the last line states whether all are
+!> finished.
 module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -21,17 +21,17 @@ module contact_output_json_file
 
    public :: json_file, number_text
 
-   !> Longest number: sign, 17 figures, point, exponent
+   !> Maximum length of a number: sign, 17 digits, decimal point, exponent
    integer, parameter :: longest_number = 32
    integer, parameter :: first_length = 4096
 
-   !> A file of JSON lines, or the standard output
+   !> A file of JSON lines, or standard output
    type, extends(record_writer) :: json_file
       type(output_file), private :: file
       character(len=:), allocatable :: name
-      !> Number of cases of the input, which each line tells
+      !> Number of cases of the input, written on each line
       integer, private :: planned = 0
-      !> The line in the making: its first `length` characters
+      !> The current line: its first `length` characters
       character(len=:), allocatable, private :: line
       integer, private :: length = 0
       !> Is a comma needed before the next member?
@@ -40,9 +40,9 @@ module contact_output_json_file
       procedure :: open_file => open_json_file
       procedure :: close_file => close_json_file
       procedure :: place
-      !> The last line: how far the run has come
+      !> Write the last line: the progress of the run
       procedure :: write_end
-      !> One line for a case without result, of module 3, and of module 1
+      !> Write one line: for a case without result, of module 3, of module 1
       procedure :: write_failure
       procedure :: write_contact
       procedure :: write_wheel_rail => write_wheel_rail_line
@@ -58,17 +58,17 @@ module contact_output_json_file
 
 contains
 
-   !> Open a file, or take the standard output when the name is "-"
+   !> Open a file; standard output if the name is "-"
    subroutine open_json_file(self, name, planned, limits, error, place)
       class(json_file), intent(inout) :: self
       !> Path of the file
       character(len=*), intent(in) :: name
       !> Number of cases of the input
       integer, intent(in) :: planned
-      !> As for open_result
+      !> See open_result
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
-      !> Go on behind so many bytes
+      !> Continue after this number of bytes
       integer(long), intent(in), optional :: place
 
       self%name = name
@@ -86,7 +86,7 @@ contains
       end if
    end subroutine open_json_file
 
-   !> Bytes of the lines so far
+   !> Number of bytes written so far
    integer(long) function place(self)
       class(json_file), intent(in) :: self
       place = self%file%place()
@@ -101,7 +101,7 @@ contains
       call close_result(self%file, self%name, error)
    end subroutine close_json_file
 
-   !> The last line: how far the run has come, as a case of number 0 without patches, which readers of cases pass over
+   !> Write the last line: the progress of the run, as a case of number 0 without patches, which readers of cases skip
    subroutine write_end(self, run)
       class(json_file), intent(inout) :: self
       type(run_summary), intent(in) :: run
@@ -125,7 +125,7 @@ contains
       call self%count("cases_planned", "", self%planned)
    end subroutine begin_line
 
-   !> A case that has no result
+   !> Write a case without a result
    subroutine write_failure(self, head)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -136,7 +136,7 @@ contains
       call self%end_line()
    end subroutine write_failure
 
-   !> A solved case of module 3
+   !> Write a solved case of module 3
    subroutine write_contact(self, head, spec, contact)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -151,7 +151,7 @@ contains
       call self%end_line()
    end subroutine write_contact
 
-   !> A solved case of module 1
+   !> Write a solved case of module 1
    subroutine write_wheel_rail_line(self, head, spec, pair)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -172,14 +172,14 @@ contains
       call self%end_line()
    end subroutine write_wheel_rail_line
 
-   !> One contact patch as an object
+   !> Write one contact patch as an object
    subroutine write_patch(self, number, spec, contact, place)
       class(json_file), intent(inout) :: self
-      !> Number of the patch in its case
+      !> Index of the patch in its case
       integer, intent(in) :: number
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
-      !> Where it is, in module 1
+      !> Position of the patch, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
 
       call self%add("{")
@@ -194,7 +194,7 @@ contains
    subroutine open_object(self, name, columns, brief)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
-      !> Of no meaning here
+      !> Not used in this format
       logical, intent(in), optional :: columns, brief
 
       call self%key(name)
@@ -239,7 +239,7 @@ contains
       call self%add("}")
    end subroutine write_value
 
-   !> Name of the next member, after a comma if one is needed
+   !> Write the name of the next member, after a comma if needed
    subroutine key(self, name)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -264,7 +264,7 @@ contains
       self%length = self%length + len(text)
    end subroutine add
 
-   !> Write the line and make sure that it leaves the program
+   !> Write the line and flush it
    subroutine end_line(self)
       class(json_file), intent(inout) :: self
 
@@ -274,12 +274,12 @@ contains
       self%length = 0
    end subroutine end_line
 
-   !> A number in the fewest figures that read back as the same number, with blanks behind; null when it is not finite
+   !> A number in the smallest number of digits that are read back as the same number, padded with blanks; null if it is not finite
    pure function number_text(value) result(text)
-      !> What is written
+      !> Value to be written
       real(wp), intent(in) :: value
       character(len=longest_number) :: text
-      !> 15, 16 and 17 figures
+      !> 15, 16 and 17 digits
       character(len=*), parameter :: form(3) = ["(ES32.14E3)", "(ES32.15E3)", "(ES32.16E3)"]
       character(len=longest_number) :: buffer
       character(len=12) :: exponent_text
@@ -320,9 +320,9 @@ contains
       if (value < 0.0_wp) text = "-" // text(:longest_number - 1)
    end function number_text
 
-   !> Add a text between quotation marks: those, backslashes and control characters are escaped
+   !> Add a text in quotation marks; quotation marks, backslashes and control characters are escaped
    !>
-   !> Bytes beyond ASCII stay when the text is UTF-8; otherwise, in names of files of old systems, each becomes "?".
+   !> Bytes beyond ASCII are kept if the text is UTF-8; otherwise, as in file names of old systems, each is replaced by "?".
    subroutine add_quoted(self, text)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -350,7 +350,7 @@ contains
       call self%add(text(first:) // '"')
    end subroutine add_quoted
 
-   !> Do the bytes of a text form characters of UTF-8?
+   !> Is a text valid UTF-8?
    pure logical function is_utf8(text)
       character(len=*), intent(in) :: text
       integer :: byte, following, i

@@ -1,7 +1,7 @@
 !> The .mat file: tractions, displacements and slip per element as a table of numbers
 !>
-!> Loaders skip lines that start with % and need the same number of columns on all others. Some count 13 lines instead, so
-!> that what other programs do not know, the status, stands behind the names of the first line.
+!> Loaders skip lines that start with % and require the same number of columns on all others. Some skip 13 lines instead, so
+!> information that other programs do not know, the status, is appended to the names of the first line.
 module contact_output_mat_file
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : is_rolling, material_model
@@ -22,45 +22,45 @@ module contact_output_mat_file
 
    public :: mat_place, write_mat_file
 
-   !> Number of the layout; readers refuse larger numbers
+   !> Version of the layout; readers refuse larger numbers
    integer, parameter :: layout = 2410
-   !> Value of A from which on all elements are written
+   !> Minimum value of A for which all elements are written
    integer, parameter :: all_elements = 2
 
-   !> Name of a column without meaning; as long as all names, because gfortran 12 fills shorter ones up
-   !> with what lies behind them in array constructors with implied loops
+   !> Name of an unused column, of the length of all names: gfortran 12 pads shorter ones in array constructors with implied loops
+   !> with the memory that follows them
    character(len=11), parameter :: unused = "-"
 
-   !> Where a patch of wheel-rail contact is; the plain value stands for a contact problem of its own
+   !> Position of a patch of wheel and rail; the default value is for a contact problem of module 3
    type :: mat_place
       !> Time [s], S_WS [mm], pitch [rad], rail marker y, z [mm], roll [rad], roller radius [mm]
       real(wp) :: rail(7) = 0.0_wp
       !> Wheel marker x, y, z [mm], roll, yaw [rad], radius [mm]
       real(wp) :: wheel(6) = 0.0_wp
-      !> Contact reference: x, y, z [mm] and angle [rad] in the rail, x, y, z [mm] in the wheel
+      !> Contact reference point: x, y, z [mm] and angle [rad] in rail coordinates, x, y, z [mm] in wheel coordinates
       real(wp) :: reference(7) = 0.0_wp
-      !> Number of patches of the case and of this one
+      !> Number of patches of the case, and index of this one
       integer :: patches = 0, patch = 0
       !> Digits C1 and D
       integer :: c1 = 0, d = 2
-      !> Lateral place of the wheel profile in the wheelset [mm]
+      !> Lateral position of the wheel profile in the wheelset [mm]
       real(wp) :: wheel_offset = 0.0_wp
-      !> Contact reference in the coordinates of the elements [mm]
+      !> Contact reference point in the coordinates of the elements [mm]
       real(wp) :: spin_centre(2) = 0.0_wp
    end type mat_place
 
 contains
 
-   !> Write the file of a solved case; under its name it is complete or does not exist
+   !> Write the file of a solved case; a file of this name is complete or does not exist
    subroutine write_mat_file(file_name, spec, result, status, error, place)
       !> Path
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
       type(patch_result), target, intent(in) :: result
-      !> How the case ended, with all its patches
+      !> Status of the case, including all its patches
       type(case_status), intent(in) :: status
       type(error_type), allocatable, intent(out) :: error
-      !> For a patch of wheel-rail contact
+      !> Position of a patch of wheel and rail
       type(mat_place), intent(in), optional :: place
       type(mat_place) :: here
       type(finished_file) :: file
@@ -77,14 +77,14 @@ contains
       call add_context(error, "writing the .mat file")
    end subroutine write_mat_file
 
-   !> Six pairs of a line with names and a line with values, then the names of the table columns
+   !> Write six pairs of a line of names and a line of values, then the names of the table columns
    subroutine write_header(file, spec, result, status, place, fields)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(case_status), intent(in) :: status
       type(mat_place), intent(in) :: place
-      !> Those that have columns
+      !> Fields with a column
       type(element_field), intent(in) :: fields(:)
       character(len=14*(size(fields) + 2)) :: lines(13)
       type(collector) :: friction
@@ -137,19 +137,19 @@ contains
       end do
    end subroutine write_header
 
-   !> Has a field a column in the table? Slip has one, its magnitude in the place of its first component
+   !> Does a field have a column in the table? Slip has one, its magnitude, at the position of its first component
    elemental logical function has_column(field)
       type(element_field), intent(in) :: field
 
       has_column = associated(field%values) .and. field%in_files .and. field%name /= "sy"
    end function has_column
 
-   !> One line per element in ascending number
+   !> Write one line per element, in increasing index
    subroutine write_elements(file, spec, result, fields)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      !> Those that have columns
+      !> Fields with a column
       type(element_field), intent(in) :: fields(:)
       character(len=14*(size(fields) + 2)) :: line
       real(wp) :: values(size(fields))
@@ -170,7 +170,7 @@ contains
       end do
    end subroutine write_elements
 
-   !> Names of the material constants that the model has
+   !> Names of the material constants of the model
    pure function material_names(model) result(names)
       !> Member of material_model
       integer, intent(in) :: model
@@ -189,10 +189,10 @@ contains
       end select
    end function material_names
 
-   !> Values that belong to material_names
+   !> Values for material_names
    pure function material_values(spec, solved) result(values)
       type(case_spec), intent(in) :: spec
-      !> For the flexibilities of simplified theory
+      !> Result, for the flexibilities of simplified theory
       type(patch_result), intent(in) :: solved
       real(wp), allocatable :: values(:)
 
@@ -211,7 +211,7 @@ contains
       end associate
    end function material_values
 
-   !> Names and values of the first set of friction parameters and of the memory
+   !> List names and values of the first friction set and of the friction memory
    subroutine list_friction(spec, a)
       type(case_spec), intent(in) :: spec
       type(collector), intent(out) :: a
@@ -223,9 +223,9 @@ contains
       call friction_numbers(a, spec%friction_law, set, spec%friction)
    end subroutine list_friction
 
-   !> The names with one in front and a dash for each unused column behind
+   !> Names preceded by `first`, with a dash for each unused column at the end
    pure function completed(first, names, columns) result(all_names)
-      !> Name that stands above the first two columns
+      !> Name above the first two columns
       character(len=*), intent(in) :: first
       character(len=11), intent(in) :: names(:)
       !> Number of columns of the table
@@ -236,7 +236,7 @@ contains
       all_names = [character(len=11) :: first, names, [(unused, i = 1, columns - 2 - size(names))]]
    end function completed
 
-   !> Line of names that loaders skip: a name at the fourth place of every 14 columns
+   !> Line of names that loaders skip: a name at the fourth character of every 14 columns
    pure function name_line(names) result(line)
       character(len=11), intent(in) :: names(:)
       character(len=14*size(names)) :: line
@@ -249,7 +249,7 @@ contains
       line(1:1) = "%"
    end function name_line
 
-   !> Values in 14 columns each
+   !> Real numbers in 14 columns each
    pure function reals(values) result(text)
       real(wp), intent(in) :: values(:)
       character(len=14*size(values)) :: text
@@ -271,14 +271,14 @@ contains
       end do
    end function integers
 
-   !> Two integers that share 14 columns
+   !> Two integers in 14 columns
    pure function two_integers(first, second) result(text)
       integer, intent(in) :: first, second
       character(len=14) :: text
       text = whole(first, 7) // " " // whole(second, 4)
    end function two_integers
 
-   !> So many zeros
+   !> An array of zeros
    pure function zeros(count) result(values)
       integer, intent(in) :: count
       real(wp) :: values(max(0, count))

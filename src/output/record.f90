@@ -1,7 +1,6 @@
-!> Results for programs: named values with units, whatever the file they go to
+!> Results for other programs: named values with units, independent of the file format
 !>
-!> One description of a case (contact_output_case_record) serves every format; a format is a child of
-!> this type.
+!> One description of a case (contact_output_case_record) serves all formats; a format is an extension of this type.
 module contact_output_record
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -9,7 +8,7 @@ module contact_output_record
 
    public :: item_kind, named_value, record_writer
 
-   !> Longest name of a value, unit, description [characters]
+   !> Maximum length of a name, unit, description [characters]
    integer, parameter, public :: name_length = 32
    integer, parameter :: unit_length = 36, title_length = 104
 
@@ -21,30 +20,30 @@ module contact_output_record
 
    !> One named value
    type :: named_value
-      !> Name, unit ("-" for a ratio, "" where none is worth telling), and what it is
+      !> Name, unit ("-" for a ratio, "" for none), and description
       character(len=name_length) :: name
       character(len=unit_length) :: unit
       character(len=title_length) :: title
       !> Member of item_kind
       integer :: kind = 0
-      !> Of a number, which may be NaN or infinite: then there is no value; of an integer or a flag (1 or 0)
+      !> Value of a real number, undefined if NaN or infinite; of an integer or a flag (1 or 0)
       real(wp) :: value = 0.0_wp
-      !> Of several numbers
+      !> Values of several numbers
       real(wp), allocatable :: values(:)
-      !> Of a text
+      !> Value of a text
       character(len=:), allocatable :: text
    end type named_value
 
-   !> Takes the values of one case, in groups
+   !> Receives the values of one case, in groups
    type, abstract :: record_writer
    contains
       !> Begin a group of values; groups do not nest
       procedure(open_interface), deferred :: open_group
       !> End the group
       procedure(close_interface), deferred :: close_group
-      !> Take a value
+      !> Receive a value
       procedure(take_interface), deferred :: take
-      !> A real number, several of them, an integer, a text, yes or no
+      !> Receive a real number, several real numbers, an integer, a text, a flag
       procedure :: number
       procedure :: numbers
       procedure :: count => whole_number
@@ -56,11 +55,11 @@ module contact_output_record
       subroutine open_interface(self, name, columns, brief)
          import :: record_writer
          class(record_writer), intent(inout) :: self
-         !> Of the group
+         !> Name of the group
          character(len=*), intent(in) :: name
-         !> Are these totals, of which a curve over the cases can be drawn? Default false
+         !> Are these totals, of which curves over the cases can be drawn? Default: false
          logical, intent(in), optional :: columns
-         !> May a format that keeps columns leave the numbers to them? Default false
+         !> May a format that stores columns omit the numbers from the group? Default: false
          logical, intent(in), optional :: brief
       end subroutine open_interface
 
@@ -72,65 +71,65 @@ module contact_output_record
       subroutine take_interface(self, item)
          import :: named_value, record_writer
          class(record_writer), intent(inout) :: self
-         !> For the group in hand, or for the case itself
+         !> A value of the current group, or of the case itself
          type(named_value), intent(in) :: item
       end subroutine take_interface
    end interface
 
 contains
 
-   !> A real number
+   !> Receive a real number
    subroutine number(self, name, unit, title, value)
       class(record_writer), intent(inout) :: self
-      !> As for named_value
+      !> See named_value
       character(len=*), intent(in) :: name, unit, title
-      !> In that unit
+      !> Value in that unit
       real(wp), intent(in) :: value
 
       call self%take(named_value(name, unit, title, item_kind%real_number, value))
    end subroutine number
 
-   !> Several real numbers
+   !> Receive several real numbers
    subroutine numbers(self, name, unit, title, values)
       class(record_writer), intent(inout) :: self
-      !> As for named_value
+      !> See named_value
       character(len=*), intent(in) :: name, unit, title
-      !> In that unit
+      !> Values in that unit
       real(wp), intent(in) :: values(:)
       type(named_value) :: item
 
       item = named_value(name, unit, title, item_kind%real_numbers)
-      ! gfortran 12 takes no notice of strides in a constructor
+      ! gfortran 12 ignores strides in a constructor
       item%values = values
       call self%take(item)
    end subroutine numbers
 
-   !> An integer
+   !> Receive an integer
    subroutine whole_number(self, name, title, value)
       class(record_writer), intent(inout) :: self
-      !> As for named_value
+      !> See named_value
       character(len=*), intent(in) :: name, title
-      !> What is written
+      !> Value to be written
       integer, intent(in) :: value
 
       call self%take(named_value(name, "", title, item_kind%whole, real(value, wp)))
    end subroutine whole_number
 
-   !> A text
+   !> Receive a text
    subroutine text(self, name, title, value)
       class(record_writer), intent(inout) :: self
-      !> As for named_value, and the text itself
+      !> See named_value; and the text itself
       character(len=*), intent(in) :: name, title, value
 
       call self%take(named_value(name, "", title, item_kind%text, text=value))
    end subroutine text
 
-   !> Yes or no
+   !> Receive a flag
    subroutine flag(self, name, title, value)
       class(record_writer), intent(inout) :: self
-      !> As for named_value
+      !> See named_value
       character(len=*), intent(in) :: name, title
-      !> What is written
+      !> Value to be written
       logical, intent(in) :: value
 
       call self%take(named_value(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value)))

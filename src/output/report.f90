@@ -17,15 +17,15 @@ module contact_output_report
 
    public :: timer_line, write_banner, write_case, write_case_line, write_closing, write_end, write_subsurface
 
-   !> Rule of the banner and of the timer table
+   !> Horizontal rule of the banner and of the timer table
    character(len=*), parameter :: banner_rule = "   " // repeat("-", 72)
    character(len=*), parameter :: timer_rule = "|" // repeat("-", 74) // "|"
-   !> From this number on the case line has two more columns
+   !> From this case number on the case line is two columns longer
    integer, parameter :: many_cases = 100000
 
    !> One line of the timer table
    type :: timer_line
-      !> What was timed; the first 20 characters are shown
+      !> Name of the timer; the first 20 characters are written
       character(len=:), allocatable :: name
       !> Number of calls
       integer :: calls = 0
@@ -35,10 +35,10 @@ module contact_output_report
 
 contains
 
-   !> Frame at the top of screen and file; public readers recognise the file by its second line
+   !> Banner at the top of screen and file; public readers recognise the file by its second line
    subroutine write_banner(log, version)
       type(log_type), intent(inout) :: log
-      !> Number of the version; left out when absent
+      !> Version number; omitted if absent
       character(len=*), intent(in), optional :: version
 
       call log%line(banner_rule)
@@ -60,12 +60,12 @@ contains
       line(73:) = "  |"
    end function framed
 
-   !> Line that opens a case
+   !> Write the line that opens a case
    subroutine write_case_line(log, case_number, reid)
       type(log_type), intent(inout) :: log
-      !> Number of the case in the file or the session, from 1
+      !> Number of the case in the file or session, from 1
       integer, intent(in) :: case_number
-      !> Result element; 0 for none
+      !> Result element; 0: none
       integer, intent(in) :: reid
       character(len=:), allocatable :: line
 
@@ -75,7 +75,7 @@ contains
       call log%line(line)
    end subroutine write_case_line
 
-   !> Everything between the flow trace and the subsurface blocks, by the output level of the case
+   !> Write everything between the flow trace and the subsurface blocks, according to the output level of the case
    subroutine write_case(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -101,12 +101,12 @@ contains
       if (log%out%is_open() .and. spec%output_level >= 5 .and. allocated(result%pn)) call write_element_table(log, spec, result)
    end subroutine write_case
 
-   !> Number of threads and table of timers; the percentages refer to the first timer
+   !> Write the number of threads and the timer table; percentages refer to the first timer
    subroutine write_end(log, threads, timers)
       type(log_type), intent(inout) :: log
       !> Number of threads used
       integer, intent(in) :: threads
-      !> Timers, the total first; an empty list leaves the table out
+      !> Timers, the total first; empty: no table
       type(timer_line), intent(in) :: timers(:)
       character(len=20) :: name
       integer :: i
@@ -129,14 +129,14 @@ contains
       call log%result(timer_rule)
    end subroutine write_end
 
-   !> Share of a total in per cent, 0 when the total is too short to be measured
+   !> Percentage of a total, 0 if the total is too small to be measured
    pure real(wp) function percentage(part, total)
       real(wp), intent(in) :: part, total
       percentage = 0.0_wp
       if (total > 0.0_wp) percentage = 100.0_wp*part/total
    end function percentage
 
-   !> Last line on screen and file
+   !> Write the last line on screen and in the file
    subroutine write_closing(log, failed)
       type(log_type), intent(inout) :: log
       !> Did an error end the run?

@@ -15,20 +15,20 @@ module contact_output_report_input
 
    public :: digit_words, write_input, write_last_digits, write_outer_iteration
 
-   !> What the established program calls the digits, in the order of digit_names
+   !> Names of the digits in the established program, in the order of digit_names
    character(len=6), parameter :: digit_titles(*) = [character(len=6) :: "CONFIG", "PVTIME", "BOUND", "TANG", "NORM", &
       & "FORCE", "STRESS", "VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "RZNORM", "RZTANG", "M2", "X", "HEAT", "GAUSEI", &
       & "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"]
 
 contains
 
-   !> Write digits, problem description and all groups of the input that the case gave
+   !> Write digits, problem description and all groups of the input that are given by the case
    subroutine write_input(log, spec, result)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
-      !> The case as it was given
+      !> The case as given in the input
       type(case_spec), intent(in) :: spec
-      !> For derived constants: combined material, Hertz solution, time step
+      !> Result, for derived constants: combined material, Hertz solution, time step
       type(patch_result), intent(in) :: result
       type(case_digits) :: digits
 
@@ -50,13 +50,13 @@ contains
       call write_kinematics(log, spec, result)
    end subroutine write_input
 
-   !> Digits with their names in the established program, PVTIME and so on, one after the other
+   !> Digits with their names in the established program, such as PVTIME, one after the other
    pure function digit_words(digits, first, last, is_wheel_rail) result(text)
       !> Control digits of the case
       type(case_digits), intent(in) :: digits
-      !> Places in digit_names
+      !> First and last position in digit_names
       integer, intent(in) :: first, last
-      !> Do Z and E stand for track and wheelset?
+      !> Do Z and E refer to track and wheelset?
       logical, intent(in) :: is_wheel_rail
       character(len=10*(last - first + 1)) :: text
       character(len=6) :: name
@@ -76,9 +76,9 @@ contains
       text(len(text) - 1:) = ""
    end function digit_words
 
-   !> The line of the third control word, and of the iteration of both problems
+   !> Write the line of the third control word, and of the iteration between both problems
    subroutine write_last_digits(log, digits)
-      !> Gets a line of digits
+      !> Receives a line of digits
       type(log_type), intent(inout) :: log
       !> Control digits of the case
       type(case_digits), intent(in) :: digits
@@ -86,11 +86,11 @@ contains
       call log%result(" HGIAOWR.  " // trim(digit_words(digits, 17, 23, .false.)))
    end subroutine write_last_digits
 
-   !> Is the normal problem solved once, or in turn with the tangential one?
+   !> Is the normal problem solved once, or alternately with the tangential problem?
    subroutine write_outer_iteration(log, maxout)
-      !> Gets the line
+      !> Receives the line
       type(log_type), intent(inout) :: log
-      !> Largest number of turns
+      !> Maximum number of outer iterations
       integer, intent(in) :: maxout
 
       if (maxout <= 1) then
@@ -100,7 +100,7 @@ contains
       end if
    end subroutine write_outer_iteration
 
-   !> What problem is solved, in words
+   !> Describe the problem in words
    subroutine write_problem(log, spec)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -150,7 +150,7 @@ contains
       if (spec%normal == normal_control%force) text = "NORMAL FORCE"
    end function prescribed
 
-   !> Hertzian geometry: given values, derived ones, grid
+   !> Write Hertzian geometry: given values, derived values, grid
    subroutine write_hertz(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -199,7 +199,7 @@ contains
       end subroutine labelled
    end subroutine write_hertz
 
-   !> Label of the Hertz block: 43 columns
+   !> Label in the Hertz block, padded to 43 columns
    pure character(len=43) function label_field(label)
       character(len=*), intent(in) :: label
       label_field = label
@@ -225,7 +225,7 @@ contains
          & spec%iteration%d_ifc, spec%iteration%d_lin, spec%iteration%d_cns, spec%iteration%d_slp, spec%iteration%pow_s]))
    end subroutine write_gd_steady
 
-   !> Material constants, damping, heat, and what lies between the bodies
+   !> Write material constants, damping, heat, and the thin sheet between the bodies
    subroutine write_materials(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -247,7 +247,7 @@ contains
       end if
    end subroutine write_materials
 
-   !> Prescribed creepages or forces; what was found follows with the results
+   !> Write prescribed creepages or forces; computed ones follow with the results
    subroutine write_kinematics(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec

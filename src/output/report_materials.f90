@@ -1,4 +1,4 @@
-!> Materials and friction in the .out file, of contact problems and of wheel on rail
+!> Materials and friction in the .out file, for contact problems and for wheel and rail
 module contact_output_report_materials
    use contact_base_choices, only : has_slope_reduction, is_fastrip, material_model, pressure_model, variation
    use contact_base_kinds, only : wp
@@ -12,18 +12,18 @@ module contact_output_report_materials
 
    public :: show, write_between, write_flexibilities, write_friction, write_material_model
 
-   !> Below this output level the middle of a friction table per row is left out
+   !> Below this output level the middle of a friction table per row is omitted
    integer, parameter :: full_friction_table = 4
 
 contains
 
-   !> What lies between the bodies, damping, heat
+   !> Write thin sheet, damping, heat
    subroutine write_between(log, spec, with_plastic_work)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
-      !> Material constants of both bodies and what lies between them
+      !> The case, with material constants of both bodies and of the thin sheet between them
       type(case_spec), intent(in) :: spec
-      !> With the part of plastic work that becomes heat?
+      !> Write the fraction of plastic work that is converted to heat?
       logical, intent(in) :: with_plastic_work
       character(len=9), parameter :: names(5) = [character(len=9) :: "BKTEMP", "HEATCP", "LAMBDA", "DENSITY", "BETAPL"]
       type(damping_spec) :: damping
@@ -55,9 +55,9 @@ contains
       end associate
    end subroutine write_between
 
-   !> Constants of other than elastic behaviour
+   !> Write constants of material models other than elastic
    subroutine write_material_model(log, model, material, velocity, flexibilities, factor)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> Member of material_model
       integer, intent(in) :: model
@@ -65,7 +65,7 @@ contains
       type(material_spec), intent(in) :: material
       !> Rolling velocity [mm/s], for the relaxation lengths of viscoelastic bodies
       real(wp), intent(in), optional :: velocity
-      !> What simplified theory found: three flexibilities [mm3/N], and the factor of the slope reduction [-]
+      !> Results of simplified theory: three flexibilities [mm3/N], and the factor of the slope reduction [-]
       real(wp), intent(in), optional :: flexibilities(:), factor
       character(len=collected_length), parameter :: names(6) = [character(len=collected_length) :: "FG(1)", "FG(2)", "TC(1)", &
          & "TC(2)", "VT(1)", "VT(2)"]
@@ -102,11 +102,11 @@ contains
       call show(log, shown, repeat("G", merge(4, 3, present(factor))), merge(2, 1, model == material_model%fastsim_single))
    end subroutine write_material_model
 
-   !> Flexibilities of simplified theory that were found
+   !> Write computed flexibilities of simplified theory
    subroutine write_flexibilities(log, values)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
-      !> [mm3/N]
+      !> Flexibilities [mm3/N]
       real(wp), intent(in) :: values(:)
 
       call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
@@ -114,9 +114,9 @@ contains
       call log%result("  " // generals(values))
    end subroutine write_flexibilities
 
-   !> Friction law: one line, or one per control point or grid row
+   !> Write the friction law: one line, or one per control point or grid row
    subroutine write_friction(log, law, varies, sets, level)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> Members of friction_model and variation
       integer, intent(in) :: law, varies
@@ -157,7 +157,7 @@ contains
 
    contains
 
-      !> The values of a set, below their names
+      !> Values of a set, to be written below their names
       function numbers_of(set) result(text)
          type(friction_set), intent(in) :: set
          character(len=12*size(line%names)) :: text
@@ -168,15 +168,15 @@ contains
       end function numbers_of
    end subroutine write_friction
 
-   !> Names of numbers of the input, and their values below
+   !> Write names of input numbers, and their values below
    subroutine show(log, numbers, forms, first)
-      !> Gets two lines
+      !> Receives two lines
       type(log_type), intent(inout) :: log
       !> Names and values in the order of the input
       type(collector), intent(in) :: numbers
-      !> One letter for each number that is shown, G: general, S: smart, F: fixed with four decimals
+      !> One letter for each number that is written: G: general, S: smart, F: fixed with four decimals
       character(len=*), intent(in) :: forms
-      !> The first one that is shown; default 1
+      !> Index of the first number that is written; default 1
       integer, intent(in), optional :: first
       character(len=12*len(forms)) :: line
       integer :: before, k

@@ -1,4 +1,4 @@
-!> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
+!> Results of a case in the .out file: totals, sensitivities, statistics, solution
 module contact_output_report_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_case_status, only : case_status
@@ -16,12 +16,12 @@ module contact_output_report_result
    public :: ending_text, remove_noise, write_errors, write_sensitivities, write_solution_line, write_statistics, &
       & write_total_lines, write_totals
 
-   !> Errors of totals in a line
+   !> Number of errors of totals per line
    integer, parameter :: errors_per_line = 5
 
 contains
 
-   !> Set totals below the tolerance of the solution to zero, as they are printed
+   !> Set totals below the tolerance of the solution to zero for printing
    pure subroutine remove_noise(spec, totals)
       type(case_spec), intent(in) :: spec
       type(total_list), intent(inout) :: totals
@@ -52,7 +52,7 @@ contains
       if (abs(value) < limit) clean = 0.0_wp
    end function clean
 
-   !> Totals of a contact problem: forces, energy, approach, and the creepages or relative forces that were not prescribed
+   !> Write totals of a contact problem: forces, energy, approach, and the creepages or relative forces that were not prescribed
    subroutine write_totals(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -82,14 +82,14 @@ contains
          & "FY")
    end subroutine write_totals
 
-   !> Lines with totals: six of them; three, approach, largest pressure, and those that have a heading; damping forces
+   !> Write lines of totals: the first six; the next three, approach, maximum pressure, and those with a heading; damping forces
    subroutine write_total_lines(log, spec, totals, first_heading, first, second_heading, second, lateral)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(total_list), intent(in) :: totals
-      !> Names above the values that follow
+      !> Names of the values that follow
       character(len=*), intent(in) :: first_heading, second_heading
-      !> Numbers of the first line, and of the second behind the approach, as the report shows them
+      !> Numbers of the first line, and of the second line before the approach, as printed
       real(wp), intent(in) :: first(6), second(3)
       !> Name of the lateral force
       character(len=2), intent(in) :: lateral
@@ -119,7 +119,7 @@ contains
       call log%result("                                  " // smarts(totals%of(["fn_damp", "fx_damp", "fy_damp"])))
    end subroutine write_total_lines
 
-   !> Derivatives of the forces to approach, creepages and spin
+   !> Write derivatives of the forces with respect to approach, creepages and spin
    subroutine write_sensitivities(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -157,13 +157,13 @@ contains
       end do
    end subroutine write_sensitivities
 
-   !> Estimated errors of the totals, in lines of words
+   !> Write estimated errors of the totals
    subroutine write_errors(log, errors, totals, reason)
       type(log_type), intent(inout) :: log
-      !> Of the first totals of the list, in their units; NaN for none
+      !> Errors of the first totals of the list, in their units; NaN: none
       real(wp), intent(in) :: errors(:)
       type(total_list), intent(in) :: totals
-      !> Why there is no estimate; "" where there is one
+      !> Reason why there is no estimate; "" if there is one
       character(len=*), intent(in) :: reason
       character(len=:), allocatable :: line, without
       integer :: k, n
@@ -193,7 +193,7 @@ contains
       if (reason /= "") call log%result("   no estimate: " // reason)
    end subroutine write_errors
 
-   !> Numbers of elements per state, passes of the solvers
+   !> Write numbers of elements per state, and iterations of the solvers
    subroutine write_statistics(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -218,14 +218,14 @@ contains
       call log%result(numbers // whole(result%inorm, 7) // whole(result%itang, 7))
    end subroutine write_statistics
 
-   !> Which effects acted, which solvers ended the case and how well: one line of free text
+   !> Write effects included, final solvers and their accuracy: one line of free text
    !>
-   !> Begins with a blank and holds words in front of all numbers, so that readers of columns skip it.
+   !> It begins with a blank and has words before all numbers, so that readers of columns skip it.
    subroutine write_solution_line(log, spec, result, status)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      !> How the case ended that the patch belongs to
+      !> Status of the case of the patch
       type(case_status), intent(in) :: status
       character(len=:), allocatable :: line
       logical :: has_tangential
@@ -259,14 +259,14 @@ contains
 
    !> What did not converge, for a line of the .out file
    pure function ending_text(status) result(text)
-      !> Of a case that was not solved
+      !> Status of a case that was not solved
       type(case_status), intent(in) :: status
       character(len=len(" NOT CONVERGED: ") + len(status%reason)) :: text
 
       text = " NOT CONVERGED: " // status%reason
    end function ending_text
 
-   !> Name of the method that ended an iteration
+   !> Name of the final method of an iteration
    pure function method_name(report) result(name)
       type(solve_report), intent(in) :: report
       character(len=merge(len("none"), len_trim(report%method), report%method == "")) :: name
@@ -275,7 +275,7 @@ contains
       if (name == "") name = "none"
    end function method_name
 
-   !> Order of the discretisation where the second was asked for, with the reason where it is the first
+   !> Order of the discretisation if the second was requested, with the reason if it is the first
    pure function order_text(report) result(text)
       type(solve_report), intent(in) :: report
       character(len=merge(0, len(" of order 1") + merge(0, len_trim(report%order_reason) + 3, report%order_reason == ""), &
@@ -286,9 +286,9 @@ contains
       if (report%order_reason /= "") text = trim(text) // " (" // trim(report%order_reason) // ")"
    end function order_text
 
-   !> Residual in two digits
+   !> Residual with two significant digits
    pure function residual_text(residual) result(text)
-      !> Relative residual, negative when unknown
+      !> Relative residual, negative if unknown
       real(wp), intent(in) :: residual
       character(len=10) :: text
 
@@ -296,7 +296,7 @@ contains
       if (residual >= 0.0_wp) text = adjustl(scientific(residual, 10, 1))
    end function residual_text
 
-   !> Tell which method was given up for which
+   !> Add which method was abandoned, and which replaced it
    pure subroutine add_fall_back(line, report)
       character(len=:), allocatable, intent(inout) :: line
       type(solve_report), intent(in) :: report

@@ -1,4 +1,4 @@
-!> Extremes of the subsurface stresses, and the points one by one, in the .out file
+!> Extremes of the subsurface stresses, and the values at all points, in the .out file
 module contact_output_report_subsurface
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -12,9 +12,9 @@ module contact_output_report_subsurface
 
 contains
 
-   !> Write all subsurface blocks; does nothing when none were asked for
+   !> Write all subsurface blocks; nothing if none were requested
    !>
-   !> Depends on the output digit of the subsurface request alone, not on that of the case.
+   !> Depends on the output digit of the subsurface input only, not on that of the case.
    subroutine write_subsurface(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -37,7 +37,7 @@ contains
       end do
    end subroutine write_subsurface
 
-   !> The eight lines with extreme values; the first point wins a tie
+   !> Write the eight lines with extreme values; of equal values the first point is used
    subroutine write_extremes(log, block)
       type(log_type), intent(inout) :: log
       type(subsurface_result), intent(in) :: block
@@ -64,8 +64,8 @@ contains
       end subroutine extreme
    end subroutine write_extremes
 
-   !> First of the points whose values are the largest up to rounding: in a symmetrical contact the last
-   !> digits would choose among equal points
+   !> First of the points whose values are the maximum up to round-off: in a symmetric contact, round-off would select one of
+   !> several equal points
    pure integer function first_largest(values) result(point)
       real(wp), intent(in) :: values(:)
       real(wp), parameter :: rounding = 1.0e-10_wp
@@ -78,7 +78,7 @@ contains
       point = largest
    end function first_largest
 
-   !> Displacements and stress tensor of every point
+   !> Write displacements and stress tensor of every point
    subroutine write_points(log, block)
       type(log_type), intent(inout) :: log
       type(subsurface_result), intent(in) :: block

@@ -1,7 +1,6 @@
-!> Wheel on rail in the .out file: total forces, contact patches
+!> Wheel and rail in the .out file: total forces, contact patches
 !>
-!> The calculation is that of a right-hand pair; for the left side of the track the values that
-!> depend on it are mirrored here.
+!> Results are those of a wheel on the right side of the track; for the left side the values that change sign are mirrored here.
 module contact_output_report_wheel_rail
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : contact_location, has_slope_reduction, is_fastrip, is_simplified, material_model, motion, &
@@ -30,13 +29,13 @@ module contact_output_report_wheel_rail
 
 contains
 
-   !> Everything of a case of module 1 behind its flow trace
+   !> Write everything of a case of module 1 after its flow trace
    subroutine write_wheel_rail(log, spec, result)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
-      !> The case as it was given
+      !> The case as given in the input
       type(case_spec), intent(in) :: spec
-      !> Forces of the pair and its patches
+      !> Total forces and patches
       type(wheel_rail_result), intent(in) :: result
       integer :: k, patches
 
@@ -64,7 +63,7 @@ contains
       sign_of = merge(-1.0_wp, 1.0_wp, spec%wheel_rail%left)
    end function sign_of
 
-   !> Forces and moments on the rail of all patches together
+   !> Write total forces and moments on the rail, the sum over all patches
    subroutine write_total_forces(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -91,13 +90,13 @@ contains
       call log%result(smarts(totals%of(["mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"])))
    end subroutine write_total_forces
 
-   !> One contact patch
+   !> Write one contact patch
    subroutine write_patch(log, spec, patch, number, status)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(wheel_rail_patch), intent(in) :: patch
       integer, intent(in) :: number
-      !> How the case ended
+      !> Status of the case
       type(case_status), intent(in) :: status
       character(len=:), allocatable :: origin
       type(total_list) :: totals
@@ -144,10 +143,10 @@ contains
          & call write_subsurface(log, spec, patch%contact)
    end subroutine write_patch
 
-   !> Place of the contact reference in track, rail and wheel
+   !> Write the position of the contact reference point in track, rail and wheel coordinates
    subroutine write_reference(log, totals)
       type(log_type), intent(inout) :: log
-      !> Of the patch
+      !> Totals of the patch
       type(total_list), intent(in) :: totals
 
       call log%result("")
@@ -159,7 +158,8 @@ contains
       call log%result(fixeds(totals%of(["xcp_w", "ycp_w", "zcp_w"])))
    end subroutine write_reference
 
-   !> How far the contact area reaches on its curved reference, the angles there, and the moments in the reference's axes
+   !> Write the extent of the contact area on its curved reference surface, the angles at its ends, and the moments in the axes of
+   !> the reference
    subroutine write_curved_contact(log, patch, s)
       type(log_type), intent(inout) :: log
       type(wheel_rail_patch), intent(in) :: patch
@@ -184,7 +184,7 @@ contains
       call log%line(" Moments about the reference MX, MS, MN:" // smarts([s, 1.0_wp, s]*patch%moment) // " N mm")
    end subroutine write_curved_contact
 
-   !> Friction in the patch, where it varies over the rail
+   !> Write the friction in the patch, if it varies over the rail
    subroutine write_patch_friction(log, spec, patch)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -195,7 +195,7 @@ contains
          & patch%friction, spec%output_level)
    end subroutine write_patch_friction
 
-   !> Flexibilities of simplified theory, and what the slope reduction came to
+   !> Write flexibilities of simplified theory, and the resulting slope reduction
    subroutine write_patch_flexibility(log, model, contact)
       type(log_type), intent(inout) :: log
       !> Member of material_model
@@ -214,7 +214,7 @@ contains
       call log%result("  " // generals([contact%k_eff]))
    end subroutine write_patch_flexibility
 
-   !> Creepages of the patch
+   !> Write creepages of the patch
    subroutine write_patch_kinematics(log, patch, s)
       type(log_type), intent(inout) :: log
       type(wheel_rail_patch), intent(in) :: patch
@@ -234,12 +234,12 @@ contains
       end associate
    end subroutine write_patch_kinematics
 
-   !> Forces, energy, approach, largest pressure
+   !> Write forces, energy, approach, maximum pressure
    subroutine write_patch_totals(log, spec, patch, totals)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(wheel_rail_patch), intent(in) :: patch
-      !> Its totals, of which those below the tolerance become zero
+      !> Totals of the patch, of which those below the tolerance are set to zero
       type(total_list), intent(inout) :: totals
       character(len=*), parameter :: more = "ELAST.EN.   FRIC.POWER"
       character(len=12) :: names(2)
@@ -254,7 +254,7 @@ contains
             & [totals%of(["bar_fn", "bar_fx", "bar_fs", "bar_mn"]), energy], "    TILDE_FN  " // names(1) // names(2) // "   ", &
             & [patch%tilde_fn, totals%of(["fx_rel", "fy_rel"])], "FS")
       else
-         ! the moment is about the origin of the elements
+         ! the moment refers to the origin of the elements
          force = totals%of(["fn", "fx", "fy", "mz"])
          reference = totals%of(["x_elem", "y_elem"])
          force(4) = force(4) + reference(1)*force(3) - reference(2)*force(2)
@@ -264,7 +264,7 @@ contains
       end if
    end subroutine write_patch_totals
 
-   !> Curved reference surface of conformal contact
+   !> Write the curved reference surface of conformal contact
    subroutine write_curve(log, patch, s)
       type(log_type), intent(inout) :: log
       type(wheel_rail_patch), intent(in) :: patch
@@ -281,7 +281,7 @@ contains
       end do
    end subroutine write_curve
 
-   !> Profiles as used, in track coordinates
+   !> Write the profiles used, in track coordinates
    subroutine write_profiles(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec

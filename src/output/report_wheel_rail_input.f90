@@ -1,4 +1,4 @@
-!> Echo of the input of wheel on rail in the .out file (output level 2 and higher)
+!> Echo of the input of wheel and rail in the .out file (output level 2 and higher)
 module contact_output_report_wheel_rail_input
    use contact_base_choices, only : force_control, has_slope_reduction, is_fastrip, is_simplified, kernel_model, &
       & material_model, motion, normal_control, pressure_model
@@ -19,18 +19,18 @@ module contact_output_report_wheel_rail_input
 
    public :: write_wheel_rail_input
 
-   !> Deviations below this magnitude are not echoed [mm] or [rad]
+   !> Deviations below this magnitude are omitted [mm] or [rad]
    real(wp), parameter :: no_deviation = 1.0e-10_wp
 
 contains
 
-   !> Digits, problem, and all groups of the input that the case gave
+   !> Write digits, problem, and all groups of the input that are given by the case
    subroutine write_wheel_rail_input(log, spec, result, patches)
-      !> Gets the lines of the .out file
+      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
-      !> The case as it was given
+      !> The case as given in the input
       type(case_spec), intent(in) :: spec
-      !> Positions and velocities that were found, for those that the input leaves open
+      !> Result, for computed positions and velocities that the input does not prescribe
       type(wheel_rail_result), intent(in) :: result
       !> Number of contact patches
       integer, intent(in) :: patches
@@ -60,7 +60,7 @@ contains
       if (spec%parts%position == part_source%given) call write_wheelset(log, spec, result)
    end subroutine write_wheel_rail_input
 
-   !> What problem is solved, in words
+   !> Describe the problem in words
    subroutine write_problem(log, spec)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -106,11 +106,11 @@ contains
       call write_outer_iteration(log, spec%iteration%maxout)
    end subroutine write_problem
 
-   !> Material constants, damping, heat, and what lies between the bodies
+   !> Write material constants, damping, heat, and the thin sheet between the bodies
    subroutine write_materials(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      !> For the combined constants
+      !> Result, for the combined constants
       type(wheel_rail_result), intent(in) :: result
 
       call log%result("")
@@ -130,7 +130,7 @@ contains
       end associate
    end subroutine write_materials
 
-   !> Settings of the contact search
+   !> Write settings of the contact search
    subroutine write_discretisation(log, search)
       type(log_type), intent(inout) :: log
       type(search_spec), intent(in) :: search
@@ -146,7 +146,7 @@ contains
       call show(log, shown, repeat("G", merge(7, 6, own_turn)))
    end subroutine write_discretisation
 
-   !> A profile file and its processing
+   !> Write a profile file and its processing
    subroutine write_profile_choice(log, profile, body, level)
       type(log_type), intent(inout) :: log
       type(profile_spec), intent(in) :: profile
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine write_track
 
-   !> Deviations of the rail, and the deflection of its springs
+   !> Write deviations of the rail, and the deflection of its springs
    subroutine write_rail(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
@@ -211,7 +211,7 @@ contains
       end associate
    end subroutine write_rail
 
-   !> Position and velocity of the wheelset, given or found, and its flexible deviations
+   !> Write position and velocity of the wheelset, prescribed or computed, and its flexible deviations
    subroutine write_wheelset(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec

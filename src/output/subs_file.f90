@@ -1,4 +1,4 @@
-!> The .subs file: displacements and stresses in subsurface points as a table of numbers
+!> The .subs file: displacements and stresses at subsurface points as a table of numbers
 module contact_output_subs_file
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
@@ -11,17 +11,17 @@ module contact_output_subs_file
 
    public :: write_subs_file
 
-   !> Value of A_s from which on the stress tensor is written
+   !> Minimum value of A_s for which the stress tensor is written
    integer, parameter :: with_tensor = 2
 
 contains
 
-   !> Write all blocks; under its name the file is complete or does not exist
+   !> Write all blocks; a file of this name is complete or does not exist
    subroutine write_subs_file(file_name, spec, result, error)
       !> Path
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
-      !> The file is not made when the subsurface blocks are unallocated
+      !> Result; without subsurface blocks no file is written
       type(patch_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       type(finished_file) :: file
@@ -37,11 +37,11 @@ contains
       call add_context(error, "writing the .subs file")
    end subroutine write_subs_file
 
-   !> Sizes, names and points of one block
+   !> Write sizes, names and points of one block
    subroutine write_block(file, block, tensor)
       type(finished_file), intent(in) :: file
       type(subsurface_result), intent(in) :: block
-      !> Write the stress tensor too?
+      !> Write the stress tensor as well?
       logical, intent(in) :: tensor
       character(len=9), parameter :: name(14) = [character(len=9) :: "X", "Y", "Z", "UX", "UY", "UZ", "SIGHYD", "SIGVM", &
          & "SIGXX", "SIGXY", "SIGXZ", "SIGYY", "SIGYZ", "SIGZZ"]

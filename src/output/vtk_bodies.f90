@@ -1,4 +1,4 @@
-!> Surfaces of rail, roller and wheel about the contact as points of a grid, in track coordinates of a right-hand pair
+!> Surfaces of rail, roller and wheel near the contact as points of a grid, in track coordinates, wheel on the right side
 module contact_output_vtk_bodies
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -12,34 +12,34 @@ module contact_output_vtk_bodies
 
    public :: body_points, body_profile, take_section
 
-   !> The profile of a body, and its surface where it varies
+   !> Profile of a body, and its surface if it varies
    type :: body_profile
       type(profile_curve), pointer :: profile => null()
       type(profile_surface), pointer :: surface => null()
    end type body_profile
 
-   !> Points of a section, at equal steps of the arc length
+   !> Number of points of a section, equidistant in arc length
    integer, parameter :: section_points = 150
-   !> Length of rail on either side of the wheel [mm]; step between sections that differ [mm]
+   !> Length of rail on either side of the wheel [mm]; distance between sections of a variable rail [mm]
    real(wp), parameter :: rail_length = 150.0_wp, rail_step = 10.0_wp
-   !> Sections of a wheel, and of the part of a roller below it
+   !> Number of sections of a wheel, and of the part of a roller below it
    integer, parameter :: wheel_sections = 73, roller_sections = 25
-   !> Angle of the roller on either side of its top [rad]
+   !> Angular range of the roller on either side of its top [rad]
    real(wp), parameter :: roller_angle = pi/6.0_wp
 
 contains
 
-   !> Points of the surface of a body, shape (3, points along the section, sections); no sections where there is no surface
+   !> Points of the surface of a body, shape (3, points along the section, sections); no sections if there is no surface
    subroutine body_points(spec, pair, profile, is_wheel, points)
-      !> Of the case
+      !> The case
       type(case_spec), intent(in) :: spec
-      !> For the places of the markers
+      !> Result, for the positions of the markers
       type(wheel_rail_result), intent(in) :: pair
-      !> What its surface is made of
+      !> Profile, or surface, of the body
       type(body_profile), intent(in) :: profile
-      !> The wheel, or the rail?
+      !> Is it the wheel? Otherwise the rail
       logical, intent(in) :: is_wheel
-      !> [mm]
+      !> Points in track coordinates [mm]
       real(wp), allocatable, intent(out) :: points(:, :, :)
       type(profile_curve), allocatable :: section
       type(frame) :: marker
@@ -86,9 +86,9 @@ contains
 
    contains
 
-      !> A point of a section in the track
+      !> Track coordinates of a point of a section [mm]
       pure function in_track(point, place) result(there)
-         !> y, z in the profile [mm]
+         !> y, z in profile coordinates [mm]
          real(wp), intent(in) :: point(2)
          !> Angle about the axle [rad], or x [mm]
          real(wp), intent(in) :: place
@@ -111,15 +111,15 @@ contains
       end function in_track
    end subroutine body_points
 
-   !> The profile of a body; of one that varies along it the section at a position
+   !> Profile of a body; for a variable profile the section at a position
    subroutine take_section(profile, surface, position, curve)
-      !> Where it does not vary
+      !> Profile of a body that does not vary
       type(profile_curve), intent(in) :: profile
-      !> Where it varies
+      !> Surface of a body that varies
       type(profile_surface), intent(in), optional :: surface
-      !> Along the rail [mm], around the wheel [rad]
+      !> Position along the rail [mm], around the wheel [rad]
       real(wp), intent(in) :: position
-      !> Unallocated where a surface has no section
+      !> Unallocated if the surface has no section there
       type(profile_curve), allocatable, intent(out) :: curve
       type(surface_cut) :: there
 

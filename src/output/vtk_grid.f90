@@ -1,4 +1,4 @@
-!> A structured grid as a VTK file: points in space, and arrays on its points or cells as raw binary numbers
+!> A structured grid as a VTK file: points in space, and arrays on its points or cells as raw binary data
 module contact_output_vtk_grid
    use contact_base_error, only : error_type
    use contact_base_kinds, only : long, wp
@@ -9,17 +9,17 @@ module contact_output_vtk_grid
 
    public :: finish_grid, put, start_grid, vtk_grid
 
-   !> One VTK file in the making: the head tells where the arrays behind it begin
+   !> A VTK file being written: the head has the offsets of the arrays that follow it
    type :: vtk_grid
       type(finished_file) :: file
       character(len=:), allocatable :: head
-      !> Numbers of points and cells in each direction
+      !> Number of points in each direction
       integer :: points(3) = 0
       logical :: on_cells = .true.
-      !> Arrays, one after the other, and their end
+      !> All arrays one after the other, and the number of values in use
       real(wp), allocatable :: numbers(:)
       integer :: used = 0
-      !> Bytes in front of the next array
+      !> Offset of the next array [bytes]
       integer(long) :: offset = 0
       !> Length of each array
       integer, allocatable :: lengths(:)
@@ -29,13 +29,13 @@ contains
 
    !> Begin a structured grid
    subroutine start_grid(grid, points, on_cells, size_of_all)
-      !> The file in the making
+      !> The file being written
       type(vtk_grid), intent(inout) :: grid
-      !> Numbers of points along the three directions
+      !> Number of points in each of the three directions
       integer, intent(in) :: points(3)
-      !> Do the arrays belong to cells?
+      !> Do the arrays belong to cells? Otherwise to points
       logical, intent(in) :: on_cells
-      !> Upper bound of the numbers in all arrays
+      !> Upper bound of the total length of all arrays
       integer, intent(in) :: size_of_all
       character(len=120) :: extent
 
@@ -49,7 +49,7 @@ contains
          & // merge("<CellData> ", "<PointData>", on_cells) // new_line("a")
    end subroutine start_grid
 
-   !> How this machine stores numbers
+   !> Byte order of this machine
    pure function byte_order() result(name)
       character(len=12) :: name
       character(len=1) :: bytes(4)
@@ -60,13 +60,13 @@ contains
 
    !> Add an array
    subroutine put(grid, name, components, values)
-      !> The file in the making
+      !> The file being written
       type(vtk_grid), intent(inout) :: grid
-      !> With its unit
+      !> Name with its unit
       character(len=*), intent(in) :: name
-      !> Numbers of a point or cell
+      !> Number of components per point or cell
       integer, intent(in) :: components
-      !> All of them, those of a point together
+      !> All values, components of a point or cell together
       real(wp), intent(in) :: values(:)
       character(len=120) :: rest
 
@@ -78,17 +78,17 @@ contains
       grid%offset = grid%offset + 8_long*(1_long + size(values, kind=long))
    end subroutine put
 
-   !> Points, and the file
+   !> Add the points and write the file
    subroutine finish_grid(grid, name, points, error, limits)
-      !> The file in the making
+      !> The file being written
       type(vtk_grid), intent(inout) :: grid
-      !> Of the file
+      !> Name of the file
       character(len=*), intent(in) :: name
       !> x, y, z of all points [mm]
       real(wp), intent(in) :: points(:)
-      !> Allocated when the file cannot be written
+      !> Allocated if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
-      !> As for open_result
+      !> See open_result
       type(case_limits), intent(in) :: limits
       integer :: first, k
 

@@ -1,4 +1,4 @@
-!> The .mat and .subs files of wheel on rail: one per contact patch, in true coordinates of its side
+!> The .mat and .subs files of wheel and rail: one per contact patch, in the coordinates of its side of the track
 module contact_output_wheel_rail_files
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -18,23 +18,23 @@ module contact_output_wheel_rail_files
 
 contains
 
-   !> Does a case ask for any of these files?
+   !> Does a case request any of these files?
    pure logical function has_files(spec)
-      !> Files with all elements, and with stresses
+      !> The case: are files with all elements, or stresses, requested?
       type(case_spec), intent(in) :: spec
 
       has_files = spec%mat_file >= 1
       if (spec%has_stress) has_files = has_files .or. spec%subsurface%matfil >= 1
    end function has_files
 
-   !> Write the files that the case asks for; the first error ends it
+   !> Write the files requested by the case; stops at the first error
    subroutine write_wheel_rail_files(base, case_number, result_element, spec, result, error, time)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
-      !> Result element 0 for none
+      !> Number of the case; result element, 0: none
       integer, intent(in) :: case_number, result_element
       type(case_spec), intent(in) :: spec
-      !> Of a solved case
+      !> Result of a solved case
       type(wheel_rail_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       !> Time of the case, for the header [s]; default 0
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine write_wheel_rail_files
 
-   !> Where the patch is
+   !> Position of the patch
    pure function place_of(spec, result, patch, number, time) result(place)
       type(case_spec), intent(in) :: spec
       type(wheel_rail_result), intent(in) :: result
