@@ -1,6 +1,6 @@
 !> Totals over all cases, or all patches, as columns that grow by rows: /cases/<name> and /patches/<name>
 !>
-!> Rows wait in memory and are written many at a time. A case that does not have a value leaves a NaN in its row.
+!> Rows are buffered and written in blocks. A value that a case does not have is NaN in its row.
 module contact_hdf5_columns
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use hdf5, only : h5dcreate_f, h5dget_space_f, h5dopen_f, h5dread_f, h5dset_extent_f, h5dwrite_f, h5gcreate_f, &
@@ -16,11 +16,11 @@ module contact_hdf5_columns
 
    public :: column_table
 
-   !> Rows that wait in memory at most, and rows of a chunk on disk
+   !> Maximum number of buffered rows, and rows of a chunk on disk
    integer, parameter :: max_rows = 4096, chunk_rows = 64
-   !> The column by which rows are known
+   !> Column that identifies the rows
    character(len=*), parameter :: row_name = "case"
-   !> Columns for which there is room at first
+   !> Initial number of allocated columns
    integer, parameter :: usual_columns = 64
 
    !> One column
@@ -29,29 +29,29 @@ module contact_hdf5_columns
       integer(hid_t) :: id = -1
    end type column
 
-   !> Columns with the same rows
+   !> Columns of a table, which have the same rows
    type :: column_table
       integer(hid_t), private :: group = -1
       !> Number of columns
       integer, private :: used = 0
       type(column), allocatable, private :: columns(:)
-      !> Values that are not on disk yet, shape (max_rows, columns)
+      !> Buffered values, shape (max_rows, columns)
       real(wp), allocatable, private :: pending(:, :)
-      !> Rows on disk, and rows in pending
+      !> Number of rows on disk, and of buffered rows
       integer :: written = 0
       integer, private :: waiting = 0
    contains
-      !> Make an empty table, or open the one that is there
+      !> Create an empty table, or open an existing one
       procedure :: create
       procedure :: reopen
       !> Number of rows
       procedure :: rows
-      !> Begin a row, and put a value into it
+      !> Begin a row; set a value of it
       procedure :: next_row
       procedure :: put
-      !> Write the rows that wait
+      !> Write the buffered rows
       procedure :: write_rows
-      !> Read a column; drop rows at the end
+      !> Read a column; remove rows at the end
       procedure :: read_column
       procedure :: cut
       procedure :: release
@@ -59,7 +59,7 @@ module contact_hdf5_columns
 
 contains
 
-   !> Make an empty table
+   !> Create an empty table
    subroutine create(self, container, name)
       class(column_table), intent(inout) :: self
       !> The open file
@@ -73,7 +73,7 @@ contains
       allocate(self%columns(usual_columns), self%pending(max_rows, usual_columns))
    end subroutine create
 
-   !> Open the columns of a table that is there
+   !> Open the columns of an existing table
    subroutine reopen(self, container, name)
       class(column_table), intent(inout) :: self
       !> The open file
@@ -104,7 +104,7 @@ contains
          call h5sget_simple_extent_ndims_f(space, rank, status)
          call container%check(status)
          rows = 0
-         ! a damaged file may have anything under the name of a column
+         ! in a damaged file, any object may have the name of a column
          if (rank == 1) call h5sget_simple_extent_dims_f(space, rows, limit, status)
          call container%check(status)
          call container%release(space)
@@ -114,7 +114,7 @@ contains
       end do
    end subroutine reopen
 
-   !> Number of rows, on disk and in memory
+   !> Number of rows, on disk and buffered
    pure integer function rows(self)
       class(column_table), intent(in) :: self
 
@@ -132,12 +132,12 @@ contains
       self%pending(self%waiting, :) = ieee_value(0.0_wp, ieee_quiet_nan)
    end subroutine next_row
 
-   !> Put a value into the last row; texts and arrays have no columns
+   !> Set a value of the last row; texts and arrays have no columns
    subroutine put(self, container, value)
       class(column_table), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> With name, unit and title
+      !> Value with name, unit and title
       type(named_value), intent(in) :: value
       integer :: k
 
@@ -149,12 +149,12 @@ contains
       self%pending(self%waiting, k) = value%value
    end subroutine put
 
-   !> Add a column; earlier rows are NaN
+   !> Add a column; its earlier rows are NaN
    subroutine new_column(self, container, value)
       class(column_table), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> Gives name, unit and description
+      !> Name, unit and description of the column
       type(named_value), intent(in) :: value
       real(wp), allocatable :: earlier(:), wider(:, :)
       type(column), allocatable :: longer(:)
@@ -175,7 +175,7 @@ contains
          new%name = value%name
          dims = self%written
          limit = h5s_unlimited_f
-         ! compressed, also because zeros have the checksum zero: a damaged place of a piece that leads to zeros is seen
+         ! compressed also because the checksum of zeros is zero: a damaged address of a chunk that points to zeros is detected
          call container%chunked([int(chunk_rows, hsize_t)], properties, compressed=.true., states=.false.)
          call h5screate_simple_f(1, dims, space, status, limit)
          call h5dcreate_f(self%group, trim(value%name), h5t_ieee_f64le, space, new%id, status, dcpl_id=properties)
@@ -188,7 +188,7 @@ contains
          call container%release(space)
          call container%release(properties)
          call container%describe(new%id, trim(value%unit), trim(value%title))
-         ! rows are known by the number of their case, which is written first
+         ! rows are identified by the number of their case, which is written first
          if (value%name == row_name) call make_scale(container, new%id)
          do k = 1, self%used - 1
             if (self%columns(k)%name == row_name) call attach_scales(container, new%id, [self%columns(k)%id])
@@ -196,7 +196,7 @@ contains
       end associate
    end subroutine new_column
 
-   !> Write the rows that wait
+   !> Write the buffered rows
    subroutine write_rows(self, container)
       class(column_table), intent(inout) :: self
       !> The open file
@@ -229,9 +229,9 @@ contains
       class(column_table), intent(in) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> As the file has it
+      !> Name as in the file
       character(len=*), intent(in) :: name
-      !> As many as there are rows on disk; 0 when there is no such column, which is a failure of the container
+      !> Values of all rows on disk; 0 if there is no such column, which is a failure of the container
       real(wp), intent(out), contiguous :: values(:)
       integer(hsize_t) :: total(1)
       integer :: k, status
@@ -245,12 +245,12 @@ contains
       call container%check(status)
    end subroutine read_column
 
-   !> Drop the rows behind some
+   !> Remove all rows after the first `rows`
    subroutine cut(self, container, rows)
       class(column_table), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> Rows that stay, at most those on disk
+      !> Number of rows that are kept, at most those on disk
       integer, intent(in) :: rows
       integer(hsize_t) :: total(1)
       integer :: k, status

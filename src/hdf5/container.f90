@@ -1,11 +1,11 @@
-!> An HDF5 file with a complete copy of it at all times: life of the file, its properties, attributes and groups
+!> An HDF5 file of which a complete copy exists at all times: opening and closing, properties, attributes and groups
 !>
-!> HDF5 writes what has changed in an order of its own, so a file that is being written may be unreadable at any moment.
-!> It therefore has a temporary name until it is closed. From time to time it is flushed and copied, and the copy takes the
-!> name of the results in one step: under that name stands a readable file at all times, however violently the program ends.
-!> Small arrays lie in the headers of their objects, large ones are compressed.
+!> HDF5 writes changes in an order of its own, so a file that is being written may be unreadable at any moment. It therefore has a
+!> temporary name until it is closed. From time to time it is flushed and copied, and the copy is renamed to the name of the
+!> results in one step: the file of that name is readable at all times, however the program ends. Small arrays are stored in the
+!> headers of their objects, large ones are compressed.
 !>
-!> A failure is remembered (`failed`) and reported when the file is closed; the calls in between may ignore it.
+!> A failure is recorded (`failed`) and reported when the file is closed; the calls in between may ignore it.
 module contact_hdf5_container
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5acreate_f, h5adelete_f, h5aexists_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5eset_auto_f, &
@@ -25,19 +25,19 @@ module contact_hdf5_container
 
    public :: clock, compression_level, hdf5_container, large, max_chunk, max_text_length
 
-   !> Longest text that is stored; longer ones are cut [characters]
+   !> Maximum length of a stored text; longer ones are truncated [characters]
    integer, parameter :: max_text_length = 1000
-   !> Arrays of at least this size are stored in chunks with checksums [bytes]; smaller ones fit in the header of their dataset
+   !> Arrays of at least this size are stored in chunks with checksums; smaller ones fit in the header of their dataset [bytes]
    integer, parameter :: large = 4096
-   !> Elements of a chunk at most: 1 MB of numbers, the cache of chunks that HDF5 has for each dataset
+   !> Maximum number of elements of a chunk: 1 MB of numbers, the size of the chunk cache of each dataset in HDF5
    integer, parameter :: max_chunk = 131072
-   !> Added to the name of the file that is being written, and of a copy until it is complete
+   !> Suffix of the name of the file that is being written, and of a copy until it is complete
    character(len=*), parameter :: unfinished = ".tmp", incomplete = ".part"
-   !> What HDF5 returns where it does not find a piece of an array: a NaN that says "contac" and the smallest element state.
-   !> Every piece is written, so a reader that meets one of them has a damaged file; a missing value is another NaN
+   !> Fill values that HDF5 returns for missing chunks: a NaN whose payload is "contac", and the smallest element state. All chunks
+   !> are written, so a file that returns one of them is damaged; a missing value is another NaN
    integer(long), parameter :: lost_number = int(z'7FF8636F6E746163', long)
    integer, parameter :: lost_state = -128
-   !> Level of deflate: higher ones take longer and gain little
+   !> Level of deflate: higher levels take longer and gain little
    integer, parameter :: compression_level = 4
 
    !> An open file
@@ -45,68 +45,68 @@ module contact_hdf5_container
       !> Name of the complete file
       character(len=:), allocatable :: name
       logical :: is_open = .false.
-      !> Has anything gone wrong since the file was opened?
+      !> Has any call failed since the file was opened?
       logical :: failed = .false.
-      !> What the file lacks that is no result; unallocated: nothing
+      !> Description of what is missing in the file apart from results; unallocated: nothing
       character(len=:), allocatable :: lacking
       !> Identifier of the file
       integer(hid_t) :: file = -1
-      !> Creation properties of datasets in the header of their object
+      !> Creation properties of datasets that are stored in the header of their object
       integer(hid_t) :: compact = -1
       !> Dataspace of a single value
       integer(hid_t) :: scalar = -1
       !> Creation properties of groups
       integer(hid_t), private :: groups = -1
-      !> Types of texts by their length; -1 until one is used
+      !> Datatypes of texts by their length; -1 until the first use
       integer(hid_t), private :: texts(max_text_length) = -1
    contains
-      !> Make a file; or copy the one that is there and go on with the copy
+      !> Create a file; or copy an existing one and continue with the copy
       procedure :: create
       procedure :: reopen
-      !> Close a copy that cannot be used, and say so
+      !> Close a copy that cannot be used, and report it
       procedure :: refuse
-      !> Close the file and give it its name
+      !> Close the file and rename it to its final name
       procedure :: close_file
-      !> Give the copy of what was written so far the name of the results
+      !> Publish a copy of what was written so far under the name of the results
       procedure :: publish
       !> Size of the file that is being written [bytes]
       procedure :: bytes_so_far
       !> Groups
       procedure :: new_group
       procedure :: remove_group
-      !> Creation properties of a dataset in chunks
+      !> Creation properties of a chunked dataset
       procedure :: chunked
-      !> Type of a text
+      !> Datatype of a text
       procedure :: text_type
-      !> Attributes: a text of any object, an integer of the file; remove one of the file
+      !> Attributes: set a text of any object, an integer of the file; remove one of the file
       procedure :: set_text
       procedure :: describe
       procedure :: set_count
       procedure :: drop_attribute
-      !> Status of a call of HDF5, and the end of an identifier
+      !> Check the status of a call of HDF5; release an identifier
       procedure :: check
       procedure :: release
    end type hdf5_container
 
 contains
 
-   !> Make a file
+   !> Create a file
    subroutine create(self, name, error)
       class(hdf5_container), intent(inout) :: self
       !> Name of the complete file
       character(len=*), intent(in) :: name
-      !> Allocated when the file cannot be written
+      !> Allocated if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       call open_unfinished(self, name, .false., error)
    end subroutine create
 
-   !> Go on with a file: a copy of it becomes the one that is written
+   !> Continue a file: a copy of it becomes the file that is written
    subroutine reopen(self, name, error)
       class(hdf5_container), intent(inout) :: self
       !> Name of the complete file
       character(len=*), intent(in) :: name
-      !> Allocated when the file cannot be read or written
+      !> Allocated if the file cannot be read or written
       type(error_type), allocatable, intent(out) :: error
       integer :: status
 
@@ -119,7 +119,7 @@ contains
       end if
    end subroutine reopen
 
-   !> Close a reopened file whose content is not as expected; the file of that name stays as it is
+   !> Close a reopened file whose content is not as expected; the file of the final name is unchanged
    subroutine refuse(self, error)
       class(hdf5_container), intent(inout) :: self
       !> Always allocated
@@ -136,7 +136,7 @@ contains
    subroutine open_unfinished(self, name, again, error)
       class(hdf5_container), intent(inout) :: self
       character(len=*), intent(in) :: name
-      !> Open the file that is there?
+      !> Open the existing file?
       logical, intent(in) :: again
       type(error_type), allocatable, intent(out) :: error
       integer(hid_t) :: access, creation
@@ -148,10 +148,10 @@ contains
       call h5open_f(status)
       call h5eset_auto_f(0, status)
       call h5pcreate_f(h5p_file_access_f, access, status)
-      ! closing the file closes what a failure left open in it
+      ! objects that are still open after a failure are closed with the file
       call h5pset_fclose_degree_f(access, h5f_close_strong_f, status)
-      ! newer layouts mark an open file, and refuse it after the end of a program that was killed. The group of all cases
-      ! has the oldest layout: of the newer ones Octave looks through all names for each name
+      ! newer layouts mark a file as open, and refuse it after a program was killed. The group of all cases has the oldest layout:
+      ! in groups of newer layouts, Octave scans all names for each name
       call h5pset_libver_bounds_f(access, h5f_libver_earliest_f, h5f_libver_v18_f, status)
       call h5pcreate_f(h5p_file_create_f, creation, status)
       call h5pset_istore_k_f(creation, 8, status)
@@ -172,7 +172,7 @@ contains
       call fatal_error(error, "the file cannot be written", error_kind%file, name)
    end subroutine open_unfinished
 
-   !> Properties that most objects of the file share
+   !> Create the properties shared by most objects of the file
    subroutine make_properties(self)
       class(hdf5_container), intent(inout) :: self
       integer :: status
@@ -189,7 +189,8 @@ contains
       call h5pset_fill_time_f(self%compact, h5d_fill_time_never_f, status)
    end subroutine make_properties
 
-   !> Keep the library from ending itself when the process exits: after a write that failed it would write again, and crash the host
+   !> Disable the clean-up of the HDF5 library at the exit of the process: after a failed write it would write again, and crash the
+   !> host
    subroutine leave_exit_alone()
       interface
          function dont_atexit() result(status) bind(c, name="H5dont_atexit")
@@ -199,11 +200,11 @@ contains
       end interface
       integer(c_int) :: ignored
 
-      ! fails when the library is in use already; then whoever uses it has chosen
+      ! fails if the library is in use already; then the choice of its other user applies
       ignored = dont_atexit()
    end subroutine leave_exit_alone
 
-   !> Objects that are made from now on have the layout of HDF5 1.8, with smaller headers than the oldest
+   !> Create all further objects in the layout of HDF5 1.8, whose headers are smaller than those of the oldest
    subroutine use_small_headers(file, status)
       integer(hid_t), intent(in) :: file
       integer, intent(out) :: status
@@ -219,10 +220,10 @@ contains
       status = set_bounds(int(file, c_int64_t), int(h5f_libver_v18_f, c_int), int(h5f_libver_v18_f, c_int))
    end subroutine use_small_headers
 
-   !> Close the file and give it its name
+   !> Close the file and rename it to its final name
    subroutine close_file(self, error)
       class(hdf5_container), intent(inout) :: self
-      !> Allocated when anything failed since the file was opened
+      !> Allocated if any call has failed since the file was opened
       type(error_type), allocatable, intent(out) :: error
       integer :: k, status
 
@@ -240,13 +241,13 @@ contains
          if (allocated(self%lacking)) call fatal_error(error, self%lacking, error_kind%file, self%name)
          return
       end if
-      ! what stands under the name is the last copy that was complete
+      ! the file of the final name is the last complete copy
       call remove_file(self%name // unfinished)
       call fatal_error(error, "cases are missing, because a write failed; is the disk full?", &
          & error_kind%file, self%name)
    end subroutine close_file
 
-   !> Flush the file and copy it; the copy takes the name of the results when it is complete
+   !> Flush the file and copy it; the complete copy is renamed to the name of the results
    subroutine publish(self)
       class(hdf5_container), intent(inout) :: self
       integer :: status
@@ -264,7 +265,7 @@ contains
    !> Copy a file
    subroutine copy_bytes(from, to, status)
       character(len=*), intent(in) :: from, to
-      !> 0 when all of it has arrived
+      !> 0 if the copy is complete
       integer, intent(out) :: status
       integer, parameter :: piece = 2**20
       character(len=:), allocatable :: buffer, reason
@@ -297,12 +298,12 @@ contains
       bytes = max(bytes, 0_long)
    end function bytes_so_far
 
-   !> Make a group
+   !> Create a group
    subroutine new_group(self, parent, name, group)
       class(hdf5_container), intent(inout) :: self
-      !> Group in which it lies; `self%file` for the topmost
+      !> Parent group; `self%file` for the top level
       integer(hid_t), intent(in) :: parent
-      !> Within the group in hand
+      !> Name within the parent group
       character(len=*), intent(in) :: name
       !> The open group
       integer(hid_t), intent(out) :: group
@@ -312,10 +313,10 @@ contains
       call self%check(status)
    end subroutine new_group
 
-   !> Remove a topmost group; nothing happens when there is none of that name
+   !> Remove a group of the top level; nothing if there is none of that name
    subroutine remove_group(self, name)
       class(hdf5_container), intent(inout) :: self
-      !> Without slash
+      !> Name without slash
       character(len=*), intent(in) :: name
       integer :: status
       logical :: is_there
@@ -325,14 +326,14 @@ contains
       call self%check(status)
    end subroutine remove_group
 
-   !> Creation properties of a dataset in chunks with checksums
+   !> Creation properties of a chunked dataset with checksums
    subroutine chunked(self, chunk, properties, compressed, states)
       class(hdf5_container), intent(inout) :: self
       !> Shape of a chunk
       integer(hsize_t), intent(in) :: chunk(:)
-      !> To be released by the caller
+      !> Property list, to be released by the caller
       integer(hid_t), intent(out) :: properties
-      !> Compress the chunks? Are they element states, not numbers?
+      !> Compress the chunks? Are the values element states? Otherwise numbers
       logical, intent(in) :: compressed, states
       integer :: status
 
@@ -344,7 +345,7 @@ contains
          call h5pset_fill_value_f(properties, h5t_native_double, transfer(lost_number, 0.0_wp), status)
       end if
       call h5pset_chunk_f(properties, size(chunk), chunk, status)
-      ! of the values themselves, before they are compressed: a damaged mask of the filters is seen too
+      ! checksum of the uncompressed values, so that a damaged filter mask is detected as well
       call h5pset_fletcher32_f(properties, status)
       if (compressed) then
          call h5pset_shuffle_f(properties, status)
@@ -353,10 +354,10 @@ contains
       call self%check(status)
    end subroutine chunked
 
-   !> Type of a text of fixed length
+   !> Datatype of a text of fixed length
    integer(hid_t) function text_type(self, length) result(kind)
       class(hdf5_container), intent(inout) :: self
-      !> [characters]
+      !> Length [characters]
       integer, intent(in) :: length
       integer :: n, status
 
@@ -374,7 +375,7 @@ contains
       class(hdf5_container), intent(inout) :: self
       !> Group or dataset, or `self%file`
       integer(hid_t), intent(in) :: object
-      !> Of the attribute, and its content
+      !> Name of the attribute, and its content
       character(len=*), intent(in) :: name, value
       integer(hid_t) :: attribute, kind
       integer(hsize_t) :: one(1)
@@ -388,12 +389,12 @@ contains
       call self%release(attribute)
    end subroutine set_text
 
-   !> Say what an object is, and in which unit
+   !> Set the description and the unit of an object
    subroutine describe(self, object, unit, title)
       class(hdf5_container), intent(inout) :: self
       !> Dataset
       integer(hid_t), intent(in) :: object
-      !> Unit, "-" for a ratio, which is 1 in the conventions that the file follows, "" for none; and what it is
+      !> Unit, "-" for a ratio (written as 1, as in the conventions that the file follows), "" for none; and description
       character(len=*), intent(in) :: unit, title
 
       if (unit == "-") then
@@ -404,12 +405,12 @@ contains
       if (len(title) > 0) call self%set_text(object, "long_name", title)
    end subroutine describe
 
-   !> Set an integer as an attribute of the file, in place of one of that name
+   !> Set an integer attribute of the file, replacing one of that name
    subroutine set_count(self, name, value)
       class(hdf5_container), intent(inout) :: self
-      !> Of the attribute
+      !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> Its new content
+      !> New value
       integer, intent(in) :: value
       integer(hid_t) :: attribute
       integer(hsize_t) :: one(1)
@@ -425,10 +426,10 @@ contains
       call self%release(attribute)
    end subroutine set_count
 
-   !> Remove an attribute of the file; nothing happens when there is none of that name
+   !> Remove an attribute of the file; nothing if there is none of that name
    subroutine drop_attribute(self, name)
       class(hdf5_container), intent(inout) :: self
-      !> As the file has it
+      !> Name as in the file
       character(len=*), intent(in) :: name
       logical :: is_there
       integer :: status
@@ -438,7 +439,7 @@ contains
       call self%check(status)
    end subroutine drop_attribute
 
-   !> Time since some moment [s]
+   !> Time since an arbitrary origin [s]
    real(wp) function clock() result(seconds)
       integer(long) :: ticks, rate
 
@@ -446,15 +447,15 @@ contains
       seconds = real(ticks, wp)/real(rate, wp)
    end function clock
 
-   !> Remember a call that failed
+   !> Record whether a call failed
    subroutine check(self, status)
       class(hdf5_container), intent(inout) :: self
-      !> Negative for a failure, as HDF5 returns it
+      !> Status returned by HDF5, negative for a failure
       integer, intent(in) :: status
       if (status < 0) self%failed = .true.
    end subroutine check
 
-   !> Close an object. What it kept in memory is written now, so this fails as writing does
+   !> Close an object. Buffered data of it are written, so this can fail as writing can
    subroutine release(self, id)
       class(hdf5_container), intent(inout) :: self
       !> Identifier of the object

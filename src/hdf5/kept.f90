@@ -1,4 +1,4 @@
-!> Groups and fields of the cases before: where the next case has the same, the object on disk is linked again
+!> Groups and fields of previous cases: if the next case has the same content, the object on disk is linked again
 module contact_hdf5_kept
    use hdf5, only : h5olink_f, hid_t, hsize_t
    use contact_base_kinds, only : wp
@@ -9,48 +9,48 @@ module contact_hdf5_kept
 
    public :: kept_list, kept_object
 
-   !> A group or a field that was written and can be linked
+   !> A group or a field on disk that can be linked
    type :: kept_object
-      !> Place in a case, such as "1.1/patch_1/fields/pn", behind the name of the contact problem
+      !> Path within a case, such as "1.1/patch_1/fields/pn", after the name of the contact problem
       character(len=:), allocatable :: place
-      !> The open object; -1 before the first is written
+      !> Identifier of the open object; -1 before the first is written
       integer(hid_t) :: id = -1
-      !> Of a field: its values and their shape
+      !> Values and shape of a field
       real(wp), allocatable :: values(:)
       integer(hsize_t), allocatable :: dims(:)
-      !> Scales along which it lies, open
+      !> Open scales of its dimensions
       integer(hid_t), allocatable :: scales(:)
-      !> Of a group
+      !> Content of a group
       type(value_list), allocatable :: group
    contains
-      !> Link it
+      !> Link the object into another group
       procedure :: link
-      !> Is it an array with these values at these places?
+      !> Is it an array with these values and scales?
       procedure :: holds
    end type kept_object
 
-   !> All of them
+   !> All objects
    type :: kept_list
       type(kept_object), allocatable :: objects(:)
       integer, private :: count = 0
-      !> The one found last, because they come in the same order in each case
+      !> Index of the last one found, since objects come in the same order in each case
       integer, private :: last = 0
    contains
       procedure :: find
       procedure :: replace
-      !> Write an array, or link the one of the case before when it is the same
+      !> Write an array, or link that of the previous case if it is equal
       procedure :: write
       procedure :: release
    end type kept_list
 
 contains
 
-   !> The object at a place; a new one when there is none
+   !> Find the object of a path, or add a new one
    subroutine find(self, place, k)
       class(kept_list), intent(inout) :: self
       !> See kept_object
       character(len=*), intent(in) :: place
-      !> Its number in `objects`
+      !> Index in `objects`
       integer, intent(out) :: k
       type(kept_object), allocatable :: longer(:)
       integer :: i
@@ -87,7 +87,7 @@ contains
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> Under which the group has the object
+      !> Name of the object in the group
       character(len=*), intent(in) :: name
       integer :: status
 
@@ -98,11 +98,11 @@ contains
    !> Is the object an array of this shape with the same values?
    pure logical function holds(self, values, dims, scales)
       class(kept_object), intent(in) :: self
-      !> All values in their order, and the shape
+      !> All values in their order
       real(wp), intent(in) :: values(:)
       !> Extents, the slowest index first
       integer(hsize_t), intent(in) :: dims(:)
-      !> Open scales along which it lies
+      !> Open scales of the dimensions
       integer(hid_t), intent(in) :: scales(:)
 
       holds = .false.
@@ -112,12 +112,12 @@ contains
       holds = all(same_number(self%values, values))
    end function holds
 
-   !> The object on disk is another one from now on
+   !> Replace an object by another one on disk
    subroutine replace(self, container, k, id)
       class(kept_list), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> Number in `objects`
+      !> Index in `objects`
       integer, intent(in) :: k
       !> The new object, open
       integer(hid_t), intent(in) :: id
@@ -126,24 +126,24 @@ contains
       self%objects(k)%id = id
    end subroutine replace
 
-   !> Write an array, or link the one of the case before when it is the same
+   !> Write an array, or link that of the previous case if it is equal
    subroutine write(self, container, group, place, name, unit, title, values, dims, kind, scales, id)
       class(kept_list), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> Place of the group, see kept_object; name, unit and description of the array
+      !> Path of the group, see kept_object; name, unit and description of the array
       character(len=*), intent(in) :: place, name, unit, title
       !> Shape
       integer(hsize_t), intent(in) :: dims(:)
       !> All values in their order
       real(wp), intent(in), target :: values(product(dims))
-      !> Type on disk
+      !> Datatype on disk
       integer(hid_t), intent(in) :: kind
-      !> Open scales along which it lies; none for a scale
+      !> Open scales of the dimensions; empty for a scale
       integer(hid_t), intent(in) :: scales(:)
-      !> The dataset, open until the next of that name is written
+      !> The dataset, open until the next one of that name is written
       integer(hid_t), intent(out), optional :: id
       integer(hid_t) :: data
       integer :: k

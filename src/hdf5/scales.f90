@@ -1,9 +1,8 @@
-!> Dimension scales: arrays that are the places along a dimension, and which ones belong to an array
+!> Dimension scales: arrays of the coordinates along a dimension, and their association with arrays
 !>
-!> Attributes of the dimension scale specification of HDF5, CLASS and DIMENSION_LIST, by which NetCDF, xarray and h5py know the
-!> dimensions.
-!> REFERENCE_LIST, the way back from a scale to all arrays along it, is left out: one scale serves thousands of arrays, and the list
-!> would be written anew for each of them. Readers find their way without it.
+!> The attributes CLASS and DIMENSION_LIST of the dimension scale specification of HDF5, by which NetCDF, xarray and h5py identify
+!> dimensions. REFERENCE_LIST, the references from a scale to all its arrays, is omitted: one scale serves thousands of arrays, and
+!> the list would be rewritten for each of them. Readers do not need it.
 module contact_hdf5_scales
    use, intrinsic :: iso_c_binding, only : c_loc, c_null_char, c_ptr, c_size_t
    use hdf5, only : h5acreate_f, h5awrite_f, h5rcreate_f, h5screate_simple_f, h5t_c_s1, h5t_std_i8le, &
@@ -14,18 +13,18 @@ module contact_hdf5_scales
 
    public :: attach_scales, make_scale, tell_flags
 
-   !> A list of variable length as HDF5 takes it
+   !> Variable-length data as defined by HDF5
    type, bind(c) :: item_list
       integer(c_size_t) :: length
       type(c_ptr) :: items
    end type item_list
 
-   !> Dimensions of an array at most
+   !> Maximum number of dimensions of an array
    integer, parameter :: most_dimensions = 3
 
 contains
 
-   !> Say that an array holds the places along a dimension
+   !> Mark an array as the coordinates along a dimension
    subroutine make_scale(container, data)
       !> The open file
       type(hdf5_container), intent(inout) :: container
@@ -48,7 +47,7 @@ contains
       call container%release(kind)
    end subroutine make_scale
 
-   !> Say along which scales an array lies
+   !> Set the scales of an array
    subroutine attach_scales(container, data, scales)
       !> The open file
       type(hdf5_container), intent(inout) :: container
@@ -63,7 +62,7 @@ contains
 
       n = size(scales)
       do k = 1, n
-         ! the file has the dimensions in the opposite order
+         ! the order of dimensions in the file is the reverse
          call h5rcreate_f(scales(n + 1 - k), ".", references(k), status)
          call container%check(status)
          lists(k) = item_list(1_c_size_t, c_loc(references(k)))
@@ -80,13 +79,13 @@ contains
       call container%release(kind)
    end subroutine attach_scales
 
-   !> Say what the integers of an array mean: 0, 1, ... in this order
+   !> Describe the integers of an array: meanings of 0, 1, ... in this order
    subroutine tell_flags(container, data, meanings)
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open dataset of small integers
       integer(hid_t), intent(in) :: data
-      !> Words with blanks between them
+      !> Words separated by blanks
       character(len=*), intent(in) :: meanings
       integer(hid_t) :: attribute, space
       integer(hsize_t) :: dims(1)

@@ -1,4 +1,4 @@
-!> Values as datasets: named values of a group, kept in memory until the group is complete, and arrays
+!> Values as datasets: named values of a group, buffered until the group is complete, and arrays
 module contact_hdf5_values
    use hdf5, only : h5dcreate_f, h5dwrite_f, h5screate_simple_f, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, &
       & h5t_std_i32le, h5t_std_i8le, hid_t, hsize_t
@@ -11,29 +11,29 @@ module contact_hdf5_values
 
    public :: flag_meanings, is_same, same_number, value_list, write_array, write_value
 
-   !> What element states mean, from 0
+   !> Meanings of the element states, from 0
    character(len=*), parameter :: flag_meanings = "exterior adhesion slip plastic"
 
    !> The values of one group in their order
    type :: value_list
       integer :: count = 0
-      !> The first `count` are in use
+      !> Items 1...count are in use
       type(named_value), allocatable :: items(:)
    contains
       procedure :: add
       procedure :: keep_texts
-      !> Have the lists the same names and values?
+      !> Are names and values of two lists equal?
       procedure :: equals
-      !> Write them as attributes of the file, texts and integers
+      !> Write texts and integers as attributes of the file
       procedure :: write_attributes
    end type value_list
 
 contains
 
-   !> Append a value; texts are cut at max_text_length, and have one blank at least
+   !> Append a value; texts are truncated at max_text_length, and have at least one blank
    subroutine add(self, item)
       class(value_list), intent(inout) :: self
-      !> Of the group in hand
+      !> Value of the current group
       type(named_value), intent(in) :: item
       type(named_value), allocatable :: longer(:)
 
@@ -50,7 +50,7 @@ contains
       if (len(item%text) > max_text_length) self%items(self%count)%text = item%text(:max_text_length)
    end subroutine add
 
-   !> Drop all but texts
+   !> Remove all values but texts
    subroutine keep_texts(self)
       class(value_list), intent(inout) :: self
       integer :: i, k
@@ -64,10 +64,10 @@ contains
       self%count = k
    end subroutine keep_texts
 
-   !> Have two lists the same names and values?
+   !> Are names and values of two lists equal?
    pure logical function equals(self, other)
       class(value_list), intent(in) :: self
-      !> Compared in the same order
+      !> List to compare with, in the same order
       type(value_list), intent(in) :: other
       integer :: i
 
@@ -79,7 +79,7 @@ contains
       equals = .true.
    end function equals
 
-   !> Write the values as attributes of the file, in place of those of the same names
+   !> Write the values as attributes of the file, replacing those of the same names
    subroutine write_attributes(self, container)
       class(value_list), intent(in) :: self
       !> The open file
@@ -99,9 +99,9 @@ contains
       end do
    end subroutine write_attributes
 
-   !> Have two values the same name and value?
+   !> Are name and value equal?
    pure logical function is_same(self, other) result(same)
-      !> Compared bit by bit
+      !> Values, compared bit by bit
       type(named_value), intent(in) :: self, other
 
       same = .false.
@@ -118,22 +118,23 @@ contains
       same = .true.
    end function is_same
 
-   !> Equal bit by bit: a NaN equals itself, 0 and -0 differ
+   !> Equal bit by bit: NaN equals itself, 0 and -0 differ
    elemental logical function same_number(a, b) result(same)
-      !> Any two numbers
+      !> Numbers to compare
       real(wp), intent(in) :: a, b
       same = transfer(a, 0_long) == transfer(b, 0_long)
    end function same_number
 
-   !> Write the value as a dataset of its group, with its unit and what it is
+   !> Write a value as a dataset of its group, with unit and description
    subroutine write_value(self, container, group, along)
-      !> What is written
+      !> Value to be written
       type(named_value), intent(in), target :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> Scale of several numbers: -1 for one of their own; where it is none yet, they become it
+      !> Open scale of an array of numbers; negative: none yet, the array becomes it and is left open; absent: the array is a scale
+      !> of its own
       integer(hid_t), intent(inout), optional :: along
       integer(hid_t) :: data, kind, properties, space
       integer(hsize_t) :: dims(1)
@@ -149,7 +150,7 @@ contains
          kind = h5t_ieee_f64le
          dims = size(self%values, kind=hsize_t)
          call h5screate_simple_f(1, dims, space, status)
-         ! too large for a header, whose checksum would cover them
+         ! too large for the object header, whose checksum would cover them
          if (size(self%values)*8 >= large) call container%chunked(min(dims, int(max_chunk, hsize_t)), properties, &
             & compressed=.false., states=.false.)
       case (item_kind%whole)
@@ -195,15 +196,15 @@ contains
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> Name, unit ("" for none), and what it is
+      !> Name, unit ("" for none), and description
       character(len=*), intent(in) :: name, unit, title
       !> Shape
       integer(hsize_t), intent(in) :: dims(:)
-      !> The first index runs fastest
+      !> Values, the first index running fastest
       real(wp), intent(in), target :: values(product(dims))
-      !> Type on disk: of numbers, or of element states
+      !> Datatype on disk: of numbers, or of element states
       integer(hid_t), intent(in) :: kind
-      !> Open datasets with the places along the dimensions; empty: it is a scale itself
+      !> Open scales of the dimensions; empty: the array is a scale itself
       integer(hid_t), intent(in) :: scales(:)
       !> The open dataset
       integer(hid_t), intent(out) :: data
