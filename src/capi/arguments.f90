@@ -1,7 +1,7 @@
-!> Arguments of C callers: absent ones, lengths that may be anything, texts without a length
+!> Arguments of C callers: absent ones, arbitrary lengths, texts without a length
 !>
-!> A null pointer of C is an absent optional argument here. What is absent has no elements and no
-!> value, so that no entry has to look at pointers itself.
+!> A null pointer of C is an absent optional argument here. Absent arguments have no elements and no value, so that no entry needs
+!> to inspect pointers.
 module contact_capi_arguments
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
@@ -12,11 +12,11 @@ module contact_capi_arguments
 
    public :: no_number, integer_of, real_of, path_of, integers_of, raised, give, give_message, take_text
 
-   !> Stands for an integer that was not given; no code, index or count is that large
+   !> Value of an integer that was not given; no code, index or count is as large
    integer, parameter :: no_number = -huge(1)
-   !> Status of a call with unusable arguments; failures by their error_kind start behind first_failure
+   !> Status of a call with unusable arguments; failures start after first_failure, by their error_kind
    integer(c_int), parameter, public :: wrong_call = 1, first_failure = 10
-   !> Longest name of a file that is copied
+   !> Maximum length of a file name
    integer, parameter :: longest_path = 256
 
    interface
@@ -30,27 +30,27 @@ module contact_capi_arguments
 
 contains
 
-   !> An integer, or no_number
+   !> Value of an integer argument, no_number if absent
    pure integer function integer_of(argument) result(value)
-      !> Not present where the caller gave a null pointer
+      !> Absent if the caller gave a null pointer
       integer(c_int), intent(in), optional :: argument
 
       value = no_number
       if (present(argument)) value = argument
    end function integer_of
 
-   !> A number, not a number when it was not given
+   !> Value of a real argument, NaN if absent
    pure real(wp) function real_of(argument) result(value)
-      !> Not present where the caller gave a null pointer
+      !> Absent if the caller gave a null pointer
       real(c_double), intent(in), optional :: argument
 
       value = ieee_value(1.0_wp, ieee_quiet_nan)
       if (present(argument)) value = argument
    end function real_of
 
-   !> Length of an array that is usable: 0 when negative or when length or array are absent
+   !> Usable length of an array: 0 if negative, or if length or array are absent
    pure integer function count_of(length, is_there) result(n)
-      !> Elements that the caller says there are
+      !> Number of elements according to the caller
       integer(c_int), intent(in), optional :: length
       !> Was the array itself given?
       logical, intent(in) :: is_there
@@ -59,13 +59,13 @@ contains
       if (present(length) .and. is_there) n = max(0, length)
    end function count_of
 
-   !> The name of a file or folder, with the separators of this platform and blanks behind only
+   !> Name of a file or folder, with the separators of this platform, and blanks only at the end
    !>
-   !> It ends at its length, a null character or 256 letters.
+   !> It ends at its length, at a null character or after 256 characters.
    pure function path_of(letters, length) result(path)
-      !> As the caller has them, with or without a null at the end
+      !> Characters of the caller, with or without a terminating null
       character(kind=c_char), intent(in), optional :: letters(*)
-      !> Letters that the caller says there are; the null ends the text where it is absent
+      !> Number of characters according to the caller; absent: the text ends at the null
       integer(c_int), intent(in), optional :: length
       character(len=longest_path) :: path
       integer :: i
@@ -78,7 +78,7 @@ contains
       path = replaced(adjustl(path), "\", "/")
    end function path_of
 
-   !> The elements of an array of integers
+   !> Elements of an array of integers
    pure function integers_of(length, array) result(list)
       !> Number of elements, and the elements
       integer(c_int), intent(in), optional :: length, array(*)
@@ -88,30 +88,31 @@ contains
       if (size(list) > 0) list = array(:size(list))
    end function integers_of
 
-   !> What is too small for the models becomes the smallest value; what is negative or not a number stays for the check of bounds
+   !> Raise values that are too small for the models to the minimum; negative values and NaN are unchanged and left to the check of
+   !> bounds
    elemental real(wp) function raised(value, least)
-      !> What a caller gave, and the smallest number that the models take; the same unit
+      !> Value given by the caller, and minimum accepted by the models; in the same unit
       real(wp), intent(in) :: value, least
 
       raised = value
       if (value >= 0.0_wp) raised = max(least, value)
    end function raised
 
-   !> Hand over one integer
+   !> Return one integer
    pure subroutine give(value, argument)
-      !> What is handed over
+      !> Value to be returned
       integer, intent(in) :: value
-      !> Where it goes, if anywhere
+      !> Argument that receives it, if present
       integer(c_int), intent(inout), optional :: argument
 
       if (present(argument)) argument = int(value, c_int)
    end subroutine give
 
-   !> A null-terminated text as a Fortran one, "" for a null pointer
+   !> Convert a null-terminated text to a Fortran text, "" for a null pointer
    subroutine take_text(pointer, text)
-      !> From the caller
+      !> Text of the caller
       type(c_ptr), intent(in) :: pointer
-      !> Without the null
+      !> Text without the null
       character(len=:), allocatable, intent(out) :: text
       character(kind=c_char), pointer :: letters(:)
       integer :: i
@@ -125,13 +126,13 @@ contains
       end do
    end subroutine take_text
 
-   !> Copy a text into the buffer of the caller, cut to fit and null-terminated
+   !> Copy a text to the buffer of the caller, truncated to its size and null-terminated
    subroutine give_message(text, buffer, length)
-      !> In one line
+      !> Text of one line
       character(len=*), intent(in) :: text
-      !> Null where no text is wanted
+      !> Buffer; null if no text is requested
       type(c_ptr), intent(in) :: buffer
-      !> Size of the buffer, the final null included
+      !> Size of the buffer, including the terminating null
       integer(c_int), intent(in) :: length
       character(kind=c_char), pointer :: letters(:)
       integer :: i, n

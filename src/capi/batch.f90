@@ -1,4 +1,4 @@
-!> The C interface: many cases of a text in one call; see include/contact.h
+!> C interface: many cases of a text in one call; see include/contact.h
 module contact_capi_batch
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
@@ -14,16 +14,16 @@ module contact_capi_batch
    public :: contact_batch_open, contact_batch_close, contact_batch_solve, contact_batch_column, contact_batch_field, &
       & contact_batch_field_values
 
-   !> What the host holds
+   !> Data behind the handle of the host
    type :: open_type
       type(case_batch), pointer :: batch => null()
-      !> Threads of a calculation, owner of the memory
+      !> Number of threads of a calculation, and owner of the memory
       integer :: threads = 1, owner = 0
-      !> Was work left for want of memory, so that nothing of the batch may be read any more?
+      !> Was a call abandoned for lack of memory, so that the batch must not be read any more?
       logical :: is_lost = .false.
    end type open_type
 
-   !> One call, contact_batch_job of the header
+   !> Data of one call, contact_batch_job of the header
    type, bind(c) :: job_type
       type(c_ptr) :: text, folder, names
       integer(c_int) :: numbers, sets
@@ -33,7 +33,7 @@ module contact_capi_batch
       integer(c_int) :: reason_length, rows, cases, columns
    end type job_type
 
-   !> A call as guarded work sees it
+   !> A call, passed to the guarded procedures
    type :: request_type
       type(open_type), pointer :: open => null()
       type(job_type), pointer :: job => null()
@@ -41,7 +41,7 @@ module contact_capi_batch
       type(error_type), allocatable :: error
    end type request_type
 
-   !> A field of `contact_batch_field`
+   !> Request of a field by contact_batch_field
    type :: field_request
       type(open_type), pointer :: open => null()
       integer :: patch = 0
@@ -51,11 +51,11 @@ module contact_capi_batch
 
 contains
 
-   !> A batch for cases, null when there is no memory
+   !> Create a batch; null if there is not enough memory
    function contact_batch_open(threads, seconds) result(handle) bind(c, name="contact_batch_open")
-      !> Threads of each calculation, at least 1
+      !> Number of threads of each calculation, at least 1
       integer(c_int), value :: threads
-      !> What each case may take [s]; 0 without limit
+      !> Time limit of each case [s]; 0: unlimited
       real(c_double), value :: seconds
       type(c_ptr) :: handle
       type(open_type), pointer :: open
@@ -78,7 +78,7 @@ contains
       handle = c_loc(open)
    end function contact_batch_open
 
-   !> Make it
+   !> Create it under the guard
    subroutine open_inside(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
@@ -89,7 +89,7 @@ contains
       call open_batch(request%open%batch, request%seconds)
    end subroutine open_inside
 
-   !> Free a batch; nothing for null
+   !> Free a batch; nothing if null
    subroutine contact_batch_close(handle) bind(c, name="contact_batch_close")
       !> From contact_batch_open
       type(c_ptr), value :: handle
@@ -110,9 +110,9 @@ contains
    function contact_batch_solve(handle, job, message, length) result(status) bind(c, name="contact_batch_solve")
       !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> What is to be done, and where results go
+      !> Cases to be solved, and arrays for the results
       type(job_type), intent(inout), target :: job
-      !> Buffer of the reason of a failure, null if not wanted, and its size
+      !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
       !> Size of the buffer
       integer(c_int), value :: length
@@ -156,7 +156,7 @@ contains
       call give_floats_back()
    end function contact_batch_solve
 
-   !> Can nothing be done with a job?
+   !> Is a job invalid?
    logical function is_wrong(job)
       type(job_type), intent(in) :: job
 
@@ -166,7 +166,7 @@ contains
       if (job%numbers > 0_c_int) is_wrong = is_wrong .or. .not. (c_associated(job%names) .and. c_associated(job%given))
    end function is_wrong
 
-   !> Solve them
+   !> Solve them under the guard
    recursive subroutine solve_inside(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
@@ -203,7 +203,7 @@ contains
       end associate
    end subroutine solve_inside
 
-   !> Names of a list with line ends between them; unallocated when they are fewer or more
+   !> Split a list of names at its line ends; unallocated if their number is not `count`
    subroutine split(list, count, names)
       character(len=*), intent(in) :: list
       integer, intent(in) :: count
@@ -227,13 +227,13 @@ contains
    function contact_batch_column(handle, number, name, unit, meaning, length) result(kind) bind(c, name="contact_batch_column")
       !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Of the column, from 1
+      !> Index of the column, from 1
       integer(c_int), value :: number
-      !> Buffers of the texts, and the size of each
+      !> Buffers of the texts
       type(c_ptr), value :: name, unit, meaning
-      !> Size of the buffer
+      !> Size of each buffer
       integer(c_int), value :: length
-      !> 0: a real number of a patch, 1: an integer of a patch, 2, 3: the same of wheel and rail together; -1: no such column
+      !> 0: real number of a patch, 1: integer of a patch, 2, 3: the same for wheel and rail as a whole; -1: no such column
       integer(c_int) :: kind
       type(open_type), pointer :: open
       integer(c_int), parameter :: of_pair = 2_c_int
@@ -251,24 +251,24 @@ contains
       end associate
    end function contact_batch_column
 
-   !> Size and frame of an element field of the case that was solved last
+   !> Size and position of an element field of the last case
    function contact_batch_field(handle, patch, name, mx, my, frame, unit, length) result(status) &
       & bind(c, name="contact_batch_field")
       !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Number of the patch, from 1
+      !> Index of the patch, from 1
       integer(c_int), value :: patch
-      !> Of the field, null-terminated
+      !> Name of the field, null-terminated
       type(c_ptr), value :: name
-      !> Number of elements along x and y; centre of the first element and sides of an element [mm]
+      !> Number of elements along x and y
       integer(c_int), intent(out) :: mx, my
       !> x, y of the centre of the first element, DX, DY [mm]
       real(c_double), intent(out) :: frame(4)
-      !> Buffer of the unit, and its size
+      !> Buffer of the unit
       type(c_ptr), value :: unit
       !> Size of the buffer
       integer(c_int), value :: length
-      !> 0, or 1 when there is no such field
+      !> 0, or 1 if there is no such field
       integer(c_int) :: status
       type(field_request), target :: request
       integer :: cause
@@ -291,15 +291,15 @@ contains
       & bind(c, name="contact_batch_field_values")
       !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Number of the patch, from 1
+      !> Index of the patch, from 1
       integer(c_int), value :: patch
-      !> Of the field, null-terminated
+      !> Name of the field, null-terminated
       type(c_ptr), value :: name
       !> Length of `values`
       integer(c_int), value :: room
-      !> Receives them
+      !> Receives the values
       real(c_double), intent(inout) :: values(*)
-      !> 0, or 1 when there is no such field or no room for it
+      !> 0, or 1 if there is no such field or `values` is too short
       integer(c_int) :: status
       type(field_request), target :: request
       integer :: cause, j, mx
@@ -333,7 +333,7 @@ contains
       if (cause /= guard_end%done) request%open%is_lost = .true.
    end subroutine find_it
 
-   !> Find it
+   !> Find it under the guard
    subroutine find_inside(data) bind(c)
       !> A field_request
       type(c_ptr), value :: data

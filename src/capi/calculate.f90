@@ -1,4 +1,4 @@
-!> Entries that calculate
+!> Entries for calculations
 module contact_capi_calculate
    use, intrinsic :: iso_c_binding, only : c_int
    use contact_base_case_status, only : case_status
@@ -22,7 +22,7 @@ module contact_capi_calculate
 
 contains
 
-   !> Solve what the settings say: a contact problem, or wheel and rail as a whole
+   !> Solve the case of the current settings: a contact problem, or wheel and rail as a whole
    subroutine cntc_calculate(ire, icp, ierror) bind(c, name="inside_cntc_calculate")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: ierror
@@ -46,7 +46,7 @@ contains
       call calculate(entry_type("cntc_calculate3", integer_of(ire), integer_of(icp)), scope%contact, ierror)
    end subroutine cntc_calculate3
 
-   !> Find the problem, solve it on the threads that are allowed, tell how it ended
+   !> Find the problem, solve it with the allowed number of threads, and report the outcome
    subroutine calculate(this, allowed, ierror)
       type(entry_type), intent(in) :: this
       type(scope_type), intent(in) :: allowed
@@ -73,11 +73,11 @@ contains
       call give(code, ierror)
    end subroutine calculate
 
-   !> One case: the settings must be there and go together, then it is solved, and told
+   !> Calculate one case: check that the settings are complete and compatible, solve it, report the outcome
    subroutine calculate_case(this, problem, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
-      !> Member of library_code, or in module 3 the number of elements in contact at the border
+      !> Member of library_code, or in module 3 the number of elements in contact at the border of the grid
       integer, intent(out) :: code
       type(error_type), allocatable :: error
       type(case_digits) :: digits
@@ -114,11 +114,11 @@ contains
       call keep_status(problem, status)
    end subroutine calculate_case
 
-   !> The input of the case: choices instead of digits, and what is stored; a first case has nothing to continue
+   !> Prepare the input of the case: convert digits to choices, and use stored values; a first case does not continue another one
    subroutine choose(this, problem, digits)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
-      !> Those that act
+      !> Effective digits
       type(case_digits), intent(out) :: digits
 
       digits = problem%digits
@@ -133,7 +133,7 @@ contains
       call take_digits(digits, problem%module_number, problem%spec)
    end subroutine choose
 
-   !> The time of wheel and rail is that of its patches, in proportion to their elements
+   !> Distribute the time of wheel and rail over its patches, in proportion to their numbers of elements
    subroutine book_patches(problem, cpu, wall)
       type(library_problem), intent(inout) :: problem
       !> Processor and elapsed time of the calculation [s]

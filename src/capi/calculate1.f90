@@ -1,4 +1,4 @@
-!> Wheel on rail of a caller from its settings to its results and files (module 1)
+!> Calculation for wheel and rail (module 1) of a caller, from settings to results and files
 module contact_capi_calculate1
    use contact_base_case_status, only : case_status
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
@@ -29,11 +29,11 @@ module contact_capi_calculate1
 
 contains
 
-   !> Solve a case whose data are there, unless its settings do not go together
+   !> Solve a case whose data are complete, unless its settings are incompatible
    subroutine solve_wheel_rail(this, problem, digits, log, code, error)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
-      !> Those that act
+      !> Effective digits
       type(case_digits), intent(in) :: digits
       type(log_type), intent(inout) :: log
       !> Member of library_code
@@ -41,7 +41,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       code = library_code%other
-      ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
+      ! the first coordinate is the position along the track; on rollers the position of the wheelset relative to the top of the
+      ! roller
       associate (wheelset => problem%spec%wheel_rail%wheelset)
          if (problem%spec%wheel_rail%roller) then
             wheelset%x = wheelset%x + wheelset%s
@@ -56,15 +57,15 @@ contains
       if (allocated(error)) return
       call dump_wheel_rail_case(this, problem)
       call find_working_folder(problem%work_folder)
-      ! callers step through time; programs of cases read each one as if it stood alone
+      ! calls are steps in time; programs that run input files treat each case as independent
       problem%wheel_rail%problem%in_loop = .true.
       call solve_wheel_on_rail(problem%wheel_rail, problem%spec, problem%work_folder, log, problem%wheel_rail_result, &
          & problem%solved, error)
    end subroutine solve_wheel_rail
 
-   !> What was found becomes what is stored, and goes into print and files
+   !> Store the result as starting point, print it, and write files
    !>
-   !> Results without contact, or with more patches than can be asked for, are told in the log only.
+   !> A result without contact, or with more patches than can be addressed, is reported in the log only.
    subroutine finish_wheel_rail(this, problem, log, status, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
@@ -96,10 +97,10 @@ contains
       end associate
    end subroutine finish_wheel_rail
 
-   !> Profiles, friction and discretisation must be there and fit
+   !> Check that profiles, friction and discretisation are available and compatible
    subroutine check_data(problem, code, error)
       type(library_problem), intent(in) :: problem
-      !> Member of library_code that tells what is missing
+      !> Member of library_code for the missing data
       integer, intent(out) :: code
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text
@@ -117,14 +118,14 @@ contains
          call fatal_error(error, "there are no friction data")
       else if (problem%has_result) then
          code = library_code%discretisation
-         ! without patches there is nothing to go on from
+         ! without patches there is nothing to continue
          if (size(problem%wheel_rail_result%patches) == 0) return
          call describe_search(problem%motion(), problem%spec%wheel_rail%search, problem%wheel_rail%problem%spec%search, text)
          if (allocated(text)) call fatal_error(error, text)
       end if
    end subroutine check_data
 
-   !> Line that opens a case
+   !> Write the line that opens a case
    subroutine write_case_line(log, problem)
       type(log_type), intent(inout) :: log
       type(library_problem), intent(in) :: problem
@@ -144,7 +145,7 @@ contains
       call log%line(line)
    end subroutine write_case_line
 
-   !> Refuse digits and combinations that cannot be solved, by name
+   !> Refuse digits and combinations that cannot be solved, naming them
    subroutine check_settings(digits, spec, error)
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
@@ -176,11 +177,11 @@ contains
       call problems%first_failure(error)
    end subroutine check_settings
 
-   !> Printed output and the files with all elements
+   !> Print the results, and write the files with all elements
    subroutine write_results(this, problem, spec, log)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
-      !> The case as it was solved
+      !> The case as solved
       type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error

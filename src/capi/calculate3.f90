@@ -1,4 +1,4 @@
-!> A contact problem of a caller from its settings to its results and files (module 3)
+!> Calculation for a contact problem (module 3) of a caller, from settings to results and files
 module contact_capi_calculate3
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : estimate_choice, force_control, motion, normal_control, slip_source, time_link
@@ -32,10 +32,10 @@ module contact_capi_calculate3
 
 contains
 
-   !> Solve a case, unless its settings do not go together
+   !> Solve a case, unless its settings are incompatible
    subroutine solve_contact(problem, digits, log, code, error)
       type(library_problem), intent(inout) :: problem
-      !> Those that act
+      !> Effective digits
       type(case_digits), intent(in) :: digits
       type(log_type), intent(inout) :: log
       !> Member of library_code
@@ -58,13 +58,13 @@ contains
       if (.not. continues(problem)) code = library_code%discretisation
    end subroutine solve_contact
 
-   !> What was found becomes what is stored, and goes into print and files
+   !> Store the result as starting point, print it, and write files
    subroutine finish_contact(this, problem, log, status, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(case_status), intent(inout) :: status
-      !> Member of library_code, or the number of elements in contact at the border
+      !> Member of library_code, or the number of elements in contact at the border of the grid
       integer, intent(out) :: code
       type(case_spec) :: told
 
@@ -72,7 +72,7 @@ contains
          status = problem%result%status
          problem%has_result = .true.
          call keep_solution(problem)
-         ! rolling direction and step are told as they acted
+         ! the effective rolling direction and step are written
          told = problem%spec
          if (allocated(problem%solved)) told = problem%solved
          told%rolling = problem%stored%rolling
@@ -87,7 +87,7 @@ contains
       end if
    end subroutine finish_contact
 
-   !> Line that opens a case
+   !> Write the line that opens a case
    subroutine write_case_line(log, problem)
       type(log_type), intent(inout) :: log
       type(library_problem), intent(in) :: problem
@@ -100,7 +100,7 @@ contains
       call log%line(trim(line))
    end subroutine write_case_line
 
-   !> Refuse combinations that cannot be solved, by name
+   !> Refuse combinations that cannot be solved, naming them
    subroutine check_settings(digits, spec, error)
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
@@ -116,9 +116,9 @@ contains
       call problems%first_failure(error)
    end subroutine check_settings
 
-   !> Influence coefficients that are kept (C = 0) are for elements of the same size, and for no more of them
+   !> Check that kept influence coefficients (C = 0) are for elements of the same size, and for at least as many of them
    subroutine check_coefficients(is_kept, spec, kept, error)
-      !> Shall they be kept?
+      !> Are the coefficients kept?
       logical, intent(in) :: is_kept
       type(case_spec), intent(in) :: spec
       !> Grid of the coefficients
@@ -134,7 +134,7 @@ contains
       end if
    end subroutine check_coefficients
 
-   !> Does the grid of a case that was refused go with the one of the previous case?
+   !> Does the grid of a refused case continue that of the previous case?
    pure logical function continues(problem)
       type(library_problem), intent(in) :: problem
       real(wp) :: box(4)
@@ -152,13 +152,13 @@ contains
       end associate
    end function continues
 
-   !> What was found becomes what is stored, as callers of the published interface expect
+   !> Store the result as starting point, as callers of the published interface expect
    subroutine keep_solution(problem)
       type(library_problem), intent(inout) :: problem
 
       associate (result => problem%result, kinematics => problem%stored%kinematics, &
          & rolling => problem%stored%rolling)
-         ! what is prescribed stays, also where it was missed
+         ! prescribed values are kept, even if they were not reached
          if (problem%spec%normal == normal_control%force) then
             kinematics%pen = result%pen
          else
@@ -175,7 +175,7 @@ contains
       end associate
    end subroutine keep_solution
 
-   !> Printed output and the file with all elements
+   !> Print the results, and write the file with all elements
    subroutine write_results(this, problem, spec, log)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
@@ -196,7 +196,7 @@ contains
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 
-   !> Where the case comes from, as callers told
+   !> Metadata of the case, as given by the caller
    pure function place_of(problem) result(place)
       type(library_problem), intent(in) :: problem
       type(mat_place) :: place

@@ -1,4 +1,4 @@
-!> A caller of the library: the archive that gives values to a case from his arrays, and the places for results
+!> Call of a library routine: the archive that reads values of a case from the caller's arrays, and the buffers of results
 module contact_capi_caller
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
    use contact_base_kinds, only : long, wp
@@ -14,10 +14,10 @@ module contact_capi_caller
 
    public :: answer_place, caller, integer_list, min_value, real_list
 
-   !> Numbers that stand alone among the arguments of a routine, at most
+   !> Maximum number of scalar real arguments of a routine
    integer, parameter, public :: most_alone = 8
 
-   !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
+   !> A number that is raised to the minimum required by the models instead of being refused; not if it is negative or NaN
    type :: raised_number
       character(len=6) :: name
       real(wp) :: least
@@ -28,7 +28,7 @@ module contact_capi_caller
       & raised_number("K0_MF", 1.0e-6_wp), raised_number("ALFAMF", 1.0e-6_wp), raised_number("BETAMF", 1.0e-6_wp), &
       & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp)]
 
-   !> Numbers of a caller where he has them: they are not written to
+   !> Arrays of the caller, accessed in place and never written to
    type :: integer_list
       integer, pointer :: v(:) => null()
    end type integer_list
@@ -36,45 +36,46 @@ module contact_capi_caller
       real(wp), pointer :: v(:) => null()
    end type real_list
 
-   !> Where a result goes
+   !> Buffer of a result
    type :: answer_place
       type(c_ptr) :: address = c_null_ptr
-      !> Numbers for which there is room; none where the caller gave a null pointer
+      !> Number of elements of the buffer; 0 if the caller gave a null pointer
       integer :: room = 0
    end type answer_place
 
-   !> How many numbers a setting takes, and has taken
+   !> Number of values that a setting requires, and has read
    type :: tally
-      !> Those that must be there, and those that may be left out; what is left of the latter
+      !> Number of required values, of optional values, and of optional values that remain
       integer :: needed = 0, optional = 0, spare = 0
       integer :: taken = 0
    contains
       procedure :: go_on
    end type tally
 
-   !> The call of a routine
+   !> Call of a routine
    !>
-   !> A setting takes its numbers one after the other; the first that is wrong is complained about. It is described between
-   !> `do while (a%next_pass())` and `end do`, and stored when `is_good` after that: the first pass counts what it needs, and when
-   !> the caller gave as many, the second takes them. Other routines take what stands here, and `give` results.
+   !> A setting reads its numbers in order, and the first invalid one is reported. It is described between `do while
+   !> (a%next_pass())` and `end do`, and stored if `is_good` after the loop: the first pass counts the required numbers, and if the
+   !> caller gave as many, the second pass reads them. Other routines access the components directly, and return results with
+   !> `give`.
    type, extends(case_archive) :: caller
       type(entry_type) :: call_of
-      !> Of the caller
+      !> Units of the caller
       type(unit_convention) :: units
-      !> Integers that stand alone; what begins with the number of a method or an option has it first
+      !> Scalar integers; the first one is the number of the method or option, if there is one
       integer :: single(2) = no_number
-      !> Lists of integers and of numbers; numbers that stand alone are the first list
+      !> Lists of integers and of real numbers; scalar real arguments are the first list
       type(integer_list) :: integers(2)
       type(real_list) :: numbers(3)
-      !> Values of the numbers that stand alone
+      !> Values of the scalar real arguments
       real(wp) :: alone(most_alone) = 0.0_wp
-      !> Is there a list of integers? Otherwise integers stand among the reals
+      !> Is there a list of integers? If not, integers are in the list of real numbers
       logical :: has_integers = .false.
       !> Name of a file
       character(len=:), allocatable :: path
-      !> Places of the results of the routine, in their order
+      !> Buffers of the results of the routine, in their order
       type(answer_place) :: answers(4)
-      !> May what comes next be missing? It keeps its value then
+      !> Is the next number optional? If missing, its value is unchanged
       logical :: may_miss = .false.
       integer, private :: pass = 0
       type(tally), private :: integer_tally, real_tally
@@ -86,10 +87,10 @@ module contact_capi_caller
       procedure :: list => set_list
       procedure :: tell => tell_of_number
       procedure :: check => check_number
-      !> Hand over a list, or one number as each result; of lists as much as there is room for
+      !> Return a list, or one number per result; lists are truncated to the size of the buffer
       generic :: give => give_numbers, give_integers
       generic :: give_each => give_each_number, give_each_integer
-      !> The room of a result
+      !> Buffer of a result
       procedure :: numbers_at
       procedure :: integers_at
       procedure, private :: give_numbers, give_integers, give_each_number, give_each_integer
@@ -97,7 +98,7 @@ module contact_capi_caller
 
 contains
 
-   !> Is there something to do? First all numbers are counted, then they are taken
+   !> Is there another pass? The first counts the numbers, the second reads them
    logical function next_pass(self)
       class(caller), intent(inout) :: self
 
@@ -111,7 +112,7 @@ contains
 
    contains
 
-      !> Were as many given as are needed?
+      !> Does the number of given values match the required one?
       logical function fit(what, given)
          type(tally), intent(inout) :: what
          integer, intent(in) :: given
@@ -121,7 +122,7 @@ contains
       end function fit
    end function next_pass
 
-   !> Pass over a number without a meaning
+   !> Skip a number that is not used
    subroutine skip(self, optional)
       class(caller), intent(inout) :: self
       !> May it be missing?
@@ -131,12 +132,12 @@ contains
       call self%real_tally%go_on(self%is_reading, optional, given)
    end subroutine skip
 
-   !> Count one number more, or tell whether the caller gave it
+   !> Count one more number, or determine whether the caller gave it
    pure subroutine go_on(self, is_taking, optional, given)
       class(tally), intent(inout) :: self
       !> Second pass? May the number be missing?
       logical, intent(in) :: is_taking, optional
-      !> Is it there, behind those that were taken?
+      !> Was the number given, in addition to those that were read?
       logical, intent(out) :: given
 
       given = is_taking .and. (self%spare > 0 .or. .not. optional)
@@ -149,7 +150,7 @@ contains
       end if
    end subroutine go_on
 
-   !> Nothing is stored, with the reason
+   !> Refuse the call with a reason; nothing is stored
    subroutine refuse_call(self, reason)
       class(caller), intent(inout) :: self
       !> One sentence without the name of the setting
@@ -159,7 +160,7 @@ contains
       self%is_good = .false.
    end subroutine refuse_call
 
-   !> Give the items in hand their values, unless one of them is beyond its bounds
+   !> Set the current items, unless one of them is out of bounds
    subroutine set_line(self)
       class(caller), intent(inout) :: self
       real(wp) :: values(size(self%items))
@@ -180,10 +181,10 @@ contains
       call self%finish_line()
    end subroutine set_line
 
-   !> The value of an item in internal units
+   !> Value of an item in internal units
    subroutine take(self, place, value)
       class(caller), intent(inout) :: self
-      !> In the line
+      !> Index in the line
       integer, intent(in) :: place
       real(wp), intent(out) :: value
       logical :: is_among_reals
@@ -210,9 +211,9 @@ contains
       end associate
    end subroutine take
 
-   !> The value to which a smaller number is raised; below all numbers for those that are not raised
+   !> Minimum to which smaller values of a number are raised; -huge for numbers that are not raised
    pure real(wp) function min_value(name)
-      !> As the table of bounds has it
+      !> Name as in the table of bounds
       character(len=*), intent(in) :: name
       integer :: k
 
@@ -222,12 +223,12 @@ contains
       end do
    end function min_value
 
-   !> Complain about a value beyond its bounds
+   !> Report a value out of bounds
    subroutine check_bounds(self, name, value, shown)
       class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: value
-      !> Name in the complaint, where that is another one
+      !> Name in the message, if it differs
       character(len=*), intent(in), optional :: shown
       character(len=:), allocatable :: complaint
 
@@ -236,7 +237,7 @@ contains
       if (allocated(complaint)) call self%refuse_call(complaint // "; nothing is stored")
    end subroutine check_bounds
 
-   !> Give a list its values
+   !> Set a list
    subroutine set_list(self, name, values, n, units, bounds)
       class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -263,7 +264,7 @@ contains
       end do
    end subroutine set_list
 
-   !> A number cannot be used, is doubtful or was replaced
+   !> Report that a number cannot be used, is doubtful or was replaced
    subroutine tell_of_number(self, is_error, name, text)
       class(caller), intent(inout) :: self
       logical, intent(in) :: is_error
@@ -277,7 +278,7 @@ contains
       end if
    end subroutine tell_of_number
 
-   !> Check the bounds of a number that the caller of the archive has seen before
+   !> Check the bounds of a number that was read before
    subroutine check_number(self, name, bounds)
       class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -293,12 +294,12 @@ contains
       end if
    end subroutine check_number
 
-   !> The room of a result, no elements where the caller gave none
+   !> Buffer of a result, of size 0 if the caller gave none
    function numbers_at(self, k, n) result(room)
       class(caller), intent(in) :: self
-      !> Number of the result
+      !> Index of the result
       integer, intent(in) :: k
-      !> Elements, where their number is no argument of its own
+      !> Number of elements, if it is not an argument of its own
       integer(long), intent(in), optional :: n
       real(c_double), pointer :: room(:)
       integer(long) :: length
@@ -308,24 +309,24 @@ contains
       call c_f_pointer(self%answers(k)%address, room, [length])
    end function numbers_at
 
-   !> The same of integers
+   !> The same for integers
    function integers_at(self, k) result(room)
       class(caller), intent(in) :: self
-      !> Number of the result
+      !> Index of the result
       integer, intent(in) :: k
       integer(c_int), pointer :: room(:)
 
       call c_f_pointer(self%answers(k)%address, room, [self%answers(k)%room])
    end function integers_at
 
-   !> Hand over as many numbers as there is room for
+   !> Return real numbers, truncated to the size of the buffer
    subroutine give_numbers(self, k, list, fills)
       class(caller), intent(in) :: self
-      !> Number of the result
+      !> Index of the result
       integer, intent(in) :: k
-      !> What is handed over, in the units of the caller
+      !> Values in the units of the caller
       real(wp), intent(in) :: list(:)
-      !> Does the room behind it get zeros? Default no
+      !> Fill the rest of the buffer with zeros? Default: no
       logical, intent(in), optional :: fills
       real(c_double), pointer :: room(:)
       integer :: n
@@ -336,10 +337,10 @@ contains
       if (present(fills)) room(n + 1:) = 0.0_c_double
    end subroutine give_numbers
 
-   !> Hand over as many integers as there is room for
+   !> Return integers, truncated to the size of the buffer
    subroutine give_integers(self, k, list)
       class(caller), intent(in) :: self
-      !> Number of the result, and what is handed over
+      !> Index of the result, and values
       integer, intent(in) :: k, list(:)
       integer(c_int), pointer :: room(:)
       integer :: n
@@ -349,10 +350,10 @@ contains
       room(:n) = int(list(:n), c_int)
    end subroutine give_integers
 
-   !> Hand over results that are single numbers
+   !> Return results that are single real numbers
    subroutine give_each_number(self, values)
       class(caller), intent(in) :: self
-      !> One for each result, in the units of the caller
+      !> One value for each result, in the units of the caller
       real(wp), intent(in) :: values(:)
       integer :: k
 
@@ -361,10 +362,10 @@ contains
       end do
    end subroutine give_each_number
 
-   !> Hand over results that are single integers
+   !> Return results that are single integers
    subroutine give_each_integer(self, values)
       class(caller), intent(in) :: self
-      !> One for each result
+      !> One value for each result
       integer, intent(in) :: values(:)
       integer :: k
 

@@ -1,5 +1,5 @@
-/* What happens at every door of the library: the routine runs under a guard, and when it was left for want of memory the
- * caller gets an error, whatever the thread held is given back, and the library can be used on */
+/* Calls of all exported routines: the routine runs under a guard; if it is abandoned for lack of memory, the caller receives
+ * an error, everything held by the thread is released, and the library remains usable */
 #include <omp.h>
 #include "door.h"
 #include "../../include/contact.h"
@@ -8,7 +8,7 @@ int contact_guard(void (*work)(void *), void *data, int owner);
 void contact_run_routine(const char *name, const char *kinds, void **arguments);
 void contact_call_failed(int cause, const char *name, const int *ire, const int *icp, int *ierror);
 
-/* Of any error, as CNTC_err_other; for callers who could not be told more */
+/* Code of any error, as CNTC_err_other, set before the failure is reported, since the report can fail too */
 enum { other_error = -99 };
 
 struct call {
@@ -73,7 +73,7 @@ int contact_run(const char *experiment, int mode, const char *output_dir, int th
   return contact_run_with(experiment, mode, output_dir, threads, 0, message, message_length);
 }
 
-/* The two questions that are functions */
+/* The two queries that return a value */
 int inside_contact_last_error(int ire, int icp, char *message, int length);
 int inside_contact_case_status(int ire, int icp, int *iteration, char *message, int length);
 
@@ -105,7 +105,7 @@ int contact_case_status(int ire, int icp, int *iteration, char *message, int len
   return question.answer;
 }
 
-/* Derivatives are handed out by a routine of its own kind: all arguments are addresses, the answer is one of them */
+/* Derivatives: all arguments of the Fortran routine are addresses, and the returned state is one of them */
 void inside_contact_wheel_rail_jacobian(void);
 
 int contact_wheel_rail_jacobian(int ire, double *values, int room, char *message, int length) {

@@ -1,7 +1,7 @@
-/* The doors of the library: each routine that it exports, from the table interface.txt, once under its name and once with
- * an underscore behind it, the name that Fortran callers get who declare no interface. All arguments are addresses; more
- * of them, such as the hidden lengths of texts, do no harm. Behind a door stands a Fortran routine, under a guard: for
- * settings and results contact_run_routine, for the others the one named inside_... */
+/* Exported routines of the library, from the table interface.txt: each under its name, and under its name with a trailing
+ * underscore for Fortran callers without an interface. All arguments are addresses; additional ones, such as the hidden
+ * lengths of texts, are ignored. Each calls a Fortran routine under a guard: contact_run_routine for settings and results,
+ * inside_... for the others. */
 #ifndef CONTACT_CAPI_DOOR_H
 #define CONTACT_CAPI_DOOR_H
 
@@ -9,8 +9,8 @@
 
 typedef void (*contact_routine)(void);
 
-/* A routine: its name, the Fortran routine behind it or its name in messages and the kinds of its arguments, the number of
- * arguments, and which of them are result element, patch and error code (-1: none) */
+/* A routine: its name; its Fortran routine, or its name in messages and the kinds of its arguments; the number of arguments;
+ * and the positions of result element, patch and error code among them (-1: none) */
 struct door {
   const char *name;
   contact_routine routine;

@@ -1,4 +1,4 @@
-!> What is put right after a call that was left for want of memory; see door.c and base/guard.c
+!> Recovery after a call that was abandoned for lack of memory; see door.c and base/guard.c
 module contact_capi_failure
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_null_ptr, c_ptr
    use omp_lib, only : omp_unset_lock
@@ -18,15 +18,15 @@ module contact_capi_failure
 
 contains
 
-   !> Put the problem of the call into a defined state, give back what the thread holds, tell the caller
+   !> Put the problem of the call into a defined state, release what the thread holds, report the failure
    subroutine contact_call_failed(cause, name, ire, icp, ierror) bind(c, name="contact_call_failed")
       !> Member of guard_end
       integer(c_int), value :: cause
-      !> Routine, null-terminated
+      !> Name of the routine, null-terminated
       character(kind=c_char), intent(in) :: name(*)
-      !> Arguments of the call; absent if it has none such
+      !> Arguments of the call; absent if it has none
       integer(c_int), intent(in), optional :: ire, icp
-      !> -99, where the call has a place for it
+      !> Receives -99; absent if the call has no such argument
       integer(c_int), intent(inout), optional :: ierror
       type(entry_type) :: this
       type(library_problem), pointer :: problem

@@ -1,4 +1,4 @@
-!> Where the files of the library are: its folders, and the file in which cases are written as input
+!> Paths of the files of the library: its folders, and the file to which cases are written as input
 module contact_capi_files
    use contact_capi_host, only : find_current_folder
    use contact_capi_library, only : library
@@ -11,7 +11,7 @@ module contact_capi_files
 
 contains
 
-   !> A folder with a separator at its end
+   !> Path of a folder with a separator at its end
    pure function with_separator(folder) result(path)
       character(len=*), intent(in) :: folder
       character(len=len(folder) + merge(0, 1, folder(len(folder):) == "/")) :: path
@@ -20,9 +20,9 @@ contains
       path(len(path):) = "/"
    end function with_separator
 
-   !> Take note of folders and name of the experiment, inside the critical section
+   !> Store the folders and name of the experiment, inside the critical section
    subroutine set_folders(work_folder, out_folder, name)
-      !> "" for what was given before or the default
+      !> Empty: keep the previous value, or the default
       character(len=*), intent(in) :: work_folder, out_folder, name
       integer :: slash
 
@@ -37,11 +37,11 @@ contains
       if (slash < len(name)) library%name = name(slash + 1:)
    end subroutine set_folders
 
-   !> Path of a file in the folder of results; a folder that is relative starts at the working folder
+   !> Path of a file in the folder of results; a relative folder is relative to the working folder
    subroutine find_result_file(file, path)
       !> Name without folder
       character(len=*), intent(in) :: file
-      !> With the folder before it
+      !> Path with folder
       character(len=:), allocatable, intent(out) :: path
 
       !$omp critical (contact_registry)
@@ -53,16 +53,16 @@ contains
    subroutine place_result(file, path)
       !> Name without folder
       character(len=*), intent(in) :: file
-      !> With the folder before it
+      !> Path with folder
       character(len=:), allocatable, intent(out) :: path
 
       path = library%out_folder // file
       if (path(:1) /= "/") path = library%work_folder // path
    end subroutine place_result
 
-   !> Folder to which names of files are relative, with a separator at its end, "" for the current one
+   !> Folder to which file names are relative, with a separator at its end, "" for the current one
    subroutine find_working_folder(folder)
-      !> As the caller of cntc_initializefirst gave it
+      !> Folder given by the caller of cntc_initializefirst
       character(len=:), allocatable, intent(inout) :: folder
 
       !$omp critical (contact_registry)
@@ -74,7 +74,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine find_working_folder
 
-   !> Open the file in which cases are written as input; a failure is not tried again
+   !> Open the file to which cases are written as input; not repeated after a failure
    subroutine open_input_dump()
       character(len=:), allocatable :: path
       character(len=:), allocatable :: reason
@@ -89,7 +89,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine open_input_dump
 
-   !> Is there a file in which cases are written as input, and has it taken all of them so far? When it has not, this is told
+   !> Is there a file to which cases are written as input, and is it complete so far? If not complete, this is reported
    logical function dumps_input()
       character(len=:), allocatable :: path
       logical :: ignored, has_failed
@@ -105,9 +105,10 @@ contains
       !$omp end critical (contact_registry)
    end function dumps_input
 
-   !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
+   !> Convert a file name of the caller, relative to the working folder, to one that is valid in the input file in the folder of
+   !> results
    subroutine relate_to_results(name)
-      !> Changed only where it is relative
+      !> Unchanged if absolute
       character(len=:), allocatable, intent(inout) :: name
       character(len=:), allocatable :: folder
 

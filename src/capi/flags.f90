@@ -1,4 +1,4 @@
-!> Control digits and other flags, and where a case comes from
+!> Control digits and other flags, and metadata of a case
 module contact_capi_flags
    use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_in_parallel
@@ -31,7 +31,7 @@ module contact_capi_flags
 
 contains
 
-   !> Control digits, units and settings of one problem, in the order of the list
+   !> Set control digits, units and settings of one problem, in the order of the list
    subroutine set_flags(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
@@ -49,13 +49,13 @@ contains
       end associate
    end subroutine set_flags
 
-   !> Does a flag change what a problem computes? Codes that are not known, and those of the library as a whole, do not
+   !> Does a flag change the computation of a problem? False for unknown codes and for flags of the library as a whole
    pure logical function acts_on_problem(code)
       integer, intent(in) :: code
       acts_on_problem = row_of_flag(code) > 0 .and. .not. any(code == [flag%idebug, flag%licdbg, flag%openmp, flag%timers])
    end function acts_on_problem
 
-   !> What a flag sets: itself, or what a routine of its own sets
+   !> Group of settings of a flag: the flag itself, or that of the routine for the same setting
    pure function group_of(code) result(group)
       integer, intent(in) :: code
       character(len=32) :: group
@@ -68,10 +68,10 @@ contains
       end select
    end function group_of
 
-   !> One flag
+   !> Set one flag
    subroutine set_flag(this, code, number, problem)
       type(entry_type), intent(in) :: this
-      !> Member of flag, and its value
+      !> Member of `flag`, and its value
       integer, intent(in) :: code, number
       type(library_problem), intent(inout) :: problem
       integer :: row, stored
@@ -117,7 +117,7 @@ contains
       text = "flag " // integer_text(code) // " = " // integer_text(number)
    end function flag_text
 
-   !> Put an accepted value where it acts
+   !> Store an accepted value
    subroutine store_flag(this, code, number, problem)
       type(entry_type), intent(in) :: this
       integer, intent(in) :: code, number
@@ -189,7 +189,7 @@ contains
                call set_global_flag(code, number)
             end if
          case (flag%xflow)
-            ! the word chooses what debug output prints, and there is none; the digit tells that it was given
+            ! the word selects debug output, of which there is none; the digit records that it was given
             problem%digits%x = merge(1, 0, number > 0)
          case default
             call put_digit(problem%digits, flag_table(row_of_flag(code))%digit, number)
@@ -197,10 +197,10 @@ contains
       end associate
    end subroutine store_flag
 
-   !> Where the value of a flag is kept as it is; null for digits and for flags that act in another way
+   !> Variable that stores the value of a flag unchanged; null for digits and for flags that act in another way
    function place_of(problem, code) result(place)
       type(library_problem), intent(inout), target :: problem
-      !> Member of flag
+      !> Member of `flag`
       integer, intent(in) :: code
       integer, pointer :: place
 
@@ -218,7 +218,7 @@ contains
       end select
    end function place_of
 
-   !> Control digits as they were given; other entries keep their content
+   !> Get control digits as they were given; other elements of the array are unchanged
    subroutine get_flags(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
@@ -241,7 +241,7 @@ contains
       end associate
    end subroutine get_flags
 
-   !> The value of a flag; a patch of module 1 has some of its own
+   !> Value of a flag; some have a value of their own for a patch of module 1
    integer function flag_value(problem, icp, code) result(number)
       type(library_problem), intent(inout) :: problem
       integer, intent(in) :: icp, code
@@ -277,8 +277,8 @@ contains
          case default; number = digit_value(problem%digits, trim(flag_table(row_of_flag(code))%digit))
          end select
          if (.not. is_part) return
-         ! a patch is solved for its own approach and creepages, prints nothing itself, and continues from
-         ! the solution of the wheel's previous height
+         ! a patch is solved for given approach and creepages, prints nothing itself, and starts from the solution at the previous
+         ! height of the wheel
          select case (code)
          case (flag%norm, flag%force, flag%output); number = 0
          case (flag%iestim); if (problem%wheel_rail_result%force_evaluations > 1) number = 1
@@ -287,7 +287,7 @@ contains
       end associate
    end function flag_value
 
-   !> Has the last calculation reached its accuracy?
+   !> Did the last calculation reach the requested accuracy?
    pure logical function has_reached(problem)
       type(library_problem), intent(in) :: problem
 
@@ -300,15 +300,16 @@ contains
       end if
    end function has_reached
 
-   !> Of one patch or of all of them: where contact is cut off, a sum of bits, see border_code; the points of the last
-   !> subs_calculate near the surface and off the centres of elements; elements across where contact is narrowest, 0 without contact
+   !> Properties of one patch or of all of them: where contact is truncated, as a sum of bits, see border_code; number of points of
+   !> the last subs_calculate near the surface that are not at centres of elements; minimum number of elements across the contact,
+   !> 0 without contact
    subroutine look_at_patches(problem, icp, border, stepped, across)
       type(library_problem), intent(in) :: problem
-      !> Patch of module 1, or less than 1 for all
+      !> Patch of module 1; less than 1: all
       integer, intent(in) :: icp
       integer, intent(out) :: border, stepped, across
-      !> Bit of the inner end of the wheel's profile that stands within the rail; the next ones are those of the outer end, and
-      !> of another place along the track
+      !> Bit for the inner end of the wheel profile being inside the rail; the next bits are for the outer end, and for another
+      !> position along the track
       integer, parameter :: first_buried = 9
       integer :: k
 
@@ -324,7 +325,7 @@ contains
          if (icp <= 0 .or. icp == k) call add(problem%wheel_rail_result%patches(k)%contact, problem%spec%wheel_rail%left)
       end do
       if (icp > 0) return
-      ! ends belong to no patch
+      ! ends of the profile belong to no patch
       do k = 1, size(problem%wheel_rail_result%buried)
          if (problem%wheel_rail_result%buried(k)%depth > 0.0_wp) border = ibset(border, first_buried + k - 1)
       end do
@@ -332,7 +333,7 @@ contains
 
    contains
 
-      !> Include a patch, of a wheel on the left side or not
+      !> Include a patch, with the side of the track
       subroutine add(contact, left)
          type(patch_result), intent(in) :: contact
          logical, intent(in) :: left
@@ -345,7 +346,7 @@ contains
       end subroutine add
    end subroutine look_at_patches
 
-   !> Where a case comes from, for printing and .mat files
+   !> Set the metadata of a case, for printing and .mat files
    subroutine set_metadata(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
@@ -359,7 +360,7 @@ contains
       end associate
    end subroutine set_metadata
 
-   !> One value
+   !> Set one value
    subroutine set_value(this, code, value, problem)
       type(entry_type), intent(in) :: this
       !> Member of metadata_code
@@ -385,7 +386,7 @@ contains
       end associate
    end subroutine set_value
 
-   !> The nearest integer
+   !> Nearest integer
    pure integer function whole(value)
       real(wp), intent(in) :: value
       whole = nint(max(-1.0e9_wp, min(1.0e9_wp, value)))

@@ -1,4 +1,4 @@
-/* The process that the library lives in: traps of floating point exceptions, threads that call, and children */
+/* The host process: floating point traps, calling threads, and forked child processes */
 #include <fenv.h>
 #ifndef _WIN32
 #include <pthread.h>
@@ -12,7 +12,7 @@ void contact_end_turn(void);
 void contact_note_call(void *problem, int stage);
 void contact_find_call(void **problem, int *stage);
 
-/* The memory of these variables is there when a thread begins; of other models it would be asked for at their first use */
+/* Memory of these variables is allocated with the thread; in other models it is allocated at the first use */
 #ifdef __ELF__
 #define OF_THREAD _Thread_local __attribute__((tls_model("initial-exec")))
 #else
@@ -22,17 +22,17 @@ void contact_find_call(void **problem, int *stage);
 static OF_THREAD fenv_t floats_of_host;
 static OF_THREAD int floats_are_held;
 
-/* No operation of the library may end a host that has exceptions trapped; infinities and what is not a number are
- * looked for where they count. A call stays on its thread, and calls do not nest. */
+/* Disable traps: no operation of the library may terminate a host that traps floating point exceptions; the library checks
+ * for infinities and NaN where they matter. A call stays on its thread, and calls do not nest. */
 void contact_hold_floats(void) { floats_are_held = feholdexcept(&floats_of_host) == 0; }
 
-/* The traps and flags as the host had them */
+/* Restore the traps and flags of the host */
 void contact_give_floats_back(void) {
   if (floats_are_held) fesetenv(&floats_of_host);
   floats_are_held = 0;
 }
 
-/* The problem that the thread is inside, and how far in it is, for the case that the call is left for want of memory */
+/* The problem of the thread and its stage in it (call_stage in host.f90), for calls abandoned for lack of memory */
 static OF_THREAD void *problem_of_call;
 static OF_THREAD int stage_of_call;
 
@@ -49,7 +49,7 @@ void contact_find_call(void **problem, int *stage) {
 static int child = 0;
 
 #ifndef _WIN32
-/* Calculations that run, and callers who wait for their turn: numbers are drawn and called in order */
+/* Running calculations, and callers waiting for their turn: each draws the next number, and numbers are called in order */
 static struct {
   pthread_mutex_t lock;
   pthread_cond_t changed;
@@ -57,8 +57,8 @@ static struct {
   unsigned long next, called;
 } turns = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, 0, 0, 0};
 
-/* Wait until fewer than `most` calculations run and all who came before have begun. Whoever calculates waits for
- * nobody who waits here, so that all get their turn. */
+/* Wait until fewer than `most` calculations run and all earlier callers have begun. A running calculation never waits for a
+ * caller that waits here, so there is no deadlock. */
 void contact_begin_turn(int most) {
   pthread_mutex_lock(&turns.lock);
   const unsigned long number = turns.next++;
@@ -76,7 +76,7 @@ void contact_end_turn(void) {
   pthread_mutex_unlock(&turns.lock);
 }
 
-/* Those who ran or waited did not come along */
+/* In a forked child: other threads, running or waiting, do not exist there */
 static void note_child(void) {
   child = 1;
   pthread_mutex_init(&turns.lock, NULL);
@@ -91,6 +91,6 @@ void contact_begin_turn(int most) { (void)most; }
 void contact_end_turn(void) {}
 #endif
 
-/* Is this process a fork of one that had the library? The threads of OpenMP's run time did not come along, and
- * waiting for them has no end. */
+/* Is this process a fork of one that used the library? The threads of the OpenMP run time do not exist in it, and waiting for
+ * them would never end. */
 int contact_is_child(void) { return child; }

@@ -1,4 +1,4 @@
-!> What the library asks the process that it lives in; see host.c
+!> Services of the process in which the library runs; see host.c
 module contact_capi_host
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
@@ -8,48 +8,48 @@ module contact_capi_host
       & note_call
 
    type :: call_stage_list
-      !> Outside of all problems, counted as a user of one, alone in it, counted as a calculation
+      !> Outside of all problems; registered as a user of one; inside it, holding its lock; registered as a calculation
       integer(c_int) :: outside = 0, user = 1, inside = 2, calculation = 3
    end type call_stage_list
-   !> How far a thread is inside a problem
+   !> Stages of a thread in a problem
    type(call_stage_list), parameter :: call_stage = call_stage_list()
 
-   !> Letters of the longest name of a folder
+   !> Maximum length of the name of a folder
    integer, parameter :: longest_path = 4096
 
    interface
-      !> No floating point operation traps until the settings of the host are given back
+      !> Disable floating point traps until the settings of the host are restored
       subroutine hold_floats() bind(c, name="contact_hold_floats")
       end subroutine hold_floats
 
       subroutine give_floats_back() bind(c, name="contact_give_floats_back")
       end subroutine give_floats_back
 
-      !> Wait for the turn of this thread to calculate
+      !> Wait until this thread may calculate
       subroutine begin_turn(most) bind(c, name="contact_begin_turn")
          import :: c_int
-         !> Calculations that may run at the same time
+         !> Maximum number of simultaneous calculations
          integer(c_int), value :: most
       end subroutine begin_turn
 
       subroutine end_turn() bind(c, name="contact_end_turn")
       end subroutine end_turn
 
-      !> Remember the problem that this thread is inside
+      !> Record the problem of this thread
       subroutine note_call(problem, stage) bind(c, name="contact_note_call")
          import :: c_int, c_ptr
-         !> Null outside of all problems
+         !> Problem; null outside of all problems
          type(c_ptr), value :: problem
          !> Member of call_stage
          integer(c_int), value :: stage
       end subroutine note_call
 
-      !> What was remembered of this thread
+      !> Get the problem recorded for this thread
       subroutine find_call(problem, stage) bind(c, name="contact_find_call")
          import :: c_int, c_ptr
-         !> Null when the thread is in no call
+         !> Problem; null if the thread is not in a call
          type(c_ptr), intent(out) :: problem
-         !> How far the call has come, as remember_call was told
+         !> Stage of the call, as recorded by note_call
          integer(c_int), intent(out) :: stage
       end subroutine find_call
 
@@ -68,14 +68,14 @@ module contact_capi_host
 
 contains
 
-   !> Is this process a fork of one that had the library? Only the forking thread is in it.
+   !> Is this process a fork of one that used the library? It contains the forking thread only.
    logical function is_forked()
       is_forked = is_child() /= 0
    end function is_forked
 
-   !> The current folder; "." when the system does not tell it
+   !> Current folder; "." if the system does not report it
    subroutine find_current_folder(folder)
-      !> Absolute, as the system has it
+      !> Absolute path as reported by the system
       character(len=:), allocatable, intent(out) :: folder
       character(kind=c_char) :: letters(longest_path)
       integer :: i

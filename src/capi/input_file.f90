@@ -1,4 +1,4 @@
-!> The entry that takes the settings of wheel and rail from an input file
+!> Entry that reads the settings of wheel and rail from an input file
 module contact_capi_input_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int
    use contact_base_error, only : error_type, fatal_error, full_text
@@ -24,7 +24,7 @@ module contact_capi_input_file
 
    public :: cntc_readinpfile
 
-   !> Digits that a file of Simpack does not change; the first ones are told when they differ
+   !> Digits that a file of Simpack does not change; differences in the first ones are reported
    character(len=2), parameter :: kept_digits(*) = [character(len=2) :: "P", "N", "F", "H", "S", "C1", "I"]
    integer, parameter :: told = 5
 
@@ -69,7 +69,7 @@ contains
       call give(code, ierror)
    end subroutine cntc_readinpfile
 
-   !> The first case of a file of module 1
+   !> Read the first case of a file of module 1
    subroutine take_first_case(this, file, problem, error)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
@@ -90,7 +90,7 @@ contains
       call adopt(this, file, first%digits, first%spec, problem)
    end subroutine take_first_case
 
-   !> A file of the Simpack user routine: some digits keep their values, whatever the file says
+   !> Read a file of the Simpack user routine: some digits keep their values, regardless of the file
    subroutine take_simpack_file(this, file, problem, error)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
@@ -108,7 +108,7 @@ contains
       end if
       previous = problem%spec
       previous%wheel_rail%wheelset = problem%stored%wheelset
-      ! once for the digits, so that nothing seems to change against the previous case, and once for the values
+      ! first for the digits, so that the checks find no change from the previous case, then for the values
       call read_simpack_case(file, previous, spec, found, problems, error)
       if (allocated(error)) return
       previous%wheel_rail%left = spec%wheel_rail%left
@@ -133,7 +133,7 @@ contains
       call adopt(this, file, found, spec, problem)
    end subroutine take_simpack_file
 
-   !> Module number and case
+   !> Read module number and case
    subroutine read_simpack_case(file, previous, spec, digits, problems, error)
       character(len=*), intent(in) :: file
       type(case_spec), intent(in) :: previous
@@ -156,11 +156,11 @@ contains
       call read_case(lexer, 1, previous, .true., 1, spec, problems, error, first_line=first_line, digits=digits)
    end subroutine read_simpack_case
 
-   !> The case becomes what the next calculation solves; its profiles are read
+   !> Make the case the input of the next calculation, and read its profiles
    subroutine adopt(this, file, digits, spec, problem)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
-      !> Of the case
+      !> Digits of the case
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       type(library_problem), intent(inout) :: problem
@@ -171,9 +171,9 @@ contains
       problem%digits = digits
       problem%spec = spec
       problem%stored%wheelset = spec%wheel_rail%wheelset
-      ! a complete case takes the place of settings that were refused
+      ! a complete case replaces settings that were refused
       if (allocated(problem%refused)) deallocate(problem%refused)
-      ! stresses below the surface are calculated by a routine of their own
+      ! subsurface stresses are calculated by a separate routine
       problem%digits%s = 0
       associate (pair => problem%spec%wheel_rail)
          if (digits%z == 3) then
@@ -194,7 +194,7 @@ contains
       call say(2, this, "the settings are those of " // file)
    end subroutine adopt
 
-   !> Names of profiles are relative to the folder of the input file
+   !> Make the name of a profile relative to the folder of the input file
    subroutine place_beside(file, profile)
       character(len=*), intent(in) :: file
       type(profile_spec), intent(inout) :: profile
@@ -203,7 +203,7 @@ contains
 
       profile%name = replaced(profile%name, "\", "/")
       if (profile%name(:1) == "/") return
-      ! the session adds the working folder
+      ! the working folder is prepended by the session
       call find_working_folder(work)
       first = 1
       if (work(:min(1, len(work))) /= "/" .and. index(file, work) == 1) first = len(work) + 1

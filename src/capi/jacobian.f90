@@ -1,4 +1,4 @@
-!> The entry that hands out derivatives of wheel on rail
+!> Entry that returns derivatives of wheel and rail
 module contact_capi_jacobian
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_ptr
    use contact_base_kinds, only : wp
@@ -15,23 +15,23 @@ module contact_capi_jacobian
 
    public :: contact_wheel_rail_jacobian
 
-   !> Nothing was calculated
+   !> Nothing has been calculated
    integer, parameter :: not_calculated = -1
 
 contains
 
-   !> Derivatives of the last calculation, row by row in the units and with the signs of the caller
+   !> Derivatives of the last calculation, row by row, in the units and with the signs of the caller
    subroutine contact_wheel_rail_jacobian(ire, room, values, state, message, message_length) &
       & bind(c, name="inside_contact_wheel_rail_jacobian")
-      !> Result element, and the number of values that there is room for
+      !> Result element, and size of `values`
       integer(c_int), intent(in), optional :: ire, room
-      !> Column after column of the first row, then of the next one; what there is no room for is cut off
+      !> All columns of the first row, then of the next one; truncated to the size of `values`
       real(c_double), intent(inout), optional :: values(*)
-      !> Member of jacobian_state, or not calculated
+      !> Member of jacobian_state, or not_calculated
       integer(c_int), intent(inout), optional :: state
-      !> Buffer of the reason, null if not wanted
+      !> Buffer for the reason, null if not requested
       type(c_ptr), value :: message
-      !> Its size with the final null [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), intent(in), optional :: message_length
       type(library_problem), pointer :: problem
       type(entry_type) :: this
@@ -70,7 +70,7 @@ contains
       if (present(message_length)) call give_message(reason, message, message_length)
    end subroutine contact_wheel_rail_jacobian
 
-   !> From internal units and a right-hand pair to those of the caller
+   !> Convert from internal units and a wheel on the right side of the track to units and side of the caller
    subroutine convert(problem, values)
       type(library_problem), intent(in) :: problem
       real(wp), intent(inout) :: values(:, :)
@@ -87,7 +87,7 @@ contains
       of_column = quantity%angle
       of_column([jacobian_input%y, jacobian_input%z]) = quantity%length
       of_column([jacobian_input%vs, jacobian_input%vy]) = quantity%velocity
-      ! on a roller the first velocity is its pitch rate
+      ! on a roller the first velocity is the pitch rate of the roller
       if (problem%spec%wheel_rail%roller) of_column(jacobian_input%vs) = quantity%angle
       of_column(jacobian_input%fz) = quantity%force
       do k = 1, jacobian_input%count

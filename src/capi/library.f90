@@ -1,7 +1,7 @@
 !> The state of the library: its run, the problems of its callers, and its one .out file
 !>
-!> The only mutable module variable of the library. Whoever reads or changes it is inside the critical section
-!> `contact_registry`, which is short; calculations run outside.
+!> This is the only mutable module variable of the library. It is read and changed inside the critical section `contact_registry`
+!> only, which is short; calculations run outside of it.
 module contact_capi_library
    use contact_base_log, only : log_type
    use contact_base_output_file, only : output_file
@@ -20,18 +20,18 @@ module contact_capi_library
    type :: entry_type
       character(len=28) :: name = ""
       integer :: ire = 0
-      !> Patch as the caller gave it, -1 for none
+      !> Patch given by the caller, -1: none
       integer :: icp = -1
    end type entry_type
 
    type :: problem_pointer
       type(library_problem), pointer :: p => null()
-      !> Calculations and stresses of problems with this number that were freed, for the timer table; their module
+      !> Times of calculations and stresses of freed problems with these numbers, for the timer table; and their module
       type(stopwatch) :: total, stresses
       integer :: timed_module = 0
    end type problem_pointer
 
-   !> A result element; in module 1 its one problem is the first
+   !> A result element; in module 1 its only problem is the first
    type :: element_slot
       integer :: module_number = 0
       type(problem_pointer) :: patch(max_patches)
@@ -41,17 +41,17 @@ module contact_capi_library
       integer :: phase = virgin
       type(element_slot) :: elements(max_elements)
       integer :: active_elements = 0
-      !> Largest number of threads seen, threads inside a problem
+      !> Maximum number of threads so far, and number of threads inside a problem
       integer :: max_threads = 1, threads = 1
-      !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
+      !> Level of messages about calls; level of the timer table: 0 none, 1 overview, 2 everything
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log
-      !> The .inp file with the cases; was it tried to open it?
+      !> The .inp file with the cases; was opening it attempted?
       type(output_file) :: input_dump
       logical :: dump_was_tried = .false.
       character(len=:), allocatable :: work_folder, out_folder, name
       type(stopwatch) :: total
-      !> What went wrong last without a problem to which it belongs
+      !> Last error that belongs to no problem
       character(len=:), allocatable :: last_error
       integer :: last_code = 0
    end type library_state
@@ -60,9 +60,9 @@ module contact_capi_library
 
 contains
 
-   !> The problem with these numbers, null when there is none; inside the critical section
+   !> The problem with these numbers, null: none; inside the critical section
    function existing_problem(ire, icp) result(problem)
-      !> Numbers of the result element and of the contact problem in it
+      !> Index of the result element and of the contact problem in it
       integer, intent(in) :: ire, icp
       type(library_problem), pointer :: problem
       integer :: k

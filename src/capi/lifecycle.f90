@@ -1,4 +1,4 @@
-!> Entries for the library as a whole: initialisation, global flags, threads, the end
+!> Entries for the library as a whole: initialisation, global flags, threads, finalisation
 !>
 !> They are refused inside parallel regions of OpenMP.
 module contact_capi_lifecycle
@@ -21,7 +21,7 @@ module contact_capi_lifecycle
 
 contains
 
-   !> Unit numbers that files may use; only before initialisation, and not needed
+   !> Specify unit numbers that files may use; before initialisation only, and not needed
    subroutine cntc_setfileunits(nunits, iunits) bind(c, name="inside_cntc_setfileunits")
       integer(c_int), intent(in), optional :: nunits, iunits(*)
       type(entry_type) :: this
@@ -33,7 +33,7 @@ contains
       if (accepted .and. size(integers_of(nunits, iunits)) == 0) call say(1, this, "no file unit is given")
    end subroutine cntc_setfileunits
 
-   !> Initialise: working folder, folder of results, name of the experiment
+   !> Initialise the library: working folder, folder of results, name of the experiment
    subroutine cntc_initializefirst(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
       & len_expnam) bind(c, name="inside_cntc_initializefirst")
       integer(c_int), intent(inout), optional :: ifcver, ierror
@@ -50,7 +50,7 @@ contains
       call give(library_code%success, ierror)
    end subroutine cntc_initializefirst
 
-   !> The same under the name of an earlier release
+   !> The same under its name in an earlier release
    subroutine cntc_initializefirst_new(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
       & len_expnam) bind(c, name="inside_cntc_initializefirst_new")
       integer(c_int), intent(inout), optional :: ifcver, ierror
@@ -63,7 +63,7 @@ contains
       call say(0, this, "the same as cntc_initializeFirst")
    end subroutine cntc_initializefirst_new
 
-   !> Make a result element of module 1 or 3; initialises the library when that was not done
+   !> Create a result element of module 1 or 3; initialises the library if needed
    subroutine cntc_initialize(ire, imodul, ifcver, ierror, c_outdir, len_outdir) bind(c, name="inside_cntc_initialize")
       integer(c_int), intent(in), optional :: ire, imodul, len_outdir
       integer(c_int), intent(inout), optional :: ifcver, ierror
@@ -90,7 +90,7 @@ contains
       call give(code, ierror)
    end subroutine cntc_initialize
 
-   !> Flags of the library as a whole
+   !> Set flags of the library as a whole
    subroutine cntc_setglobalflags(lenflg, params, values) bind(c, name="inside_cntc_setglobalflags")
       integer(c_int), intent(in), optional :: lenflg, params(*), values(*)
       type(entry_type) :: this
@@ -111,23 +111,23 @@ contains
       end do
    end subroutine cntc_setglobalflags
 
-   !> One flag of the library as a whole; nothing for others
+   !> Set one flag of the library as a whole; others are ignored
    subroutine set_global_flag(code, number)
-      !> Member of flag
+      !> Member of `flag`, and its value
       integer, intent(in) :: code, number
 
       if (code == flag%idebug) call set_debugging(number)
       if (code == flag%openmp) call set_threads(number)
    end subroutine set_global_flag
 
-   !> Number of calculations that may run at the same time
+   !> Maximum number of simultaneous calculations
    subroutine cntc_getmaxnumthreads(mxthrd) bind(c, name="inside_cntc_getmaxnumthreads")
       integer(c_int), intent(inout), optional :: mxthrd
 
       call give(max_threads(), mxthrd)
    end subroutine cntc_getmaxnumthreads
 
-   !> Free a result element; the last one ends the run
+   !> Free a result element; the run ends with the last one
    subroutine cntc_finalize(ire) bind(c, name="inside_cntc_finalize")
       integer(c_int), intent(in), optional :: ire
       type(entry_type) :: this
@@ -153,7 +153,7 @@ contains
       if (.not. stopped) call complain(this, "another thread is at work, nothing is freed")
    end subroutine cntc_finalizelast
 
-   !> Is the call made inside a parallel region, which is refused?
+   !> Is the call refused because it is made inside a parallel region?
    logical function is_parallel(this)
       type(entry_type), intent(in) :: this
 
@@ -161,16 +161,16 @@ contains
       if (is_parallel) call complain(this, "the routine cannot be called inside a parallel region")
    end function is_parallel
 
-   !> What went wrong last, with a problem or with the library, and its code
+   !> Last error of a problem or of the library, and its code
    !>
-   !> Success and an empty text when nothing did since this was asked last, or when there is no such problem;
-   !> success and a text for a warning.
+   !> Success and an empty text if there was no error since the last call of this routine, or if there is no such problem; success
+   !> and a text for a warning.
    function contact_last_error(ire, icp, message, message_length) result(code) bind(c, name="inside_contact_last_error")
-      !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail
+      !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail as a whole
       integer(c_int), value :: ire, icp
-      !> Buffer, null if not wanted, and its size with the final null
+      !> Buffer, null if not requested
       type(c_ptr), value :: message
-      !> Room for the text, the null included [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: code
       character(len=:), allocatable :: text
@@ -181,16 +181,16 @@ contains
       call give_message(text, message, message_length)
    end function contact_last_error
 
-   !> How the last calculation of a problem ended, member of case_state; -1 when there was none
+   !> Final status of the last calculation of a problem, member of case_state; -1: no calculation
    function contact_case_status(ire, icp, iteration, message, message_length) result(state) &
       & bind(c, name="inside_contact_case_status")
-      !> Result element; contact patch, -1 for wheel and rail
+      !> Result element; contact patch, -1 for wheel and rail as a whole
       integer(c_int), value :: ire, icp
-      !> What did not converge, member of missed_iteration; absent (null) if not wanted
+      !> Iteration that did not converge, member of missed_iteration; absent (null) if not requested
       integer(c_int), intent(inout), optional :: iteration
-      !> Buffer of the reason, null if not wanted, and its size with the final null
+      !> Buffer for the reason, null if not requested
       type(c_ptr), value :: message
-      !> Room for the text, the null included [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: state
       type(case_status) :: status

@@ -1,4 +1,4 @@
-!> What callers are told: complaints about calls, which the library keeps, and messages that they ask for
+!> Messages to callers: errors of calls, which the library stores, and messages requested by the debugging level
 module contact_capi_messages
    use omp_lib, only : omp_get_thread_num, omp_in_parallel
    use contact_base_case_status, only : case_status
@@ -20,12 +20,12 @@ module contact_capi_messages
 
 contains
 
-   !> A message about a wrong call: into the log at every level of debugging, and kept for the caller
+   !> Report an error of a call: it is logged at every debugging level, and stored for the caller
    subroutine complain(call_of, text, code)
       type(entry_type), intent(in) :: call_of
-      !> One sentence, without the name of the routine
+      !> One sentence without the name of the routine
       character(len=*), intent(in) :: text
-      !> Member of library_code; default other
+      !> Member of library_code; default: other
       integer, intent(in), optional :: code
       character(len=:), allocatable :: told
       integer :: number
@@ -40,12 +40,12 @@ contains
       !$omp end critical (contact_registry)
    end subroutine complain
 
-   !> A warning: into the log at every level of debugging, and kept for the caller with the code of success
+   !> Report a warning: it is logged at every debugging level, and stored for the caller with the code of success
    !>
-   !> A complaint that the caller has not asked for yet stays.
+   !> A stored error that the caller has not read yet is kept.
    subroutine warn(call_of, text)
       type(entry_type), intent(in) :: call_of
-      !> One sentence, without the name of the routine
+      !> One sentence without the name of the routine
       character(len=*), intent(in) :: text
       type(library_problem), pointer :: problem
 
@@ -59,12 +59,12 @@ contains
       !$omp end critical (contact_registry)
    end subroutine warn
 
-   !> A message that callers see when they ask for messages of that level
+   !> Write a message at or above a debugging level
    subroutine say(level, call_of, text)
-      !> Level of debugging from which on it is written
+      !> Minimum debugging level at which it is written
       integer, intent(in) :: level
       type(entry_type), intent(in) :: call_of
-      !> One sentence, without the name of the routine
+      !> One sentence without the name of the routine
       character(len=*), intent(in) :: text
 
       if (.not. is_heard(level)) return
@@ -75,7 +75,7 @@ contains
 
    !> Are messages of this level written?
    logical function is_heard(level)
-      !> Amount of messages at which it appears, 0 to 5
+      !> Debugging level of the message, 0 to 5
       integer, intent(in) :: level
       integer :: debugging
 
@@ -84,16 +84,16 @@ contains
       is_heard = debugging >= level
    end function is_heard
 
-   !> Amount of messages
+   !> Set the debugging level
    subroutine set_debugging(level)
-      !> -1 for none to 5, as flag 2000 has it
+      !> Level as in flag 2000, from -1 for none to 5
       integer, intent(in) :: level
 
       !$omp atomic write
       library%debugging = level
    end subroutine set_debugging
 
-   !> A copy of the sinks of messages
+   !> Copy of the log, for writing messages
    type(log_type) function library_log() result(log)
       !$omp critical (contact_registry)
       log = library%log
@@ -101,7 +101,7 @@ contains
       !$omp end critical (contact_registry)
    end function library_log
 
-   !> A calculation begins: what went wrong with the problem before does not count any more
+   !> A calculation begins: remove earlier errors of the problem
    subroutine forget_complaint(problem)
       type(library_problem), intent(inout) :: problem
 
@@ -111,7 +111,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine forget_complaint
 
-   !> A calculation has ended like that
+   !> Store the status of a calculation that has ended
    subroutine keep_status(problem, status)
       type(library_problem), intent(inout) :: problem
       type(case_status), intent(in) :: status
@@ -122,9 +122,9 @@ contains
       !$omp end critical (contact_registry)
    end subroutine keep_status
 
-   !> How the last calculation of a problem ended
+   !> Final status of the last calculation of a problem
    subroutine last_status(ire, icp, known, status)
-      !> Result element and contact problem, -1 for wheel and rail
+      !> Result element and contact problem, -1 for wheel and rail as a whole
       integer, intent(in) :: ire, icp
       !> Was there a calculation?
       logical, intent(out) :: known
@@ -141,13 +141,13 @@ contains
       !$omp end critical (contact_registry)
    end subroutine last_status
 
-   !> What went wrong last, "" when nothing did; forgotten by this question
+   !> Last error, "" if there was none; it is removed
    subroutine last_complaint(code, text, ire, icp)
-      !> As the call has returned it, 0 for a warning
+      !> Code returned by the call, 0 for a warning
       integer, intent(out) :: code
       !> One sentence
       character(len=:), allocatable, intent(out) :: text
-      !> A problem; result element 0 for whatever went wrong last in the library
+      !> Numbers of a problem; result element 0: last error of the library
       integer, intent(in) :: ire, icp
       type(library_problem), pointer :: problem
 
@@ -169,13 +169,13 @@ contains
       !$omp end critical (contact_registry)
    end subroutine last_complaint
 
-   !> Keep what went wrong, inside the critical section
+   !> Store an error, inside the critical section
    subroutine set_last_error(code, text, call_of)
-      !> As the call returns it, 0 for a warning
+      !> Code returned by the call, 0 for a warning
       integer, intent(in) :: code
       !> One sentence
       character(len=*), intent(in) :: text
-      !> Belongs to the problem of this call, if there is one
+      !> Call whose problem the error belongs to, if there is one
       type(entry_type), intent(in), optional :: call_of
       type(library_problem), pointer :: problem
 
@@ -186,18 +186,18 @@ contains
       if (.not. associated(problem)) return
       problem%last_code = code
       problem%last_error = text
-      ! a setting that is complained about is refused
+      ! a setting with an error is refused
       if (len_trim(problem%setting%routine) == 0 .or. problem%setting%routine /= call_of%name) return
       if (allocated(problem%setting%reason)) return
       problem%setting%code = code
       problem%setting%reason = text
    end subroutine set_last_error
 
-   !> A setting is about to be made: complaints of its routine refuse it
+   !> Begin a setting: errors of its routine refuse it
    subroutine begin_setting(problem, call_of, group)
       type(library_problem), intent(inout) :: problem
       type(entry_type), intent(in) :: call_of
-      !> What a good value replaces; default the routine
+      !> Group of settings replaced by a valid value; default: the routine
       character(len=*), intent(in), optional :: group
 
       !$omp critical (contact_registry)
@@ -208,7 +208,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine begin_setting
 
-   !> A setting was made or refused: calculations need those that were refused to be made again
+   !> End a setting that was made or refused: calculations require that refused settings are made again
    subroutine end_setting(problem)
       type(library_problem), intent(inout) :: problem
       type(refused_setting) :: part
@@ -231,11 +231,11 @@ contains
       !$omp end critical (contact_registry)
    end subroutine end_setting
 
-   !> No setting heals the problem any more: calculations are refused until the result element is made anew
+   !> Refuse calculations until the result element is created again, since no setting can restore the problem
    subroutine refuse_for_ever(problem, call_of, reason)
       type(library_problem), intent(inout) :: problem
       type(entry_type), intent(in) :: call_of
-      !> Told by each calculation that is refused
+      !> Reason, reported by each refused calculation
       character(len=*), intent(in) :: reason
 
       !$omp critical (contact_registry)
@@ -249,10 +249,10 @@ contains
       !$omp end critical (contact_registry)
    end subroutine refuse_for_ever
 
-   !> Take the refusals of a group from a list, and add the new one if there is one
+   !> Remove the refusals of a group from a list, and append the new one if it has a reason
    pure subroutine replace_refusal(list, new)
       type(refused_setting), allocatable, intent(inout) :: list(:)
-      !> Only its group counts when it has no reason
+      !> Without a reason only its group is used
       type(refused_setting), intent(in) :: new
       type(refused_setting), allocatable :: others(:)
       integer :: k, n
@@ -274,7 +274,7 @@ contains
       end if
    end subroutine replace_refusal
 
-   !> The first setting that was refused and not made since, of a group that begins so; 0 when there is none
+   !> First refused setting that was not made since, by a routine whose name begins with `routine`; 0: none
    pure integer function first_refusal(problem, routine) result(k)
       type(library_problem), intent(in) :: problem
       !> Beginning of the name of the routine
@@ -288,14 +288,14 @@ contains
       k = 0
    end function first_refusal
 
-   !> Do the numbers of a call keep their bounds? Complains about the first that does not
+   !> Are the numbers of a call within their bounds? Reports the first that is not
    logical function fits(call_of, names, values, shown)
       type(entry_type), intent(in) :: call_of
-      !> Names of the values in the table of bounds, separated by blanks; the last one holds for all that follow
+      !> Names of the values in the table of bounds, separated by blanks; the last one applies to all further values
       character(len=*), intent(in) :: names
-      !> In internal units; what is missing is not a number
+      !> Values in internal units; missing ones are NaN
       real(wp), intent(in) :: values(:)
-      !> Names in the complaint, where those are others
+      !> Names in the message, if they differ
       character(len=*), intent(in), optional :: shown
       character(len=16) :: name, label
       character(len=:), allocatable :: complaint
@@ -332,10 +332,10 @@ contains
       word = text(first:first + index(text(first:) // " ", " ") - 2)
    end function word_of
 
-   !> Does a method get as many values as it needs? Complains when it does not
+   !> Is the number of values within the range of a method? Reports an error if not
    logical function count_fits(call_of, method, n, lowest, highest) result(fits)
       type(entry_type), intent(in) :: call_of
-      !> Number of the method, number of values that were given, and the numbers that can be
+      !> Number of the method, number of values given, and its minimum and maximum
       integer, intent(in) :: method, n, lowest, highest
 
       fits = n >= lowest .and. n <= highest
@@ -349,7 +349,7 @@ contains
       end if
    end function count_fits
 
-   !> Start of a message: thread, routine, result element and patch
+   !> Beginning of a message: thread, routine, result element and patch
    function prefix_of(call_of) result(text)
       type(entry_type), intent(in) :: call_of
       character(len=64) :: text

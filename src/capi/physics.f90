@@ -1,4 +1,4 @@
-!> Settings that both modules know: solvers, materials, temperatures, friction, rolling
+!> Settings of both modules: solvers, materials, temperatures, friction, rolling
 module contact_capi_physics
    use contact_base_choices, only : material_model, pressure_model, variation
    use contact_base_kinds, only : wp
@@ -17,16 +17,16 @@ module contact_capi_physics
 
    public :: set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, set_time_step, set_wear
 
-   !> Prescribed tangential forces by the friction bound are shortened to this, because the bound itself is
-   !> reached by infinite creepage only
+   !> Prescribed tangential forces are limited to this fraction of the friction bound, because the bound itself is reached at
+   !> infinite creepage only
    real(wp), parameter :: largest_force = 1.0_wp - 1.0e-4_wp
-   !> Methods: keep what is there; sensitivities among solvers; damping among materials, beginning with none and kept; Polach's
+   !> Methods: keep existing values; sensitivities among the solvers; damping among the materials: none, kept, given; Polach's
    !> friction law
    integer, parameter :: keep = 1, sensitivities = 6, no_damping = 10, damping_kept = 11, damping_given = 12, polach = 5
 
 contains
 
-   !> Iteration limits and solver (G)
+   !> Set iteration limits and solver (G)
    subroutine set_solver(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -54,7 +54,7 @@ contains
       end associate
    end subroutine set_solver
 
-   !> Materials (M), or damping forces (M2, 10 higher)
+   !> Set materials (M), or damping forces (M2, 10 higher)
    subroutine set_materials(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -97,7 +97,7 @@ contains
       end associate
    end subroutine set_materials
 
-   !> Unlike bodies get an outer iteration, bodies that are quasi-identical none
+   !> Use an outer iteration for dissimilar bodies, and none for quasi-identical ones
    pure subroutine settle_outer_iteration(model, material, iteration)
       !> Member of material_model
       integer, intent(in) :: model
@@ -111,7 +111,7 @@ contains
       if (iteration%maxout <= 1 .and. unlike) iteration%maxout = 10
    end subroutine settle_outer_iteration
 
-   !> Surface temperatures (H)
+   !> Set surface temperatures (H)
    subroutine set_heat(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -134,7 +134,7 @@ contains
       end associate
    end subroutine set_heat
 
-   !> Numbers of wear and fatigue, which are asked for by them
+   !> Set numbers for wear and fatigue, which also requests their computation
    subroutine set_wear(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -148,7 +148,7 @@ contains
       problem%spec%has_wear = .true.
    end subroutine set_wear
 
-   !> Time step; every solution derives its own from step and velocity
+   !> Set the time step, which is not used: it follows from step and velocity
    subroutine set_time_step(a)
       type(caller), intent(inout) :: a
 
@@ -156,7 +156,7 @@ contains
          & "the time step follows from rolling step and velocity")
    end subroutine set_time_step
 
-   !> Rolling direction and step; for wheel and rail the step in elements
+   !> Set rolling direction and step; for wheel and rail the step is relative to the element size
    subroutine set_rolling_step(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
@@ -175,7 +175,7 @@ contains
       end if
    end subroutine set_rolling_step
 
-   !> Friction law (L) and its variation (V, 10 each)
+   !> Set the friction law (L) and its variation (V, 10 each)
    subroutine set_friction(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -198,7 +198,7 @@ contains
       law = choice_of("L", merge(4, digit, digit == polach), problem%module_number)
       friction%memdst = problem%spec%friction%memdst
       friction%mem_s0 = problem%spec%friction%mem_s0
-      ! a number of points without their values must not cost memory; values are looked for in one at least
+      ! a number of points without values must not allocate memory; at least one set is allocated to find missing values
       allocate(friction%sets(min(n, max(1, size(a%numbers(1)%v)))))
       friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
       do while (a%next_pass())
@@ -230,7 +230,7 @@ contains
       problem%spec%friction = friction
    end subroutine set_friction
 
-   !> Number of points of friction that varies, the first value of the caller
+   !> Number of points of variable friction, the first value given by the caller
    pure integer function number_of_points(a) result(n)
       type(caller), intent(in) :: a
 
@@ -241,13 +241,13 @@ contains
       end associate
    end function number_of_points
 
-   !> Polach's law: exponential decay from fstat to A fstat, halved at ln 2/B
+   !> Read Polach's law: exponential decay from fstat to A fstat, halved at ln 2/B
    subroutine visit_polach(a, varies, friction, k)
       type(caller), intent(inout) :: a
       !> Member of variation
       integer, intent(in) :: varies
       type(friction_spec), intent(inout), target :: friction
-      !> Number of the point
+      !> Index of the point
       integer, intent(in) :: k
       real(wp), target :: ratio, decay
 
@@ -267,7 +267,7 @@ contains
       end associate
    end subroutine visit_polach
 
-   !> Prescribed tangential forces: relative ones (module 3), or the longitudinal force on the rail (module 1)
+   !> Set prescribed tangential forces: relative ones (module 3), or the longitudinal force on the rail (module 1)
    subroutine set_tangential_forces(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
@@ -277,7 +277,7 @@ contains
          if (problem%module_number == 1) then
             call a%real("FX_WS", problem%stored%wheelset%fx)
             call a%end_line()
-         ! forces beyond the friction bound are shortened to it, so that the bounds of FX are too narrow here
+         ! forces beyond the friction bound are reduced to it, so the bounds of FX are too narrow here
          else if (fits(a%call_of, "CKSI CETA", force, "FX FY")) then
             shorter = max(1.0_wp, hypot(force(1), force(2))/largest_force)
             kinematics%fx = force(1)/shorter

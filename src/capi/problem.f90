@@ -1,7 +1,7 @@
-!> What the library keeps of one problem of its callers
+!> Data of one problem of a caller
 !>
-!> A problem is one contact patch of a result element (module 3), or a result element with all its
-!> patches (module 1). Everything is in internal units; conventions act at the door.
+!> A problem is one contact patch of a result element (module 3), or a result element with all its patches (module 1). All data are
+!> in internal units; conventions are applied at the interface.
 module contact_capi_problem
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_intptr_t, c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only : int8
@@ -28,7 +28,7 @@ module contact_capi_problem
    public :: library_problem, given_profile, refused_setting, new_problem, release_problem, abandon_results, abandon_problem, &
       & max_patches
 
-   !> Patches that can be addressed
+   !> Maximum number of patches that can be addressed
    integer, parameter :: max_patches = 9
 
    !> Subsurface points of one patch of module 1; unallocated: those of the result element
@@ -36,66 +36,66 @@ module contact_capi_problem
       type(point_block), allocatable :: list(:)
    end type private_blocks
 
-   !> Where a case comes from, for printing and result files only
+   !> Metadata of a case, for printing and result files only
    type :: case_metadata
-      !> Time [s]; contact point on rail and wheel, x and y [mm]; place of the wheel along the track [mm]
+      !> Time [s]; contact point on rail and wheel, x and y [mm]; position of the wheel along the track [mm]
       real(wp) :: time = 0.0_wp, x_rail = 0.0_wp, y_rail = 0.0_wp, x_wheel = 0.0_wp, y_wheel = 0.0_wp, s_wheel = 0.0_wp
       !> Numbers of run, axle and side
       integer :: run = 0, axle = 0, side = 0
    end type case_metadata
 
-   !> Values that callers set, or that the last case found where they were not prescribed, whichever came last: the next case
-   !> starts from them, and callers can ask for them
+   !> Values set by the caller or, if not prescribed, computed by the last case, whichever is later: the next case starts from
+   !> them, and callers can get them
    type :: stored_values
-      !> Of contact problems
+      !> Values of contact problems
       type(kinematics_spec) :: kinematics
       type(rolling_spec) :: rolling
-      !> Of module 1
+      !> Values of module 1
       type(wheelset_spec) :: wheelset
    end type stored_values
 
-   !> A profile as prepared when it was given
+   !> A profile, prepared when it was given
    type :: given_profile
-      !> 0: ready for use; 1: nothing was given; others: why it cannot be used
+      !> 0: ready for use; 1: nothing was given; others: reason why it cannot be used
       integer :: detail = 1
       type(profile_curve) :: curve
       !> Allocated for variable profiles
       type(profile_surface), allocatable :: surface
-      !> File into which points were written for the sake of an input file; unallocated: not yet
+      !> File to which the points were written for use by an input file; unallocated: not yet
       character(len=:), allocatable :: written_as
    end type given_profile
 
    !> A setting that was refused, or that is being made
    type :: refused_setting
-      !> The routine, blank when no setting is being made
+      !> Name of the routine, blank if no setting is being made
       character(len=28) :: routine = ""
-      !> What belongs together: a good value for it replaces the bad one. Parts are separated by "|"
+      !> Group of settings: a valid value replaces the refused one. Several groups are separated by "|"
       character(len=48) :: group = ""
-      !> Member of library_code, and why; unallocated while nothing is wrong
+      !> Member of library_code, and reason; unallocated if there is no error
       integer :: code = 0
       character(len=:), allocatable :: reason
    end type refused_setting
 
-   !> One problem, with what it keeps from case to case
+   !> One problem, with data kept from case to case
    type, extends(problem_slot) :: library_problem
       !> Result element; contact patch, -1 in module 1; module
       integer :: ire = 0, icp = -1, module_number = 3
       !> Units of the caller
       type(unit_convention) :: units
-      !> Digits that callers gave; the next calculation makes choices of them
+      !> Digits given by the caller; the next calculation converts them to choices
       type(case_digits) :: digits
-      !> The input of the next calculation, but for the values that are stored beside it
+      !> Input of the next calculation, except for the stored values
       type(case_spec) :: spec
       type(stored_values) :: stored
-      !> The case as it was solved last, where its accuracy has chosen the grid; unallocated otherwise
+      !> Last case as solved, if its accuracy determined the grid; unallocated otherwise
       type(case_spec), allocatable :: solved
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
-      !> Folder to which names of their files are relative, as it was in the last calculation
+      !> Folder to which names of profiles are relative, in the last calculation
       character(len=:), allocatable :: work_folder
-      !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
+      !> Grid for which influence coefficients were last requested (C of 1 and above); mx = 0: none
       type(potential_contact) :: coefficients
-      !> Number of cases so far, and whether results are there
+      !> Number of cases so far, and whether there are results
       integer :: cases = 0
       logical :: has_result = .false.
       !> Subsurface points private to patches of module 1
@@ -103,32 +103,32 @@ module contact_capi_problem
       type(case_metadata) :: metadata
       !> Write input files of the cases: 0 no, 1 digits as given, 2 complete cases
       integer :: write_input = 0
-      !> Calculations since the last reset; per patch in module 1
+      !> Time of calculations since the last reset; by patch in module 1
       type(stopwatch) :: watch
       real(wp) :: patch_cpu(max_patches) = 0.0_wp, patch_wall(max_patches) = 0.0_wp
-      !> Calculations in total and stresses below the surface, for the timer table
+      !> Total time of calculations, and of subsurface stresses, for the timer table
       type(stopwatch) :: total, stresses
-      !> What went wrong last; unallocated when nothing did. Its code is a member of library_code
+      !> Last error; unallocated: none. Its code is a member of library_code
       character(len=:), allocatable :: last_error
       integer :: last_code = 0
-      !> The setting that is being made, and those that were refused and not made since; unallocated: none
+      !> The setting being made, and refused settings that were not made since; unallocated: none
       type(refused_setting) :: setting
       type(refused_setting), allocatable :: refused(:)
-      !> How the last calculation ended, and whether there was one
+      !> Status of the last calculation, and whether there was one
       type(case_status) :: status
       logical :: was_calculated = .false.
-      !> Owner of the memory that calculations allocate
+      !> Owner of the memory allocated by calculations
       integer :: owner = 0
-      !> Blocks of memory that a calculation leaves for the next one
+      !> Blocks of memory released by a calculation, for the next one
       type(kept_blocks) :: kept
-      !> Number of threads of whoever calculates, outside
+      !> Number of OpenMP threads of the calling thread, restored after a calculation
       integer :: threads_of_caller = 1
-      !> One thread at a time. It and what follows stay where they are when all else is replaced
+      !> Held by one thread at a time. This and the following components are retained if all others are replaced
       integer(omp_lock_kind) :: lock
-      !> Threads that are inside or wait, guarded by the registry
+      !> Number of threads inside or waiting, protected by the registry's critical section
       integer :: users = 0
    contains
-      !> Relative motion of the bodies that the digits tell now, member of motion
+      !> Relative motion of the bodies according to the current digits, member of `motion`
       procedure :: motion
    end type library_problem
 
@@ -147,7 +147,7 @@ contains
       motion = choice_of("T", self%digits%t, self%module_number)
    end function motion
 
-   !> A problem with the defaults of the interface
+   !> Create a problem with the defaults of the interface
    function new_problem(ire, icp, module_number) result(problem)
       !> Result element; contact patch, -1 for module 1; module 1 or 3
       integer, intent(in) :: ire, icp, module_number
@@ -173,7 +173,7 @@ contains
       end if
    end function new_problem
 
-   !> Free a problem with everything it holds
+   !> Free a problem with all its data
    subroutine release_problem(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
@@ -184,9 +184,9 @@ contains
       nullify(problem)
    end subroutine release_problem
 
-   !> Begin a new sequence with the same settings, after a calculation that was left for want of memory
+   !> Begin a new sequence with the same settings, after a calculation that was abandoned for lack of memory
    !>
-   !> What it was at work on is in no defined state; only its memory can be freed.
+   !> Its results are in an undefined state; only their memory can be freed.
    subroutine abandon_results(problem)
       type(library_problem), intent(inout) :: problem
 
@@ -203,10 +203,10 @@ contains
       end if
    end subroutine abandon_results
 
-   !> Put a problem as new in the place of one whose settings are in no defined state, after a setting that was left for
-   !> want of memory
+   !> Replace a problem by a new one after a setting that was abandoned for lack of memory, which leaves the settings in an
+   !> undefined state
    !>
-   !> The old one cannot be freed; it is overwritten, up to the lock that others may wait for.
+   !> The old one cannot be freed; it is overwritten up to the lock, for which other threads may be waiting.
    subroutine abandon_problem(problem)
       type(library_problem), pointer, intent(in) :: problem
       type(library_problem), pointer :: fresh
@@ -223,7 +223,7 @@ contains
       call c_free(c_loc(fresh))
    end subroutine abandon_problem
 
-   !> Defaults of both modules
+   !> Set defaults of both modules
    subroutine set_common_defaults(digits, spec)
       type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec
@@ -241,12 +241,12 @@ contains
       spec%pressure = pressure_model%full
       allocate(spec%friction%sets(1))
       spec%friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
-      ! as the published interface has it, a million times the conductivity of steel
+      ! value of the published interface, a million times the conductivity of steel
       spec%heat%lambda = 50.0e3_wp
       spec%heat%is_given = .true.
    end subroutine set_common_defaults
 
-   !> Defaults of module 3
+   !> Set defaults of module 3
    subroutine set_contact_defaults(spec)
       type(case_spec), intent(inout) :: spec
 
@@ -269,7 +269,7 @@ contains
       spec%geometry%b(3) = 1.0_wp
    end subroutine set_contact_defaults
 
-   !> Defaults of module 1
+   !> Set defaults of module 1
    subroutine set_wheel_rail_defaults(digits, spec)
       type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec

@@ -24,34 +24,34 @@ module contact_capi_profile_values
 
    public :: get_profile_values
 
-   !> What is asked for
+   !> Requested data
    type :: task_list
       integer :: status = -1, count = 0, points = 1, in_track = 2, gauge = 3, arc_length = 4, slope = 5
-      !> Lines as in line_kind, 5 higher; the surface itself
+      !> Lines as in line_kind, shifted by 5; the surface itself
       integer :: along_u = 6, along_v = 7, along_y = 8, dump = 9
    end type task_list
    type(task_list), parameter :: task = task_list()
 
    !> How a profile is sampled
    type :: sampling
-      !> -1 input points, 0 points of the spline, 1 even steps, k more: k parts of each piece of the spline
+      !> -1: input points, 0: points of the spline, 1: equidistant, k > 1: k parts of each piece of the spline
       integer :: method = 0
-      !> Even step [mm]
+      !> Step of equidistant sampling [mm]
       real(wp) :: step = 1.0_wp
       !> Position of the section, and range of positions along the track
       real(wp) :: place = 0.0_wp, first = 0.0_wp, last = 0.0_wp
       logical :: has_range = .false.
    end type sampling
 
-   !> Smallest even step [mm]
+   !> Minimum step of equidistant sampling [mm]
    real(wp), parameter :: min_step = 1.0e-4_wp
    integer, parameter :: max_parts = 100
-   !> The file of a surface
+   !> File to which a surface is written
    character(len=*), parameter :: surface_file = "dump_spl2d.m"
 
 contains
 
-   !> Points, arc lengths, inclinations of a profile, and whether there is one
+   !> Get points, arc lengths, inclinations of a profile, or whether there is one
    subroutine get_profile_values(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
@@ -70,10 +70,10 @@ contains
       end if
    end subroutine get_profile_values
 
-   !> Sampling from the arguments
+   !> Read the sampling from the arguments
    subroutine set_sampling(this, wanted, ints, reals, sample)
       type(entry_type), intent(in) :: this
-      !> Member of task
+      !> Member of `task`; integer and real arguments
       integer, intent(in) :: wanted, ints(:)
       real(wp), intent(in) :: reals(:)
       type(sampling), intent(out) :: sample
@@ -92,10 +92,10 @@ contains
       sample%last = reals(4)
    end subroutine set_sampling
 
-   !> Hand over what is asked for
+   !> Return the requested data
    subroutine answer(a, wanted, problem, given, is_wheel, sample)
       type(caller), intent(in) :: a
-      !> Member of task
+      !> Member of `task`
       integer, intent(in) :: wanted
       type(library_problem), intent(inout) :: problem
       type(given_profile), intent(in) :: given
@@ -146,14 +146,14 @@ contains
       end select
    end subroutine answer
 
-   !> The curve that is sampled: of a variable profile the section at a place, of input points their interpolation
+   !> The sampled curve: the section of a variable profile at a position; for input points their interpolation
    subroutine section_of(this, problem, given, is_wheel, sample, curve)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       type(given_profile), intent(in) :: given
       logical, intent(in) :: is_wheel
       type(sampling), intent(in) :: sample
-      !> Without pieces when there is none
+      !> Has no pieces if there is no profile
       type(profile_curve), intent(out) :: curve
       type(surface_cut) :: section
       type(profile_spec) :: plain
@@ -171,7 +171,7 @@ contains
             call complain(this, "the variable profile has no section at this place")
          end if
       else if (sample%method < 0) then
-         ! without smoothing the pieces end in the input points
+         ! without smoothing, pieces end at the input points
          plain = problem%spec%wheel_rail%rail_profile
          if (is_wheel) plain = problem%spec%wheel_rail%wheel_profile
          plain%smoothing_method = 0
@@ -211,7 +211,7 @@ contains
          call a%give(1, [real(n, wp)])
          return
       end if
-      ! no more points than the caller has room for
+      ! no more points than the buffer of the caller holds
       allocate(list(min(3*n, a%answers(1)%room)))
       do i = 1, min(n, size(list))
          list(i) = range(1) + (i - 1)*sample%step
@@ -224,7 +224,7 @@ contains
       call a%give(1, list)
    end subroutine answer_along
 
-   !> The surface as a script of Matlab or Octave, a struct with its knots and coefficients
+   !> Write the surface as a Matlab or Octave script, a struct with knots and coefficients
    subroutine write_surface(this, surface)
       type(entry_type), intent(in) :: this
       type(profile_surface), intent(in) :: surface
@@ -269,7 +269,7 @@ contains
          character(len=:), allocatable :: row
          integer :: k
 
-         ! of as many numbers as a profile has points: not on the stack
+         ! its length depends on the number of points of the profile: not on the stack
          allocate(character(len=24*size(table, 2)) :: row)
          call file%line(name // " = [")
          do k = 1, size(table, 1)

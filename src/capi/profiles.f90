@@ -1,7 +1,6 @@
-!> Profiles of rail and wheel that callers give (module 1)
+!> Profiles of rail and wheel given by callers (module 1)
 !>
-!> A profile is read at once. What goes wrong then is remembered and comes back when something is
-!> calculated or asked for.
+!> A profile is read at once. A failure is stored, and reported when a calculation or data of the profile are requested.
 module contact_capi_profiles
    use contact_base_constants, only : pi
    use contact_base_error, only : error_kind, error_type, full_text
@@ -23,18 +22,18 @@ module contact_capi_profiles
 
    public :: read_given_profile, set_profile
 
-   !> Scales below this value stand for the unit of length of the caller [-]
+   !> Scales below this value are replaced by the unit of length of the caller [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
-   !> Names of the options that are numbers
+   !> Names of the real options
    character(len=*), parameter :: option_names = "SCALEYZ SMOOTH MAXOMIT ZIGTHRS KINKHIGH KINKLOW KINKWID"
-   !> What a profile of a rail and of a wheel replaces
+   !> Groups of settings replaced by a profile of a rail and of a wheel
    character(len=*), parameter :: profile_groups(0:1) = [character(len=20) :: "profile of the rail", "profile of the wheel"]
-   !> Smallest turning angle that makes a zig-zag [rad]
+   !> Minimum turning angle of a zig-zag [rad]
    real(wp), parameter :: min_zigzag = 0.25_wp*pi
 
 contains
 
-   !> A profile in a file, or as a table y1, z1, y2, z2, ...
+   !> Set a profile, from a file or from a table y1, z1, y2, z2, ...
    subroutine set_profile(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -72,7 +71,7 @@ contains
       end if
    end subroutine set_profile
 
-   !> Does the extension of a file belong to a wheel?
+   !> Does the extension of a file indicate a wheel?
    pure logical function names_wheel(name)
       character(len=*), intent(in) :: name
       character(len=4) :: extension
@@ -85,7 +84,7 @@ contains
       names_wheel = any(extension == ["prw ", "whl ", "slcw"])
    end function names_wheel
 
-   !> How the profile is to be prepared
+   !> Set the options for the processing of a profile
    subroutine set_options(ints, reals, problem, profile)
       !> Kind, unused, mirror y, mirror z, error handling, smoothing method
       integer, intent(in) :: ints(:)
@@ -131,23 +130,23 @@ contains
       end if
    end subroutine store_profile
 
-   !> Read a profile and remember what went wrong
+   !> Read a profile, and store the reason if this fails
    subroutine read_given_profile(this, profiles, profile, side, given)
       type(entry_type), intent(in) :: this
       !> Profiles of all problems, each read once
       type(profile_store), intent(inout) :: profiles
-      !> Name of the file and how it is to be read
+      !> Name of the file and its processing
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
-      !> Where the curve, or what went wrong, is kept
+      !> Receives the curve, or the reason of the failure
       type(given_profile), intent(inout) :: given
       type(error_type), allocatable :: error
       type(log_type) :: log
       type(profile_request) :: wanted
       character(len=:), allocatable :: folder
 
-      !> Details of failures: nothing was given, the file cannot be opened, its content cannot be used
+      !> Reasons of failures: the file cannot be opened, its content cannot be used
       integer, parameter :: no_file = 2, no_use = 99
 
       log = library_log()

@@ -1,6 +1,6 @@
 !> Runs of the library and the problems of its callers
 !>
-!> Whoever works on a problem goes through `enter` and `leave`: between them no other thread can change or free it.
+!> Access to a problem is between `enter` and `leave`, during which no other thread can change or free it.
 module contact_capi_registry
    use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_null_ptr
    use, intrinsic :: iso_fortran_env, only : output_unit
@@ -26,12 +26,12 @@ module contact_capi_registry
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
    public :: set_threads, max_threads
 
-   !> Result elements at a time
+   !> Maximum number of simultaneous result elements
    integer, parameter :: max_active = 100
 
-   !> Which result elements and patches a routine accepts
+   !> Result elements and patches accepted by a routine
    type :: scope_type
-      !> Modules
+      !> Accepted modules
       logical :: wheel_rail = .true., contact = .true.
       !> In module 1: wheel and rail as a whole, one patch
       logical :: whole = .true., patch = .true.
@@ -40,7 +40,7 @@ module contact_capi_registry
    type :: scope_list
       !> Settings: wheel and rail as a whole, or a contact problem
       type(scope_type) :: settings = scope_type(patch=.false.)
-      !> Results of one patch, in both modules; with results of wheel and rail as a whole
+      !> Results of one patch, in both modules; also results of wheel and rail as a whole
       type(scope_type) :: one_patch = scope_type(whole=.false.)
       type(scope_type) :: any = scope_type()
       !> Module 1 only: as a whole, one patch, both
@@ -50,7 +50,7 @@ module contact_capi_registry
       !> Module 3 only
       type(scope_type) :: contact = scope_type(wheel_rail=.false.)
    end type scope_list
-   !> Names of scopes
+   !> Scopes of routines
    type(scope_list), parameter :: scope = scope_list()
 
 contains
@@ -62,9 +62,9 @@ contains
       !$omp end critical (contact_registry)
    end function is_running
 
-   !> Take note of unit numbers; they are not needed, every file gets a free one
+   !> Record unit numbers; they are not needed, since every file uses a free one
    subroutine record_units(accepted)
-      !> False when it is too late
+      !> False if it is too late
       logical, intent(out) :: accepted
 
       !$omp critical (contact_registry)
@@ -73,13 +73,13 @@ contains
       !$omp end critical (contact_registry)
    end subroutine record_units
 
-   !> Start a run: folders, name, .out file; nothing when one is going on
+   !> Start a run: folders, name, .out file; nothing if a run is in progress
    subroutine start_library(work_folder, out_folder, name, screen, started)
-      !> Folders and name of the experiment, "" for what was given before or the default
+      !> Folders and name of the experiment; "" for the previous value or the default
       character(len=*), intent(in) :: work_folder, out_folder, name
-      !> Are messages shown on the screen too?
+      !> Are messages written to the screen as well?
       logical, intent(in) :: screen
-      !> False when a run was going on
+      !> False if a run was in progress
       logical, intent(out) :: started
 
       !$omp critical (contact_registry)
@@ -116,13 +116,13 @@ contains
       if (allocated(reason)) call set_last_error(-1, "the file " // path // " cannot be written: " // reason)
    end subroutine begin_run
 
-   !> Make a result element known; one that is active stays as it is
+   !> Register a result element; an active one is unchanged
    subroutine register_element(ire, module_number, code, was_active)
-      !> Number of the result element, and the module that it is for: 1 or 3
+      !> Index of the result element, and its module: 1 or 3
       integer, intent(in) :: ire, module_number
       !> Member of library_code
       integer, intent(out) :: code
-      !> Was it known already?
+      !> Was it registered already?
       logical, intent(out) :: was_active
 
       !$omp critical (contact_registry)
@@ -136,7 +136,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine register_element
 
-   !> Make a result element active, inside the critical section
+   !> Activate a result element, inside the critical section
    subroutine activate(ire, module_number, code)
       integer, intent(in) :: ire, module_number
       integer, intent(out) :: code
@@ -152,13 +152,13 @@ contains
       library%elements(ire)%module_number = module_number
    end subroutine activate
 
-   !> Find the problem of a call and keep other threads out of it until `leave`
+   !> Find the problem of a call and exclude other threads from it until `leave`
    !>
-   !> On failure the problem is null, the code tells why, and the reason is in the log. What is not there
-   !> yet is made with its defaults, as callers of the published interface expect.
+   !> On failure the problem is null, the code gives the reason, and a message is logged. A problem that does not exist yet is
+   !> created with its defaults, as callers of the published interface expect.
    subroutine enter(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
-      !> Modules and kinds of problems that the routine is for
+      !> Modules and kinds of problems accepted by the routine
       type(scope_type), intent(in) :: allowed
       type(library_problem), pointer, intent(out) :: problem
       !> Member of library_code
@@ -180,17 +180,17 @@ contains
       if (present(code)) code = found
    end subroutine enter
 
-   !> Does a routine make a setting, which calculations need?
+   !> Does a routine make a setting, which calculations require?
    pure logical function is_setting(call_of)
       type(entry_type), intent(in) :: call_of
       is_setting = index(call_of%name, "cntc_set") == 1 .or. index(call_of%name, "subs_add") == 1
    end function is_setting
 
-   !> The same for a calculation: it does not wait for another thread in the same problem, but for its turn when as many
-   !> calculations run as there may be; it has the threads that are allowed inside
+   !> The same for a calculation: it does not wait for another thread in the same problem, but for its turn if the maximum number
+   !> of calculations is running; it uses the allowed number of threads
    subroutine enter_calculation(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
-      !> Modules and kinds of problems that the routine is for
+      !> Modules and kinds of problems accepted by the routine
       type(scope_type), intent(in) :: allowed
       type(library_problem), pointer, intent(out) :: problem
       !> Member of library_code
@@ -222,12 +222,12 @@ contains
       if (code /= library_code%success) call complain(call_of, trim(code_text(code)), code)
    end subroutine enter_calculation
 
-   !> Callers may raise the number of threads at any time
+   !> Update the maximum number of threads, which callers may increase at any time
    subroutine see_threads()
       library%max_threads = min(999, max(library%max_threads, omp_get_max_threads(), omp_get_num_threads()))
    end subroutine see_threads
 
-   !> The problem of a call and one user more; null when the call cannot be meant
+   !> Find the problem of a call and register one more user; null if the call is invalid
    subroutine look_up(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
       type(scope_type), intent(in) :: allowed
@@ -256,7 +256,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine look_up
 
-   !> Why a call does not go with a module; success when it does
+   !> Reason why a call is invalid for a module; success if it is valid
    pure integer function misuse(module_number, icp, allowed) result(code)
       integer, intent(in) :: module_number, icp
       type(scope_type), intent(in) :: allowed
@@ -279,7 +279,7 @@ contains
       end if
    end function misuse
 
-   !> Patches of module 1 are those that the last calculation found
+   !> Check that a patch of module 1 exists in the result of the last calculation
    pure subroutine check_patch(call_of, problem, code)
       type(entry_type), intent(in) :: call_of
       type(library_problem), intent(in) :: problem
@@ -290,7 +290,7 @@ contains
       if (call_of%icp > size(problem%wheel_rail_result%patches)) code = library_code%no_patch
    end subroutine check_patch
 
-   !> The thread has the lock of the problem
+   !> Enter a problem whose lock the thread holds
    subroutine come_in(problem)
       type(library_problem), pointer, intent(in) :: problem
 
@@ -298,7 +298,7 @@ contains
       call hold_floats()
    end subroutine come_in
 
-   !> Let other threads into the problem
+   !> Leave a problem: other threads may enter it
    subroutine leave(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
@@ -310,7 +310,7 @@ contains
       nullify(problem)
    end subroutine leave
 
-   !> One user less
+   !> Unregister a user
    subroutine forget_user(problem)
       type(library_problem), pointer, intent(in) :: problem
 
@@ -320,17 +320,17 @@ contains
       !$omp end critical (contact_registry)
    end subroutine forget_user
 
-   !> One user less, and one calculation less, after a call that was left
+   !> Unregister a user and a calculation, after a call that was abandoned
    subroutine forget_call(problem, was_calculation)
       type(library_problem), pointer, intent(in) :: problem
-      !> Did the call hold one of the places of calculations?
+      !> Was the call registered as a calculation?
       logical, intent(in) :: was_calculation
 
       if (was_calculation) call end_turn()
       call forget_user(problem)
    end subroutine forget_call
 
-   !> The end of a calculation
+   !> End a calculation
    subroutine leave_calculation(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
@@ -340,16 +340,16 @@ contains
       call set_owner(0)
       call problem%kept%stop_using()
       !$omp critical (contact_registry)
-      ! The file can be read while the caller goes on
+      ! the file can be read while the caller continues
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)
       call leave(problem)
    end subroutine leave_calculation
 
-   !> Free a result element; nothing when another thread is at work on it
+   !> Free a result element; nothing if another thread is using it
    subroutine remove_element(call_of, removed, was_last)
       type(entry_type), intent(in) :: call_of
-      !> False when it was not active, or is in use
+      !> False if it was not active, or is in use
       logical, intent(out) :: removed
       !> Are there no others left?
       logical, intent(out) :: was_last
@@ -364,7 +364,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine remove_element
 
-   !> Free the problems of an element that nobody uses
+   !> Free the problems of an element that have no users
    subroutine free_element(element, freed)
       type(element_slot), intent(inout) :: element
       logical, intent(out) :: freed
@@ -385,9 +385,9 @@ contains
       library%active_elements = library%active_elements - 1
    end subroutine free_element
 
-   !> End the run: free all elements, close the files; nothing when another thread is at work
+   !> End the run: free all elements, close the files; nothing if another thread is using a problem
    subroutine stop_library(stopped)
-      !> False when something is in use, or no run was going on
+      !> False if a problem is in use, or no run was in progress
       logical, intent(out) :: stopped
       integer :: k
       logical :: complete, dumped, freed
@@ -400,7 +400,7 @@ contains
             if (library%elements(k)%module_number /= 0) call free_element(library%elements(k), freed)
          end do
          call write_timers()
-         ! a file from which something is missing gets no end
+         ! an incomplete file gets no final line
          if (.not. library%input_dump%has_failed()) call library%input_dump%line(" 0  MODULE")
          call library%input_dump%close_file(dumped)
          call library%log%out%close_file(complete)
@@ -430,9 +430,9 @@ contains
       end do
    end function any_users
 
-   !> Threads inside a problem: negative for all, 0 and 1 for one; ignored before initialisation
+   !> Set the number of threads inside a problem: negative for the maximum, 0 and 1 for one; ignored before initialisation
    subroutine set_threads(number)
-      !> As the caller gave it
+      !> Number given by the caller
       integer, intent(in) :: number
 
       !$omp critical (contact_registry)
@@ -444,7 +444,7 @@ contains
       !$omp end critical (contact_registry)
    end subroutine set_threads
 
-   !> Threads that a calculation may use; one in a forked process, which has no others
+   !> Number of threads of a calculation; one in a forked process, which has no others
    integer function threads_inside() result(number)
       !$omp critical (contact_registry)
       number = library%threads
@@ -452,7 +452,7 @@ contains
       !$omp end critical (contact_registry)
    end function threads_inside
 
-   !> Largest number of threads
+   !> Maximum number of threads
    integer function max_threads() result(number)
       !$omp critical (contact_registry)
       call see_threads()

@@ -1,4 +1,5 @@
-!> The C interface: an experiment run by a host program, the two formats of input, an experiment in words; see include/contact.h
+!> C interface: an experiment run by a host program, conversion between the two formats of input, description of an experiment in
+!> words; see include/contact.h
 module contact_capi_run
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_choices, only : heat_source
@@ -17,29 +18,29 @@ module contact_capi_run
 
    public :: contact_run_limited, contact_convert_experiment, contact_explain_experiment
 
-   !> What a host may ask for, as in the header
+   !> Modes that a host may request, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
-   !> Bits that ask for more files, for other ways to compute, for a confined run, and all of them together
+   !> Bits for additional files, for computing options and for a confined run, and all of them together
    integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4, confine_bit = 5, classical_bit = 6
    integer, parameter :: order_bit = 7
    integer(c_int), parameter :: all_outputs = 255
 
-   !> What a call is for
+   !> Tasks of a call
    integer, parameter :: to_run = 1, to_convert = 2, to_explain = 3
 
    !> A call
    type :: request_type
-      !> to_run, to_convert or to_explain
+      !> Member of the tasks: to_run, to_convert or to_explain
       integer :: task
       !> Names of the experiment and of the folder of its results, null-terminated; the latter may be null
       type(c_ptr) :: experiment, folder = c_null_ptr
-      !> Of runs, as for contact_run_limited
+      !> Arguments of contact_run_limited for runs
       integer(c_int) :: mode = mode_run, threads = 0, outputs = 0
       logical :: strict = .false.
       real(c_double) :: limits(3) = 0.0_c_double
-      !> Convert: is a file replaced that is there?
+      !> For to_convert: is an existing file replaced?
       logical :: overwrite = .false.
-      !> Buffer of what is told, null if not wanted, its size, and the size that the whole text needs
+      !> Buffer of the text, null if not requested, its size, and the size required by the whole text
       type(c_ptr) :: text = c_null_ptr
       integer(c_int) :: length = 0, needed = 0
       integer(c_int) :: status = 0
@@ -47,28 +48,28 @@ module contact_capi_run
 
 contains
 
-   !> Run or check one experiment silently
+   !> Run or check one experiment without output to the screen
    !>
-   !> 0 is success, 1 a call with unusable arguments, 10 and above a failure by its error_kind.
+   !> Returns 0 for success, 1 for a call with unusable arguments, 10 and above for a failure, by its error_kind.
    function contact_run_limited(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
       & message_length) result(status) bind(c, name="contact_run_limited")
       !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
-      !> 2 runs, 3 only checks
+      !> 2: run, 3: check only
       integer(c_int), value :: mode
-      !> Folder of the results, null-terminated; null or empty for that of the input
+      !> Folder of the results, null-terminated; null or empty: folder of the input
       type(c_ptr), value :: output_dir
-      !> Number of threads, 0 for the default
+      !> Number of threads, 0: default
       integer(c_int), value :: threads
-      !> Files beside the usual ones and ways to compute, a sum of bits as in the header
+      !> Additional files and computing options, a sum of bits as in the header
       integer(c_int), value :: outputs
       !> Not 0: a case that does not converge is a failure
       integer(c_int), value :: strict
-      !> Limits of each case: time [s], memory [MB], number of elements; 0 for none
+      !> Limits of each case: time [s], memory [MB], number of elements; 0: unlimited
       real(c_double), value :: seconds, megabytes, elements
-      !> Buffer of the reason of a failure, null if not wanted, and its size
+      !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
-      !> Room for the message, the null included [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -79,16 +80,16 @@ contains
       status = request%status
    end function contact_run_limited
 
-   !> Write an experiment in the other format
+   !> Convert an experiment to the other format
    function contact_convert_experiment(experiment, output_dir, overwrite, message, message_length) result(status) &
       & bind(c, name="contact_convert_experiment")
       !> Path of the experiment, folder of the new file, null-terminated; the folder may be null
       type(c_ptr), value :: experiment, output_dir
-      !> Not 0: replace a file that is there
+      !> Not 0: replace an existing file
       integer(c_int), value :: overwrite
-      !> Buffer of what is told, null if not wanted, and its size
+      !> Buffer for the message, null if not requested
       type(c_ptr), value :: message
-      !> Room for the message, the null included [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -99,16 +100,16 @@ contains
       status = request%status
    end function contact_convert_experiment
 
-   !> Tell an experiment in words
+   !> Describe an experiment in words
    function contact_explain_experiment(experiment, text, text_length, needed) result(status) &
       & bind(c, name="contact_explain_experiment")
       !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
-      !> Buffer of the words, null if not wanted, and its size
+      !> Buffer for the description, null if not requested
       type(c_ptr), value :: text
-      !> Room for the words, the null included [bytes]
+      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: text_length
-      !> Size that the whole text needs
+      !> Size required by the whole description [bytes]
       integer(c_int), intent(out), optional :: needed
       integer(c_int) :: status
       type(request_type), target :: request
@@ -119,12 +120,12 @@ contains
       status = request%status
    end function contact_explain_experiment
 
-   !> Do what is asked for, and survive want of memory
+   !> Do a task under the guard against lack of memory
    subroutine do_request(request)
       type(request_type), intent(inout), target :: request
       integer :: cause
 
-      ! before the first comparison: a limit that is not a number must not stop a host that traps invalid operations
+      ! before the first comparison: a limit that is NaN must not stop a host that traps invalid operations
       call hold_floats()
       call do_guarded(do_inside, c_loc(request), 0, cause)
       if (cause /= guard_end%done) then
@@ -134,7 +135,7 @@ contains
       call give_floats_back()
    end subroutine do_request
 
-   !> Why a request was left
+   !> Report why a task was abandoned
    subroutine tell_want_of_memory(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
@@ -148,7 +149,7 @@ contains
       end if
    end subroutine tell_want_of_memory
 
-   !> Do what is asked for
+   !> Do a task
    recursive subroutine do_inside(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
@@ -183,7 +184,7 @@ contains
    !> Run or check an experiment
    subroutine run(request, experiment, folder, error)
       type(request_type), intent(inout) :: request
-      !> Names, the latter "" for the folder of the input
+      !> Paths, the latter "" for the folder of the input
       character(len=*), intent(in) :: experiment, folder
       type(error_type), allocatable, intent(out) :: error
       type(run_settings) :: settings
@@ -223,9 +224,9 @@ contains
       end if
    end subroutine run
 
-   !> The limits of the caller, or an error about the first that cannot be one
+   !> Set the limits given by the caller; the first invalid one is an error
    subroutine set_limits(asked, limits, error)
-      !> Time [s], memory [MB], number of elements; 0 for none
+      !> Time [s], memory [MB], number of elements; 0: unlimited
       real(c_double), intent(in) :: asked(3)
       type(case_limits), intent(inout) :: limits
       type(error_type), allocatable, intent(out) :: error

@@ -1,4 +1,4 @@
-!> Stresses below the surface for callers
+!> Subsurface stresses for callers
 module contact_capi_subsurface
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_error, only : add_context, error_type, full_text
@@ -27,21 +27,21 @@ module contact_capi_subsurface
 
    public :: add_block, get_block, get_block_size, subs_calculate
 
-   !> Blocks of a problem, points of a block in one direction
+   !> Maximum number of blocks of a problem, and of points of a block in one direction
    integer, parameter :: max_blocks = 10, longest_list = 9999
-   !> Smallest step of depths [mm]
+   !> Minimum step of depths [mm]
    real(wp), parameter :: min_step = 1.0e-9_wp
-   !> Number of columns, and what an unknown one is filled with
+   !> Number of columns, and value of unknown ones
    integer, parameter :: max_columns = 21
    real(wp), parameter :: no_column = -999.0_wp
-   !> Stress component of columns 13 to 21, the tensor by columns, among xx, xy, xz, yy, yz, zz
+   !> Stress component of columns 13 to 21, the tensor column by column, as index of xx, xy, xz, yy, yz, zz
    integer, parameter :: component(13:21) = [1, 2, 3, 2, 4, 5, 3, 5, 6]
 
 contains
 
-   !> A block of points; blocks of its number and above are forgotten, number 0 forgets all
+   !> Add a block of points; blocks with the same or a larger index are removed, index 0 removes all
    !>
-   !> Points may be private to a patch of wheel and rail.
+   !> Points may belong to a single patch of wheel and rail.
    subroutine add_block(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem
@@ -62,7 +62,7 @@ contains
       end associate
    end subroutine add_block
 
-   !> Put a block into a list
+   !> Store a block in a list
    subroutine store_block(this, number, block, list)
       type(entry_type), intent(in) :: this
       integer, intent(in) :: number
@@ -84,13 +84,13 @@ contains
       call move_alloc(longer, list)
    end subroutine store_block
 
-   !> A block from the arguments
+   !> Create a block from the arguments
    subroutine make_block(this, option, x, y, z, length, block, accepted)
       type(entry_type), intent(in) :: this
-      !> ISUBS
+      !> Option ISUBS of the block
       integer, intent(in) :: option
       real(wp), intent(in) :: x(:), y(:), z(:)
-      !> Unit of length [mm]
+      !> Unit of length of the caller [mm]
       real(wp), intent(in) :: length
       type(point_block), intent(out) :: block
       logical, intent(out) :: accepted
@@ -147,7 +147,7 @@ contains
       accepted = .true.
    end subroutine make_block
 
-   !> First, step and last column or row
+   !> Read first, step and last column or row
    pure subroutine take_range(values, low, step, high)
       real(wp), intent(in) :: values(3)
       integer, intent(out) :: low, step, high
@@ -157,13 +157,13 @@ contains
       high = whole(values(3))
    end subroutine take_range
 
-   !> The nearest integer, within bounds that no grid reaches
+   !> Nearest integer, within bounds that exceed any grid
    elemental integer function whole(value)
       real(wp), intent(in) :: value
       whole = nint(max(-1.0e9_wp, min(1.0e9_wp, value)))
    end function whole
 
-   !> Displacements and stresses in the blocks of points, after a calculation
+   !> Calculate displacements and stresses in the blocks of points, after a calculation
    subroutine subs_calculate(ire, icp, ierror) bind(c, name="inside_subs_calculate")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: ierror
@@ -198,7 +198,7 @@ contains
       call give(code, ierror)
    end subroutine subs_calculate
 
-   !> The blocks of one patch, with print and file
+   !> Calculate the blocks of one patch, print the results and write the file
    subroutine calculate_patch(this, problem, number, patch, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
@@ -261,7 +261,7 @@ contains
       end if
    end subroutine find_file
 
-   !> Numbers of points of a block, -1 when there is none
+   !> Get the numbers of points of a block, -1: no such block
    subroutine get_block_size(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), pointer, intent(in) :: problem
@@ -279,7 +279,7 @@ contains
       end if
    end subroutine get_block_size
 
-   !> Are there results in a block?
+   !> Are there results of a block?
    pure logical function has_block(view, number)
       type(result_view), intent(in) :: view
       integer, intent(in) :: number
@@ -290,7 +290,7 @@ contains
       has_block = number >= 1 .and. number <= size(view%patch%subsurface)
    end function has_block
 
-   !> Columns of the results of a block
+   !> Get columns of the results of a block
    subroutine get_block(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), pointer, intent(in) :: problem

@@ -1,4 +1,4 @@
-!> The C interface: creep forces from tables; see include/contact.h
+!> C interface: creep forces from tables; see include/contact.h
 module contact_capi_table
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
@@ -13,18 +13,18 @@ module contact_capi_table
    public :: contact_table_open, contact_table_close, contact_table_about, contact_table_force, &
       & contact_table_force_derivatives, contact_table_forces
 
-   !> A contact, contact_table_patch of the header
+   !> Data of a contact, contact_table_patch of the header
    type, bind(c) :: patch_type
       real(c_double) :: fn, mu, gg, aa, bneg, bpos
    end type patch_type
 
-   !> What a table is, contact_table_facts of the header
+   !> Properties of a table, contact_table_facts of the header
    type, bind(c) :: facts_type
       integer(c_int) :: has_offset, elements, order
       real(c_double) :: poisson, ratio(2), offset, spin, asked, error(2), points, grid_error(2), bytes
    end type facts_type
 
-   !> A call as guarded work sees it
+   !> A call, passed to the guarded procedures
    type :: request_type
       type(c_ptr) :: file = c_null_ptr
       type(creep_table), pointer :: table => null()
@@ -33,11 +33,11 @@ module contact_capi_table
 
 contains
 
-   !> Read a table, null when it cannot be used
+   !> Read a table; null if it cannot be used
    function contact_table_open(file, message, length) result(handle) bind(c, name="contact_table_open")
-      !> Its path, null-terminated
+      !> Path of the file, null-terminated
       type(c_ptr), value :: file
-      !> Buffer of the reason of a failure, null if not wanted
+      !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
       !> Size of the buffer
       integer(c_int), value :: length
@@ -60,7 +60,7 @@ contains
       end if
    end function contact_table_open
 
-   !> Read it
+   !> Read it under the guard
    subroutine read_inside(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
@@ -74,7 +74,7 @@ contains
       if (allocated(request%error)) deallocate(request%table)
    end subroutine read_inside
 
-   !> Free a table; nothing for null
+   !> Free a table; nothing if null
    subroutine contact_table_close(handle) bind(c, name="contact_table_close")
       !> From contact_table_open
       type(c_ptr), value :: handle
@@ -85,13 +85,13 @@ contains
       deallocate(table)
    end subroutine contact_table_close
 
-   !> What a table is
+   !> Properties of a table
    function contact_table_about(handle, facts) result(status) bind(c, name="contact_table_about")
       !> From contact_table_open
       type(c_ptr), value :: handle
-      !> Receives it
+      !> Receives the properties
       type(facts_type), intent(out) :: facts
-      !> 0, or 1 without a table
+      !> 0, or 1 if there is no table
       integer(c_int) :: status
       type(creep_table), pointer :: table
 
@@ -137,7 +137,7 @@ contains
       status = int(found, c_int)
    end function contact_table_force
 
-   !> Forces of a contact and their derivatives by the creepages
+   !> Forces of a contact and their derivatives with respect to the creepages
    function contact_table_force_derivatives(handle, patch, creepage, force, derivatives) result(status) &
       & bind(c, name="contact_table_force_derivatives")
       !> From contact_table_open
@@ -148,7 +148,7 @@ contains
       real(c_double), intent(in) :: creepage(3)
       !> Fx, Fy, Mz
       real(c_double), intent(out) :: force(3)
-      !> Of each force (second index) by each creepage
+      !> Derivatives of each force (second index) with respect to each creepage
       real(c_double), intent(out) :: derivatives(3, 3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
@@ -172,15 +172,16 @@ contains
       & bind(c, name="contact_table_forces")
       !> From contact_table_open
       type(c_ptr), value :: handle
-      !> How many they are
+      !> Number of contacts
       integer(c_int), value :: count
       !> The contacts
       type(patch_type), intent(in) :: patches(*)
-      !> Of each contact, shape (3, count)
+      !> Longitudinal, lateral [-], spin [rad per length] of each contact, shape (3, count)
       real(c_double), intent(in) :: creepages(3, *)
-      !> Fx, Fy, Mz of each, shape (3, count)
+      !> Fx, Fy, Mz of each contact, shape (3, count)
       real(c_double), intent(inout) :: forces(3, *)
-      !> Of each force by each creepage, shape (3, 3, count), and what each look-up ended with; null where not wanted
+      !> Derivatives of each force with respect to each creepage, shape (3, 3, count), and status of each look-up; null if not
+      !> requested
       type(c_ptr), value :: derivatives, answers
       !> The largest of CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: worst

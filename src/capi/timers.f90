@@ -1,4 +1,4 @@
-!> Time that the problems of the library take, and the table of it at the end of a run
+!> Computing times of the problems of the library, and their table at the end of a run
 module contact_capi_timers
    use contact_capi_library, only : library, max_elements, problem_pointer
    use contact_capi_problem, only : max_patches
@@ -9,14 +9,14 @@ module contact_capi_timers
 
    public :: book_times, write_timers, set_timer_level
 
-   !> Amount of timers
+   !> Timer level with all timers
    integer, parameter :: all_timers = 2
 
 contains
 
-   !> Keep the times of a problem that is going to be freed
+   !> Store the times of a problem before it is freed
    subroutine book_times(slot)
-      !> Its times are zero afterwards
+      !> Problem; its times are zero afterwards
       type(problem_pointer), intent(inout) :: slot
 
       slot%timed_module = slot%p%module_number
@@ -24,7 +24,7 @@ contains
       call slot%stresses%add(slot%p%stresses)
    end subroutine book_times
 
-   !> Table of the time spent, in total and per problem; with all timers that of stresses, too
+   !> Write the table of times, in total and per problem; at the highest level with those of stresses
    subroutine write_timers()
       type(timer_line), allocatable :: lines(:)
       integer :: k, i, n
@@ -56,9 +56,9 @@ contains
       call write_end(library%log, library%max_threads, lines(:n))
    end subroutine write_timers
 
-   !> Timer table: 0 none, 1 overview, 2 everything
+   !> Set the level of the timer table: 0 none, 1 overview, 2 everything
    subroutine set_timer_level(level)
-      !> As the flag of the library has it
+      !> Level as in the flag of the library
       integer, intent(in) :: level
 
       !$omp critical (contact_registry)

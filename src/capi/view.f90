@@ -1,4 +1,4 @@
-!> Results of one patch as callers get them: which patch, which side, which rows
+!> Access of callers to the results of one patch: selection of patch, side, and rows
 module contact_capi_view
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
@@ -13,30 +13,30 @@ module contact_capi_view
 
    public :: result_view, look_at
 
-   !> One patch with the factors for the caller
+   !> One patch, with the unit factors and side of the caller
    type :: result_view
-      !> Null when there is none
+      !> Null if there is none
       type(patch_result), pointer :: patch => null()
       type(unit_convention) :: units
       !> Is it a mirrored wheel on the left side?
       logical :: left = .false.
    contains
-      !> Totals by their names, and numbers of rows of elements
+      !> Totals by their names; indices of rows of elements
       procedure :: totals
       procedure :: rows
       !> Estimated errors of totals
       procedure :: errors
    end type result_view
 
-   !> What callers get in place of an error that is not known
+   !> Value returned for an unknown error
    real(wp), parameter :: no_error = -1.0_wp
 
 contains
 
-   !> The results of a patch; complains when nothing has been calculated yet
+   !> Results of a patch; reports an error if nothing has been calculated yet
    function look_at(this, problem) result(view)
       type(entry_type), intent(in) :: this
-      !> That was entered
+      !> Problem of the call, which has been entered
       type(library_problem), pointer, intent(in) :: problem
       type(result_view) :: view
 
@@ -53,10 +53,10 @@ contains
       end if
    end function look_at
 
-   !> Totals by their names, in the units and with the signs of the caller; 0 for those that the case does not have
+   !> Totals by their names, in the units and with the signs of the caller; 0 for those that do not exist in the case
    pure function totals(self, names) result(values)
       class(result_view), intent(in) :: self
-      !> As the list of totals has them; the patch may be without them
+      !> Names as in the list of totals; the patch may have none of them
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       type(total_list) :: list
@@ -71,10 +71,10 @@ contains
       end do
    end function totals
 
-   !> Estimated errors of totals by their names, in the units of the caller; -1 for none
+   !> Estimated errors of totals by their names, in the units of the caller; -1: none
    pure function errors(self, names) result(values)
       class(result_view), intent(in) :: self
-      !> As the list of totals has them; those that the case does not have get no value
+      !> Names as in the list of totals; those that do not exist in the case have no error
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       type(total_list) :: list
@@ -91,7 +91,7 @@ contains
       end do
    end function errors
 
-   !> Numbers of rows of elements, from the lowest y as the caller sees it
+   !> Indices of rows of elements, in increasing y of the caller
    pure function rows(self)
       class(result_view), intent(in) :: self
       integer :: rows(self%patch%grid%my)

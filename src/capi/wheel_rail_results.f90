@@ -1,7 +1,6 @@
-!> What callers get of wheel on rail (module 1)
+!> Results of wheel and rail for callers (module 1)
 !>
-!> Inside, everything is that of a right-hand pair; for a wheel on the left side of the track lateral
-!> components are mirrored on the way out.
+!> Internally, the wheel is on the right side of the track; for a wheel on the left side lateral components are mirrored on output.
 module contact_capi_wheel_rail_results
    use, intrinsic :: iso_c_binding, only : c_double
    use contact_base_kinds, only : wp
@@ -16,7 +15,7 @@ module contact_capi_wheel_rail_results
 
 contains
 
-   !> Position of the wheelset, with the height that was found
+   !> Get the position of the wheelset, with the computed height
    subroutine get_wheelset_position(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -27,7 +26,7 @@ contains
       end associate
    end subroutine get_wheelset_position
 
-   !> Velocity of the wheelset, with the pitch rate that was found
+   !> Get the velocity of the wheelset, with the computed pitch rate
    subroutine get_wheelset_velocity(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -38,7 +37,7 @@ contains
       end associate
    end subroutine get_wheelset_velocity
 
-   !> Where a patch is, in track, rail, wheel and wheelset, and where these are
+   !> Get the position of a patch in track, rail, wheel and wheelset coordinates, and the positions of these
    subroutine get_location(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -53,13 +52,13 @@ contains
       sign = orientation%none
       sign([2, 4, 6, 9, 11, 14, 16, 22, 24, 25, 26, 28, 31, 33, 35, 37, 38]) = orientation%side
       list = list*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
-      ! the 29th value has no meaning and is left alone
+      ! the 29th value is not used, and is left unchanged
       room => a%numbers_at(1)
       if (size(room) >= 29) list(29) = room(29)
       call a%give(1, list)
    end subroutine get_location
 
-   !> The values in internal units, for a right-hand pair
+   !> The values in internal units, for a wheel on the right side of the track
    subroutine locate(problem, number, list)
       type(library_problem), intent(in) :: problem
       integer, intent(in) :: number
@@ -88,7 +87,7 @@ contains
       end associate
    end subroutine locate
 
-   !> Forces and moments of one patch, or of all of them with -1, in four systems of axes
+   !> Get forces and moments of one patch, or of all of them (-1), in four coordinate systems
    subroutine get_forces(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
