@@ -8,7 +8,7 @@ int contact_guard(void (*work)(void *), void *data, int owner);
 void contact_run_routine(const char *name, const char *kinds, void **arguments);
 void contact_call_failed(int cause, const char *name, const int *ire, const int *icp, int *ierror);
 
-/* Code of any error, as CNTC_err_other, set before the failure is reported, since the report can fail too */
+/* Code of any error, as CNTC_err_other; it remains if reporting the failure fails as well */
 enum { other_error = -99 };
 
 struct call {
