@@ -416,7 +416,7 @@ contains
 
    !> Decode the control words, starting from the right
    !>
-   !> Missing leading digits are zero. Excess digits to the left of V and X are added to these digits, which are then out of range;
+   !> Missing leading digits are zero. Excess digits to the left of V and X remain part of V and X, which are then out of range;
    !> digits to the left of P are C1 in module 1 and are ignored in module 3. Signs are checked by the caller.
    pure subroutine decode_words(word1, word2, word3, module_number, digits, second)
       !> C1 P B T N F S; V L D C M Z E; X H G I A O W R
