@@ -117,7 +117,7 @@ module contact_capi_problem
       !> Status of the last calculation, and whether there was one
       type(case_status) :: status
       logical :: was_calculated = .false.
-      !> Owner of the memory allocated by calculations
+      !> Owner of the memory that calculations allocate
       integer :: owner = 0
       !> Blocks of memory released by a calculation, for the next one
       type(kept_blocks) :: kept
