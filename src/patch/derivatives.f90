@@ -219,7 +219,7 @@ contains
 
    !> Changes of the distance of the surfaces in the elements ahead of the leading ones
    !>
-   !> In contact displacements follow the undeformed distance, which goes on ahead as a straight line.
+   !> In contact displacements follow the undeformed distance, which goes on ahead as a parabola through the last three elements.
    subroutine gap_changes(response, box, t, window, gap)
       !> Change of the pressures, shape of the grid
       real(wp), contiguous, intent(in) :: response(:, :)
@@ -230,8 +230,11 @@ contains
       class(compliance), intent(inout) :: window
       !> [mm per unit], shape of the box
       real(wp), intent(out) :: gap(:, :)
+      !> Values ahead of one, two and three equidistant ones
+      real(wp), parameter :: extension(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 2.0_wp, -1.0_wp, 0.0_wp, 3.0_wp, -3.0_wp, &
+         & 1.0_wp], [3, 3])
       real(wp), allocatable :: un(:, :)
-      integer :: ix, iy, jx, jy
+      integer :: ix, iy, jx, jy, k, n
 
       allocate(un, mold=response)
       call window%normal(response, un)
@@ -241,9 +244,15 @@ contains
          do ix = 1, t%mx
             if (t%second%gap(ix, iy) < 0.0_wp) cycle
             jx = box%ix0 + ix - 1
-            gap(ix, iy) = un(jx + t%direction, jy) - un(jx, jy)
-            if (ix - t%direction < 1 .or. ix - t%direction > t%mx) cycle
-            if (t%contact(ix - t%direction, iy)) gap(ix, iy) = gap(ix, iy) - un(jx, jy) + un(jx - t%direction, jy)
+            n = 1
+            do while (n < size(extension, 1) .and. ix - n*t%direction >= 1 .and. ix - n*t%direction <= t%mx)
+               if (.not. t%contact(ix - n*t%direction, iy)) exit
+               n = n + 1
+            end do
+            gap(ix, iy) = un(jx + t%direction, jy)
+            do k = 1, n
+               gap(ix, iy) = gap(ix, iy) - extension(k, n)*un(jx - (k - 1)*t%direction, jy)
+            end do
          end do
       end do
    end subroutine gap_changes
