@@ -102,6 +102,7 @@ contains
 
    !> Change of the angle by the shares of the slip behind, here and ahead in the mean
    pure subroutine add_by_shares(mean, to_mean, behind, here, ahead, by)
+      !> That of the element, with neighbours behind
       type(local_mean), intent(in) :: mean
       !> Change of the angle by the mean [1/mm]
       real(wp), intent(in) :: to_mean(2)
