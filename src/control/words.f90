@@ -1,4 +1,4 @@
-!> The words of the readable format: keys of the choices of a case, and messages about digits in these words
+!> Words of the readable format: keys of the choices of a case, and translation of messages about digits into these words
 module contact_control_words
    use contact_base_choices, only : grid_form, planform_choice
    use contact_base_kinds, only : wp
@@ -19,18 +19,18 @@ module contact_control_words
    integer, parameter :: module_1 = 1, module_3 = 3, both = 0
    character(len=word_length), parameter :: no_word = ""
 
-   !> Where a choice stands in a case
+   !> Position of a choice in a case
    type :: key_row
-      !> Letter of the digit, and module that has this choice, 0 for both
+      !> Letter of the digit; module that has this choice, 0 for both
       character(len=2) :: name
       integer :: module_number
-      !> Table of the case, "" for the case itself, and key there
+      !> Table of the case, "" for the case itself, and key in it
       character(len=key_length) :: group, key
       !> Meaning
       character(len=56) :: title
    end type key_row
 
-   !> Choices; those that are numbers in the input files are numbers here
+   !> Choices; those that are numbers in the input files are in form_table
    type(key_row), parameter :: key_table(*) = [ &
       & key_row("C1", module_1, "", "configuration", "side of the wheel, and what it rolls on"), &
       & key_row("P", both, "", "sequence", "how the case continues the one before"), &
@@ -53,7 +53,7 @@ module contact_control_words
       & key_row("H", both, "heat", "model", "surface temperatures"), &
       & key_row("D", module_1, "search", "location", "how contact is found and described")]
 
-   !> A number of the input files that stands for a choice within a group
+   !> A number of the input files that selects a choice within a group
    type :: form_row
       !> Name as in the input files
       character(len=6) :: name
@@ -95,7 +95,7 @@ module contact_control_words
 
 contains
 
-   !> Row of a choice in key_table, 0 where it has no key
+   !> Row of a choice in key_table, 0 if it has no key
    pure integer function key_of(name, module_number) result(row)
       !> Letter of the digit
       character(len=*), intent(in) :: name
@@ -108,7 +108,7 @@ contains
       row = 0
    end function key_of
 
-   !> Is the digit chosen by a word? Otherwise by a number
+   !> Is the digit selected by a word? Otherwise by a number
    pure logical function is_choice(name)
       !> Letter of the digit
       character(len=*), intent(in) :: name
@@ -116,11 +116,11 @@ contains
       is_choice = any(digit_table%name == name .and. digit_table%word /= "")
    end function is_choice
 
-   !> The digit that a word stands for, -1 when there is none
+   !> The digit selected by a word, -1 if there is none
    pure integer function digit_of_word(name, word, module_number) result(digit)
       !> Letter of the digit
       character(len=*), intent(in) :: name
-      !> As the readable format has it
+      !> Word as in the readable format
       character(len=*), intent(in) :: word
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -132,11 +132,11 @@ contains
       if (row > 0) digit = digit_table(row)%digit
    end function digit_of_word
 
-   !> The word for a digit, blank when there is none
+   !> The word for a digit, blank if there is none
    pure function word_of_digit(name, digit, module_number) result(word)
       !> Letter of the digit
       character(len=*), intent(in) :: name
-      !> As input files have it
+      !> Digit as in input files
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -148,7 +148,7 @@ contains
       end associate
    end function word_of_digit
 
-   !> The words of a digit, blank where a row of the table is another one's
+   !> Words of a digit, blank in the rows of the table that belong to other digits
    pure function choice_words(name, module_number) result(words)
       !> Letter of the digit
       character(len=*), intent(in) :: name
@@ -159,11 +159,11 @@ contains
       words = merge(digit_table%word, no_word, digit_table%name == name .and. belongs(digit_table, module_number))
    end function choice_words
 
-   !> Words as they are told: "a", "b" and "c"
+   !> Words as listed in messages: "a", "b" and "c"
    pure subroutine words_of(words, text)
-      !> Blank ones do not count
+      !> Words; blank ones are ignored
       character(len=*), intent(in) :: words(:)
-      !> For messages
+      !> Text for messages
       character(len=:), allocatable, intent(out) :: text
       integer :: k, n, total
 
@@ -179,15 +179,15 @@ contains
       end do
    end subroutine words_of
 
-   !> Number that a word stands for, with success
+   !> Number selected by a word
    pure subroutine form_value(name, word, value, is_known_word)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
-      !> As the readable format has it
+      !> Word as in the readable format
       character(len=*), intent(in) :: word
-      !> 0 when the word is not known
+      !> Number, 0 if the word is unknown
       integer, intent(out) :: value
-      !> Was there such a word?
+      !> Is the word known?
       logical, intent(out) :: is_known_word
       integer :: row
 
@@ -200,7 +200,7 @@ contains
       end do
    end subroutine form_value
 
-   !> Row of such a number in form_table, 0 for none
+   !> Row of such a number in form_table, 0 if there is none
    pure integer function row_of_form(name, value) result(row)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
@@ -212,11 +212,11 @@ contains
       row = 0
    end function row_of_form
 
-   !> Word of such a number, blank for none
+   !> Word of such a number, blank if there is none
    pure function form_word(name, value) result(word)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
-      !> As input files have it
+      !> Number as in input files
       integer, intent(in) :: value
       character(len=24) :: word
 
@@ -224,11 +224,11 @@ contains
       if (row_of_form(name, value) > 0) word = form_table(row_of_form(name, value))%word
    end function form_word
 
-   !> Meaning of such a number, blank for none
+   !> Meaning of such a number, blank if there is none
    pure function form_title(name, value) result(title)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
-      !> As input files have it
+      !> Number as in input files
       integer, intent(in) :: value
       character(len=64) :: title
 
@@ -246,9 +246,9 @@ contains
       where (form_table%name /= name) words = ""
    end function form_words
 
-   !> Key under which such a number, or a list of groups of numbers, stands in its group; blank for others
+   !> Key of such a number, or of a list of groups of numbers, in its group; blank for others
    pure function form_key(name) result(key)
-      !> As the manual has it, in capital letters
+      !> Name as in the manual, in capital letters
       character(len=*), intent(in) :: name
       character(len=key_length) :: key
 
@@ -262,11 +262,11 @@ contains
       end select
    end function form_key
 
-   !> Key of an item of a line; of "A|B" it is A when the first number of the line is positive
+   !> Key of an item of a line; for "A|B" it is A if the first number of the line is positive
    pure function key_of_item(items, k) result(key)
-      !> The line
+      !> Items of the line
       type(archive_item), intent(in) :: items(:)
-      !> Place of the item
+      !> Index of the item
       integer, intent(in) :: k
       character(len=key_length) :: key
       integer :: bar
@@ -288,13 +288,13 @@ contains
 
    !> A message in the words of the readable format: digits as keys and words, names of numbers in small letters
    !>
-   !> What stands in double quotes stays, as it is told as it was given.
+   !> Text in double quotes is unchanged, since it quotes the input.
    subroutine tell_in_words(message, module_number, text)
-      !> In the terms of input files
+      !> Message in the terms of input files
       character(len=*), intent(in) :: message
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> In the terms of the readable format
+      !> Message in the terms of the readable format
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: name_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
       integer :: at, last
@@ -322,11 +322,11 @@ contains
       end do
    end subroutine tell_in_words
 
-   !> One name, and the digits behind it where there are any
+   !> Translate one name, and the digits after it if there are any
    subroutine tell_name(message, first, last, module_number, text)
       character(len=*), intent(in) :: message
       integer, intent(in) :: first
-      !> On entry of the name, on return of what was told
+      !> Position of the last character: on entry of the name, on return of the translated part of the message
       integer, intent(inout) :: last
       integer, intent(in) :: module_number
       character(len=:), allocatable, intent(inout) :: text
@@ -359,7 +359,7 @@ contains
       end do
    end subroutine tell_name
 
-   !> Length of the ", " or " or " behind a place, 0 for neither
+   !> Length of the ", " or " or " after a position, 0 for neither
    pure integer function gap_behind(message, last) result(gap)
       character(len=*), intent(in) :: message
       integer, intent(in) :: last
@@ -369,7 +369,7 @@ contains
       if (index(message(last + 1:), " or ") == 1) gap = 4
    end function gap_behind
 
-   !> Is there one figure, and no other behind it?
+   !> Is there a single figure, not followed by another?
    pure logical function is_figure(message, at)
       character(len=*), intent(in) :: message
       integer, intent(in) :: at
@@ -380,11 +380,11 @@ contains
       if (at < len(message)) is_figure = is_figure .and. verify(message(at + 1:at + 1), "0123456789.") > 0
    end function is_figure
 
-   !> IPOTCN = -3 and its like, "-5, -4 or -1"
+   !> Translate IPOTCN = -3 and similar, "-5, -4 or -1"
    subroutine tell_form(message, first, last, text)
       character(len=*), intent(in) :: message
       integer, intent(in) :: first
-      !> On entry of the name, on return of what was told
+      !> Position of the last character: on entry of the name, on return of the translated part of the message
       integer, intent(inout) :: last
       character(len=:), allocatable, intent(inout) :: text
       integer :: end_of_name, gap, length, status, value
@@ -406,12 +406,12 @@ contains
       end do
    end subroutine tell_form
 
-   !> A digit as a key and a word, or as what a case gives or not
+   !> A digit as a key and a word, or as a part that a case gives or not
    subroutine tell_digit(name, digit, module_number, with_key, text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
       integer, intent(in) :: module_number
-      !> The first one of several has its key
+      !> The key is written for the first one of several only
       logical, intent(in) :: with_key
       character(len=:), allocatable, intent(inout) :: text
       integer :: k, row
@@ -439,7 +439,7 @@ contains
       end if
    end subroutine tell_digit
 
-   !> What a case must have or lack for a digit that is no choice; blank for others
+   !> Condition on the groups of a case that is expressed by a digit that is no choice; blank for others
    pure function part_of(name, digit, module_number) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit, module_number
