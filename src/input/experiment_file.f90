@@ -17,10 +17,10 @@ module contact_input_experiment_file
 
    public :: experiment_reader, input_case, is_readable_format
 
-   !> Largest numbers on the module line, and number of different result elements
+   !> Maximum of the numbers on the module line; maximum number of different result elements
    integer, parameter :: highest_element = 999, highest_patch = 9, max_elements = 100
 
-   !> One case as it comes from the file
+   !> One case as read from the file
    type :: input_case
       !> Module, 0 at the end of the input
       integer :: module_number = 0
@@ -30,55 +30,55 @@ module contact_input_experiment_file
       integer :: number = 0
       !> Line of the first control word
       integer :: first_line = 0
-      !> Digits as the file gave them
+      !> Digits as in the file
       type(case_digits) :: digits
       type(case_spec) :: spec
-      !> What is wrong with it
+      !> Problems of its values
       type(problem_list) :: problems
    end type input_case
 
-   !> What a result element remembers of the cases of one module
+   !> Data of the cases of one module, stored for a result element
    type :: element_store
       integer :: module_number = 0, reid = 0, cpid = 1
       !> Number of cases of this module read so far
       integer :: cases = 0
-      !> The last case
+      !> The previous case
       type(case_spec) :: spec
-      !> Grid for which influence coefficients were last formed
+      !> Grid for which influence coefficients were last computed
       type(potential_contact) :: coefficients
-      !> What its cases gave, in the readable format
+      !> Keys given by its cases, in the readable format
       type(toml_memory) :: memory
    end type element_store
 
-   !> A file with the memory of its result elements
+   !> An input file with the stored data of its result elements
    type :: experiment_reader
-      !> The text
+      !> Text of the file
       type(input_lexer) :: lexer
-      !> Module that the reader is in; 0 when a module line comes next
+      !> Current module of the reader; 0 if a module line comes next
       integer, private :: module_number = 0
       !> Index of the current store
       integer, private :: current = 0
       !> Stores in the order of their first use
       integer, private :: count = 0
       type(element_store), allocatable, private :: stores(:)
-      !> The cases of the readable format; unallocated for the other one
+      !> Cases of the readable format; unallocated for the other format
       type(toml_cases), allocatable, private :: cases
-      !> The case whose numbers are varied, and where these are in the text
+      !> Case whose numbers are varied, and the nodes of these numbers
       type(case_address), private :: varied
       integer, allocatable, private :: varied_numbers(:)
-      !> Was it read without a problem before?
+      !> Has it been read without a problem before?
       logical, private :: is_repeat = .false.
    contains
-      !> Read a file from the disk
+      !> Read a file from disk
       procedure :: open_file => open_experiment
-      !> Take a text that is in memory already
+      !> Read a text in memory
       procedure :: open_text => open_experiment_text
       procedure :: open_readable => open_readable_text
-      !> Back to the beginning of the text
+      !> Return to the beginning of the text
       procedure :: rewind => rewind_experiment
-      !> The next case
+      !> Read the next case
       procedure :: next_case
-      !> Go to the next case of the readable format and find numbers that it gives; read it with other values of them
+      !> Advance to the next case of the readable format and find numbers that it gives; read it with other values of these numbers
       procedure :: prepare_variation
       procedure :: read_variation
       !> Replace the stored input of the case that was read last
@@ -91,13 +91,13 @@ module contact_input_experiment_file
 
 contains
 
-   !> Read a file from the disk
+   !> Read a file from disk
    subroutine open_experiment(self, file, error, below)
       class(experiment_reader), intent(out) :: self
       !> Path
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
-      !> Folder below which the file must be; absent: anywhere
+      !> Folder below which the file must be; absent: no restriction
       character(len=*), intent(in), optional :: below
 
       call self%lexer%open_file(file, error, below)
@@ -115,7 +115,7 @@ contains
       if (len(file) > len(suffix)) is_readable_format = file(len(file) - len(suffix) + 1:) == suffix
    end function is_readable_format
 
-   !> Make a tree of a text in the readable format
+   !> Parse a text in the readable format
    subroutine open_cases(self, error)
       class(experiment_reader), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -126,10 +126,10 @@ contains
       call self%cases%open_text(text, self%lexer%file, error)
    end subroutine open_cases
 
-   !> Take a text that is in memory already
+   !> Read a text in memory
    subroutine open_experiment_text(self, text, name)
       class(experiment_reader), intent(out) :: self
-      !> As the file would have it
+      !> Text as in a file
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name
@@ -138,28 +138,28 @@ contains
       allocate(self%stores(4))
    end subroutine open_experiment_text
 
-   !> Take a text of the readable format that is in memory already
+   !> Read a text of the readable format in memory
    subroutine open_readable_text(self, text, name, error)
       !> The reader
       class(experiment_reader), intent(out) :: self
-      !> In the readable format
+      !> Text in the readable format
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name
-      !> It cannot be done
+      !> Allocated if the text cannot be parsed
       type(error_type), allocatable, intent(out) :: error
 
       call self%open_text(text, name)
       call open_cases(self, error)
    end subroutine open_readable_text
 
-   !> Go to the next case, which belongs to the problem of the one before, and find numbers that it gives
+   !> Advance to the next case, which must belong to the same problem as the previous one, and find numbers that it gives
    subroutine prepare_variation(self, names, error)
       !> The reader
       class(experiment_reader), intent(inout) :: self
-      !> "group.key", each once
+      !> Names "group.key", without duplicates
       character(len=*), intent(in) :: names(:)
-      !> It cannot be done
+      !> Allocated if a number cannot be varied
       type(error_type), allocatable, intent(out) :: error
       integer :: k
       logical :: ends_module
@@ -183,11 +183,11 @@ contains
       end do
    end subroutine prepare_variation
 
-   !> Read the case of `prepare_variation` with other values; what it keeps is always that of the case before
+   !> Read the case of `prepare_variation` with other values; kept values are always those of the case before it
    subroutine read_variation(self, values, this)
       !> The reader
       class(experiment_reader), intent(inout) :: self
-      !> Of the numbers, in the units of their keys
+      !> Values of the numbers, in the units of their keys
       real(wp), intent(in) :: values(:)
       !> The case
       type(input_case), intent(out) :: this
@@ -208,7 +208,7 @@ contains
          self%is_repeat = .true.
          return
       end if
-      ! once more, with the values as texts for the complaint
+      ! repeated with the values as texts for the message
       do k = 1, size(values)
          call self%cases%write_number(self%varied_numbers(k))
       end do
@@ -217,7 +217,7 @@ contains
 
    contains
 
-      !> Read the case in hand with its present values
+      !> Read the current case with its present values
       subroutine read_it()
          associate (store => self%stores(self%current))
             coefficients = store%coefficients
@@ -227,7 +227,7 @@ contains
       end subroutine read_it
    end subroutine read_variation
 
-   !> Back to the beginning of the text, with an empty memory
+   !> Return to the beginning of the text, and clear the stored data
    subroutine rewind_experiment(self)
       class(experiment_reader), intent(inout) :: self
 
@@ -240,11 +240,10 @@ contains
       if (allocated(self%cases)) call self%cases%rewind()
    end subroutine rewind_experiment
 
-   !> The next case, with its module number 0 at the end
+   !> Read the next case; its module number is 0 at the end
    !>
-   !> Problems of values are in the case and do not stop the reader: its list tells whether the case can be
-   !> solved, and the stored input is that of the file in any event. After an error nothing can be read any
-   !> more.
+   !> Problems of values are stored in the case and do not stop the reader: its list shows whether the case can be solved, and the
+   !> stored input is that of the file in any event. Nothing can be read after an error.
    subroutine next_case(self, this, error)
       class(experiment_reader), intent(inout) :: self
       type(input_case), intent(out) :: this
@@ -279,7 +278,7 @@ contains
       end associate
    end subroutine next_case
 
-   !> The next case of the readable format
+   !> Read the next case of the readable format
    subroutine next_readable_case(self, this, error)
       class(experiment_reader), intent(inout) :: self
       type(input_case), intent(inout) :: this
@@ -310,7 +309,7 @@ contains
    end subroutine next_readable_case
 
    !> Replace the stored input of the case that was read last
-   !>
+   !> For data known only after the case was prepared, such as the curvatures of a Hertzian option.
    !> For what is known only after the case was prepared, such as the curvatures of a Hertzian option.
    subroutine store_case(self, spec)
       class(experiment_reader), intent(inout) :: self
@@ -355,7 +354,7 @@ contains
 
    contains
 
-      !> Range of a number that may be absent
+      !> Check the range of a number that may be absent
       subroutine check_number(value, highest)
          type(input_value), intent(in) :: value
          integer, intent(in) :: highest
@@ -367,7 +366,7 @@ contains
       end subroutine check_number
    end subroutine read_module_line
 
-   !> Number of the next case of the current result element and patch: both modules count together
+   !> Number of the next case of the current result element and patch, which counts the cases of both modules
    pure integer function next_number(self) result(number)
       class(experiment_reader), intent(in) :: self
 
@@ -376,9 +375,9 @@ contains
       end associate
    end function next_number
 
-   !> Make the store of a module, result element and patch the current one; 0 when there are too many
+   !> Select the store of a module, result element and patch; 0 if there are too many
    !>
-   !> What a case keeps is what the previous case of its own module left.
+   !> A case keeps values of the previous case of its own module.
    subroutine select_store(self, module_number, reid, cpid)
       class(experiment_reader), intent(inout) :: self
       integer, intent(in) :: module_number, reid, cpid

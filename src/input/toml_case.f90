@@ -1,7 +1,7 @@
-!> One case of the readable format: its choices and groups as digits, then the groups and all checks, as for input files
+!> One case of the readable format: choices and groups are converted to digits, then groups are read and checked as in input files
 !>
-!> A choice that a case does not name is that of the case before. A group that it does not give is kept; what is derived from a
-!> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
+!> A choice that a case does not give is that of the previous case. A group that it does not give is kept; data derived from a kept
+!> group are computed anew if the rest of the case requires it, or as requested by the key `renew`.
 module contact_input_toml_case
    use contact_base_choices, only : motion, slip_source
    use contact_cases_continuation, only : frame_of
@@ -32,7 +32,7 @@ module contact_input_toml_case
       & "influence", "material", "damping", "heat", "wear", "search", "track", "rail_profile", "deviations", "springs", &
       & "wheel_dimensions", "wheel_profile", "position", "velocity", "flexibility", "grid", "geometry", "extra_slip", &
       & "stress_output", "stress_points"]
-   !> Groups from which something is derived that can be formed anew
+   !> Groups with derived data that can be computed anew
    character(len=8), parameter :: renewable(3) = [character(len=8) :: "grid", "geometry", "material"]
    !> Keys of a case that are no choices
    character(len=14), parameter :: plain_keys(*) = [character(len=14) :: "module", "result_element", "contact_patch", "title", &
@@ -42,30 +42,30 @@ contains
 
    !> Read a case
    !>
-   !> As read_case of contact_input_reader; whatever is wrong is told in `problems`.
+   !> As read_case of contact_input_reader; all problems are reported in `problems`.
    subroutine read_toml_case(document, case_node, memory, used, module_number, ends_module, previous, has_previous, &
       & spec, problems, coefficients, digits, is_repeat)
       type(toml_document), intent(in), target :: document
       !> Table of the case
       integer, intent(in) :: case_node
-      !> What the cases of this result element gave before
+      !> Keys given by the previous cases of this result element
       type(toml_memory), intent(inout), target :: memory
-      !> Which nodes have been taken, one for each
+      !> Which nodes have been read, shape (nodes)
       logical, intent(inout), target :: used(:)
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> Is it the last case in a row of its module and result element?
+      !> Is it the last case in a series of its module and result element?
       logical, intent(in) :: ends_module
       !> The previous case of this module and result element, and whether there is one
       type(case_spec), intent(in) :: previous
-      !> Is there a case before, whose values stay where nothing is said?
+      !> Is there a previous case, whose values are kept if none are given?
       logical, intent(in) :: has_previous
       type(case_spec), intent(out) :: spec
-      !> Has been started
+      !> Must be started
       type(problem_list), intent(inout), target :: problems
-      !> Grid for which influence coefficients of module 3 were last formed
+      !> Grid for which influence coefficients of module 3 were last computed
       type(potential_contact), intent(inout) :: coefficients
-      !> Digits that stand for the case
+      !> Digits equivalent to the case
       type(case_digits), intent(out) :: digits
       !> Was the case read before, with other values of its numbers? Default false
       logical, intent(in), optional :: is_repeat
@@ -105,14 +105,14 @@ contains
       end do
    end subroutine read_toml_case
 
-   !> Choices that have a word, and numbers that stand for choices
+   !> Choices that have a word, and numbers that select choices
    subroutine take_choices(a, module_number, has_previous, words, is_good)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number
       logical, intent(in) :: has_previous
-      !> On entry the digits of the case before, or those that count where nothing is said
+      !> On entry the digits of the previous case, or the initial ones; on return those of the case
       type(control_words), intent(inout) :: words
-      !> False when a choice cannot be understood, so that nothing else can
+      !> False if a choice is invalid, so that nothing else can be interpreted
       logical, intent(out) :: is_good
       character(len=:), allocatable :: name, missing
       integer :: digit, k, node, row, table
@@ -161,7 +161,7 @@ contains
       end if
    end subroutine take_choices
 
-   !> Where the digit with a number in digit_names stands
+   !> Index of a digit in digit_names
    subroutine note_place(a, words, k, node)
       type(toml_reader), intent(in) :: a
       type(control_words), intent(inout) :: words
@@ -171,7 +171,7 @@ contains
       words%columns(k) = a%document%nodes(node)%column
    end subroutine note_place
 
-   !> The digit for a word, or a number that stands for itself
+   !> The digit for a word, or for a number that is given instead
    subroutine take_word(a, name, module_number, index, digit, is_known)
       type(toml_reader), intent(inout) :: a
       !> Letter of the digit
@@ -214,13 +214,13 @@ contains
       end associate
    end subroutine take_word
 
-   !> Digits that say which groups a case gives, keeps and renews, and what is no choice
+   !> Digits that specify which groups a case gives, keeps and renews, and those that are no choices
    subroutine take_groups(a, module_number, previous, has_previous, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number
       type(case_spec), intent(in) :: previous
       logical, intent(in) :: has_previous
-      !> Its digits of choices are known
+      !> Digits, of which those of choices are known
       type(control_words), intent(inout) :: words
       logical :: renew(size(renewable)), has_renew, rolls, rolled
 
@@ -264,7 +264,7 @@ contains
 
    contains
 
-      !> Does the case give a key of a group, or of itself?
+      !> Does the case give a key of a group, or of the case itself?
       logical function has_key(group, key)
          character(len=*), intent(in) :: group, key
          integer :: table
@@ -276,7 +276,7 @@ contains
          if (a%document%nodes(table)%kind == toml_kind%table) has_key = a%document%child(table, key) > 0
       end function has_key
 
-      !> The digit that was chosen, or that of the choice of the case before where it says "keep"
+      !> The chosen digit, or that of the choice of the previous case if the value is "keep"
       integer function or_kept(digit, name, choice)
          integer, intent(in) :: digit, choice
          character(len=*), intent(in) :: name
@@ -286,12 +286,12 @@ contains
       end function or_kept
    end subroutine take_groups
 
-   !> Groups of contact problems of their own
+   !> Groups of contact problems of module 3
    subroutine take_contact_groups(a, previous, has_previous, renew, has_renew, words)
       type(toml_reader), intent(in) :: a
       type(case_spec), intent(in) :: previous
       logical, intent(in) :: has_previous
-      !> What the key renew names, and is it there?
+      !> Groups named by the key renew; is the key present?
       logical, intent(in) :: renew(:), has_renew
       type(control_words), intent(inout) :: words
       integer :: table
@@ -332,7 +332,7 @@ contains
       end function brings_geometry
    end subroutine take_contact_groups
 
-   !> Groups of wheel and rail: each digit stands for several
+   !> Groups of wheel and rail: each digit represents several
    subroutine take_wheel_rail_groups(a, previous, has_previous, words)
       type(toml_reader), intent(in) :: a
       type(case_spec), intent(in) :: previous
@@ -360,7 +360,7 @@ contains
       end associate
    end subroutine take_wheel_rail_groups
 
-   !> The groups that `renew` names
+   !> The groups named by `renew`
    subroutine take_renew(a, renew, has_renew)
       type(toml_reader), intent(inout) :: a
       logical, intent(out) :: renew(size(renewable)), has_renew
@@ -406,12 +406,12 @@ contains
          call a%add_problem(severity%error, node, 'model must be "archard" or "none"')
       else
          spec%has_wear = a%document%text_of(node) == "archard"
-         ! the table of a case that ends them is visited by nobody
+         ! nothing else reads the table of a case that ends them
          a%used(table) = .true.
       end if
    end subroutine take_wear
 
-   !> solve, gap_weight, and names for people
+   !> solve, gap_weight, and the names of the case for users
    subroutine take_plain_keys(a, module_number, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number

@@ -12,20 +12,20 @@ module contact_input_toml_cases
 
    public :: case_address, toml_cases
 
-   !> Largest number of a result element and of a patch
+   !> Maximum number of a result element and of a patch
    integer(long), parameter :: highest_element = 999, highest_patch = 9
-   !> Real numbers below it are exact as integers
+   !> Real numbers below this bound are exact as integers
    real(wp), parameter :: largest_integer = 2.0_wp**53
-   !> Keys at the top of the file
+   !> Keys at the top level of the file
    character(len=5), parameter :: top_keys(2) = [character(len=5) :: "case", "title"]
 
-   !> To which problem a case belongs, and where it is
+   !> The problem to which a case belongs, and its position
    type :: case_address
-      !> 1 or 3; 0 behind the last case
+      !> 1 or 3; 0 after the last case
       integer :: module_number = 0
       !> Result element, 0 for the default one, and contact patch
       integer :: reid = 0, cpid = 1
-      !> First line of the case and last one before the next
+      !> First line of the case, and last line before the next
       integer :: line = 0, last_line = 0
    end type case_address
 
@@ -33,31 +33,31 @@ module contact_input_toml_cases
    type :: toml_cases
       type(toml_document) :: document
       character(len=:), allocatable, private :: file
-      !> Which nodes of the document have been taken
+      !> Which nodes of the document have been read
       logical, allocatable :: used(:)
-      !> Table of the case in hand, 0 before the first, and its address
+      !> Table of the current case, 0 before the first, and its address
       integer :: node = 0
       type(case_address), private :: address
    contains
       procedure :: open_text
       procedure :: rewind => rewind_cases
-      !> Go to the next case
+      !> Advance to the next case
       procedure :: go_on
-      !> Find numbers that the case in hand gives, and give them other values
+      !> Find numbers given by the current case, and change their values
       procedure :: find_number
       procedure :: set_number
-      !> Make its value the text that complaints show
+      !> Set the text of its value that messages show
       procedure :: write_number
    end type toml_cases
 
 contains
 
-   !> Make a tree of a text and look at its top
+   !> Parse a text and check its top level
    subroutine open_text(self, text, file, error)
       class(toml_cases), intent(out) :: self
-      !> As the file has it
+      !> Text as in the file
       character(len=*), intent(in) :: text
-      !> Name in messages
+      !> Name of the file in messages
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: key, message
@@ -99,7 +99,7 @@ contains
          & error_kind%input, file)
    end subroutine open_text
 
-   !> Back to before the first case
+   !> Return to the position before the first case
    subroutine rewind_cases(self)
       class(toml_cases), intent(inout) :: self
       type(case_address) :: start
@@ -109,10 +109,10 @@ contains
       self%used = .false.
    end subroutine rewind_cases
 
-   !> Go to the next case; its module, result element and patch are those of the one before unless it says others
+   !> Advance to the next case; its module, result element and patch are those of the previous one unless it gives others
    subroutine go_on(self, address, ends_module, error)
       class(toml_cases), intent(inout) :: self
-      !> Module 0 when there is no case left
+      !> Module 0 if there is no further case
       type(case_address), intent(out) :: address
       !> Does the next case belong to another problem, or is there none?
       logical, intent(out) :: ends_module
@@ -143,11 +143,11 @@ contains
       address = self%address
    end subroutine go_on
 
-   !> What a case says about the problem to which it belongs
+   !> Read the problem to which a case belongs
    subroutine find_address(self, node, address, error)
       class(toml_cases), intent(in) :: self
       integer, intent(in) :: node
-      !> On entry that of the case before
+      !> On entry the problem of the previous case
       type(case_address), intent(inout) :: address
       type(error_type), allocatable, intent(out) :: error
       integer :: index
@@ -188,7 +188,7 @@ contains
          end associate
       end subroutine take_integer
 
-      !> What cannot be understood
+      !> Problem of an invalid value
       subroutine refuse(place, message)
          integer, intent(in) :: place
          character(len=*), intent(in) :: message
@@ -199,11 +199,11 @@ contains
       end subroutine refuse
    end subroutine find_address
 
-   !> The node of a number "group.key" that the case in hand gives; 0 when it gives none
+   !> The node of a number "group.key" that the current case gives; 0 if it does not give it
    pure integer function find_number(self, name) result(index)
       !> The cases of a text
       class(toml_cases), intent(in) :: self
-      !> "group.key", or "key" for one of the case itself
+      !> "group.key", or "key" for a key of the case itself
       character(len=*), intent(in) :: name
       integer :: dot
 
@@ -216,20 +216,20 @@ contains
       if (self%document%nodes(index)%kind /= toml_kind%integer .and. self%document%nodes(index)%kind /= toml_kind%real) index = 0
    end function find_number
 
-   !> Place of the dot between group and key, 0 without one
+   !> Position of the dot between group and key, 0 if there is none
    pure integer function index_of_dot(name) result(dot)
       !> "group.key"
       character(len=*), intent(in) :: name
       dot = index(name, ".")
    end function index_of_dot
 
-   !> Give a number another value; a number that was written as an integer becomes a real one when the value is none
+   !> Change the value of a number; a number that was written as an integer becomes real if the value is no integer
    pure subroutine set_number(self, index, value)
-      !> The cases of a text
+      !> Cases of a text
       class(toml_cases), intent(inout) :: self
-      !> From find_number
+      !> Node, from find_number
       integer, intent(in) :: index
-      !> In the unit of the key
+      !> Value in the unit of the key
       real(wp), intent(in) :: value
 
       associate (node => self%document%nodes(index))
@@ -242,11 +242,11 @@ contains
       end associate
    end subroutine set_number
 
-   !> Make the value of a number the text that complaints show
+   !> Set the text of the value that messages show
    subroutine write_number(self, index)
       !> The cases of a text
       class(toml_cases), intent(inout) :: self
-      !> From find_number
+      !> Node, from find_number
       integer, intent(in) :: index
 
       associate (node => self%document%nodes(index))

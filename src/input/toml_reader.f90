@@ -1,8 +1,8 @@
-!> The archive that gives values to a case from a table of the readable format
+!> The archive that sets the values of a case from a table of the readable format
 !>
-!> Groups are tables of the case, numbers are keys with their names in small letters. A number that a group does not give is the
-!> one that the last case with this group gave; if there is none it keeps its preset value, or it is told as missing. Lists are
-!> arrays, and their lengths need not be told. An element of an array "gg" of two values serves for gg1 and gg2.
+!> Groups are tables of the case, numbers are keys with their names in small letters. A number that a group does not give is that of
+!> the last case with this group; if there is none, it keeps its preset value, or is reported as missing. Lists are arrays, whose
+!> lengths need not be given. An element of an array "gg" of two values is used for gg1 and gg2.
 module contact_input_toml_reader
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, item_kind, own_word, shown_length
@@ -21,11 +21,11 @@ module contact_input_toml_reader
 
    !> Reads the tables of a case
    type, extends(toml_tables) :: toml_reader
-      !> Number of the set or block in hand
+      !> Number of the current set or block
       integer :: part = 0
-      !> A group that may be missing altogether
+      !> Name of a group that may be missing altogether
       character(len=key_length) :: lenient_group = ""
-      !> Values of the last line, 0 where none was given
+      !> Values of the last line, 0 for those not given
       integer :: nodes(16) = 0
    contains
       procedure :: end_line => read_line
@@ -44,15 +44,15 @@ module contact_input_toml_reader
 
 contains
 
-   !> A reader of a case; all must outlive it
+   !> Create a reader of a case; all arguments must outlive it
    function new_toml_reader(document, case_node, problems, memory, used) result(reader)
       type(toml_document), intent(in), target :: document
       !> Table of the case
       integer, intent(in) :: case_node
       type(problem_list), intent(in), target :: problems
-      !> What cases before have said
+      !> Keys given by previous cases
       type(toml_memory), intent(in), target :: memory
-      !> One for each node
+      !> Which nodes have been read, shape (nodes)
       logical, intent(in), target :: used(:)
       type(toml_reader) :: reader
 
@@ -64,7 +64,7 @@ contains
       reader%used => used
    end function new_toml_reader
 
-   !> The keys that follow belong to a table of the case
+   !> The following keys belong to a table of the case
    subroutine open_table(self, text)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -90,7 +90,7 @@ contains
       self%group_node = 0
    end subroutine open_table
 
-   !> The keys that follow do not belong to the table
+   !> The following keys do not belong to the table
    subroutine close_table(self)
       class(toml_reader), intent(inout) :: self
 
@@ -100,7 +100,7 @@ contains
       self%part_node = 0
    end subroutine close_table
 
-   !> All sets of friction must have been asked for
+   !> Report sets of friction beyond the required number
    subroutine refuse_more_sets(self)
       class(toml_reader), intent(inout) :: self
       integer :: sets
@@ -112,7 +112,7 @@ contains
          & integer_text(self%document%nodes(sets)%count) // " sets of friction, wanted are " // integer_text(self%part))
    end subroutine refuse_more_sets
 
-   !> Give the items in hand their values
+   !> Set the values of the current items
    subroutine read_line(self)
       class(toml_reader), intent(inout) :: self
       integer :: k
@@ -128,7 +128,7 @@ contains
       call self%finish_line()
    end subroutine read_line
 
-   !> A line of a set of friction stands in a table of its own, and so does a block of points
+   !> A line of a friction set is in a table of its own, and so is a block of points
    subroutine enter_part(self)
       class(toml_reader), intent(inout) :: self
       character(len=5), parameter :: of_sets(*) = [character(len=5) :: "ALPHA", "SVF", "FSTAT", "FKIN", "FREF"]
@@ -156,7 +156,7 @@ contains
       self%is_good = .false.
    end subroutine enter_part
 
-   !> Go to the next table of an array; part_node is 0 behind the last
+   !> Advance to the next table of an array; part_node is 0 after the last
    subroutine enter_number(self, array)
       class(toml_reader), intent(inout) :: self
       !> Node, 0 for an empty array
@@ -173,7 +173,7 @@ contains
       if (self%part_node > 0) self%used(self%part_node) = .true.
    end subroutine enter_number
 
-   !> Give the variable of an item its value
+   !> Set the value of the variable of an item
    subroutine take_item(self, k)
       class(toml_reader), intent(inout) :: self
       integer, intent(in) :: k
@@ -214,7 +214,7 @@ contains
       end associate
    end subroutine take_item
 
-   !> What was never given has its default or its preset value, or is missing
+   !> A value that was never given has its default or its preset value, or is missing
    subroutine take_missing(self, item, key)
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
@@ -243,7 +243,7 @@ contains
       call self%add_problem(severity%error, 0, message // trim(closing))
    end subroutine take_missing
 
-   !> A word that stands for a number
+   !> A word that selects a number
    subroutine take_form(self, item, key, node)
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
@@ -266,11 +266,11 @@ contains
       complaint = told(self, key, node) // " is not known"
       if (place > 0) complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
       call self%add_problem(severity%error, node, complaint // " Known are " // words)
-      ! what follows depends on it
+      ! the meaning of the following keys depends on it
       self%is_good = .false.
    end subroutine take_form
 
-   !> A choice of this format only
+   !> A choice that exists in this format only
    subroutine read_choice(self, name, title, words, chosen, usual, none)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, title, words(:)
@@ -297,19 +297,19 @@ contains
       call refuse_own(self, name, node, known)
    end subroutine read_choice
 
-   !> A value that cannot be one of an own key is told once: later cases do not find it
+   !> A value that is not allowed for an own key is reported once: later cases do not inherit it
    subroutine refuse_own(self, name, node, known)
       class(toml_reader), intent(inout) :: self
-      !> The key, and what it may be
+      !> The key, and the allowed values
       character(len=*), intent(in) :: name, known
-      !> Of the value
+      !> Node of the value
       integer, intent(in) :: node
 
       call self%memory%remember(trim(self%group) // "." // name, 0)
       call self%add_problem(severity%error, node, name // " must be " // known)
    end subroutine refuse_own
 
-   !> A value as own_word writes it; blank where no choice can be one
+   !> A value as written by own_word; blank if it can be no choice
    pure function own_value(document, index) result(text)
       type(toml_document), intent(in) :: document
       integer, intent(in) :: index
@@ -325,7 +325,7 @@ contains
       end associate
    end function own_value
 
-   !> A number of this format only
+   !> A number that exists in this format only
    subroutine read_own_number(self, name, title, value, lowest, highest)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, title
@@ -349,7 +349,7 @@ contains
       end associate
    end subroutine read_own_number
 
-   !> Read exactly n numbers of an array, or of arrays in it
+   !> Read exactly n numbers of an array, which may be nested
    subroutine read_list(self, name, values, n, units, bounds)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -389,7 +389,7 @@ contains
       end if
    end subroutine read_list
 
-   !> A value cannot be used, is doubtful or was replaced
+   !> A value is invalid, is doubtful or was replaced
    subroutine tell_of_value(self, is_error, name, text)
       class(toml_reader), intent(inout) :: self
       logical, intent(in) :: is_error
@@ -399,7 +399,7 @@ contains
          & node_of(self, name), trim(self%shown(name)) // text)
    end subroutine tell_of_value
 
-   !> The case cannot be read on
+   !> The rest of the case cannot be read
    subroutine stop_reading(self, name, text)
       class(toml_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, text
@@ -408,7 +408,7 @@ contains
       self%is_good = .false.
    end subroutine stop_reading
 
-   !> The numbers of the group in hand do not go together or are doubtful
+   !> The numbers of the current group are inconsistent or doubtful
    subroutine tell_of_table(self, is_error, text)
       class(toml_reader), intent(inout) :: self
       logical, intent(in) :: is_error
@@ -430,7 +430,7 @@ contains
       call check_item(self, self%items(k), trim(key_of_item(self%items, k)), self%nodes(k), bounds)
    end subroutine check_value
 
-   !> Node of an item of the last line, 0 for none
+   !> Node of an item of the last line, 0 if there is none
    pure integer function node_of(self, name) result(node)
       class(toml_reader), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -441,7 +441,7 @@ contains
       if (k > 0) node = self%nodes(k)
    end function node_of
 
-   !> "key = value" of an item of the last line, with blanks behind
+   !> "key = value" of an item of the last line, padded with blanks
    pure function show_value(self, name) result(text)
       class(toml_reader), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -466,7 +466,7 @@ contains
       column = self%document%nodes(index)%column
    end subroutine place_of_node
 
-   !> Where an item of the last line stands
+   !> Position of an item of the last line
    subroutine place_value(self, name, line, column)
       class(toml_reader), intent(in) :: self
       character(len=*), intent(in) :: name

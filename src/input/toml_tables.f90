@@ -1,4 +1,5 @@
-!> The tables of a case in the readable format: looking up keys, now and in cases before, and what nobody has asked for
+!> Tables of a case in the readable format: looking up keys in this case and in previous ones, and finding keys that nothing has
+!> read
 module contact_input_toml_tables
    use contact_cases_archive, only : case_archive
    use contact_control_words, only : key_length, words_of
@@ -13,11 +14,11 @@ module contact_input_toml_tables
 
    public :: find, is_tables, leaves_of, list_of, number_of, sets_of, told, toml_memory, toml_tables
 
-   !> Most keys that cases ask for and remember
+   !> Maximum number of keys that cases read and store
    integer, parameter :: max_keys = 400
    integer, parameter :: name_length = 2*key_length
 
-   !> What the cases of a result element gave last: names "group.key" and nodes of the document
+   !> Values given last by the cases of a result element: names "group.key" and nodes of the document
    type :: toml_memory
       integer :: count = 0
       character(len=name_length) :: names(max_keys) = ""
@@ -27,40 +28,40 @@ module contact_input_toml_tables
       procedure :: remember
    end type toml_memory
 
-   !> What readers of tables know
+   !> State shared by the readers of tables
    type, abstract, extends(case_archive) :: toml_tables
       type(toml_document), pointer :: document => null()
-      !> What is wrong with the values of the case
+      !> Problems of the values of the case
       type(problem_list), pointer :: problems => null()
-      !> What cases before this one gave
+      !> Keys given by previous cases
       type(toml_memory), pointer :: memory => null()
-      !> Which nodes of the document have been taken
+      !> Which nodes of the document have been read
       logical, pointer :: used(:) => null()
-      !> Table of the case, of the group in hand and of the set or block in hand; 0 for none
+      !> Table of the case, of the current group and of the current set or block; 0 for none
       integer :: case_node = 0, group_node = 0, part_node = 0
       character(len=key_length) :: group = ""
-      !> Groups and keys that the case asked for, for the nearest right one
+      !> Groups and keys that the case has looked up, to suggest the nearest valid one
       integer :: asked_count = 0
       character(len=key_length) :: asked_groups(max_keys) = "", asked_keys(max_keys) = ""
       !> Is a value of the last line missing or wrong?
       logical :: line_is_bad = .false.
-      !> Was the case read before, with other values? Its keys are known then
+      !> Was the case read before, with other values? Then its keys are known already
       logical :: is_repeat = .false.
    contains
       procedure :: line_of
       !> Does the case give a group?
       procedure :: has_group
-      !> A key was asked for
+      !> Record that a key was looked up
       procedure :: note_key
-      !> A problem at a node, or at the case
+      !> Add a problem at a node, or at the case
       procedure :: add_problem
-      !> What the case gives and nothing asked for is an error
+      !> Report keys of the case that nothing has looked up, as errors
       procedure :: refuse_unused
    end type toml_tables
 
 contains
 
-   !> The node that was remembered for a name, 0 for none
+   !> The node stored for a name, 0 if there is none
    pure integer function recall(self, name) result(node)
       class(toml_memory), intent(in) :: self
       !> "group.key"
@@ -76,18 +77,18 @@ contains
    !> Does the case give a group?
    pure logical function has_group(self, group)
       class(toml_tables), intent(in) :: self
-      !> Its name
+      !> Name of the group
       character(len=*), intent(in) :: group
 
       has_group = self%document%child(self%case_node, group) > 0
    end function has_group
 
-   !> Remember the node for a name
+   !> Store the node for a name
    pure subroutine remember(self, name, node)
       class(toml_memory), intent(inout) :: self
       !> "group.key"
       character(len=*), intent(in) :: name
-      !> In the tree of the document
+      !> Node of the document
       integer, intent(in) :: node
       integer :: k
 
@@ -100,10 +101,10 @@ contains
       self%nodes(k) = node
    end subroutine remember
 
-   !> Is it an array of tables, of its own headers or in place?
+   !> Is it an array of tables, with headers or inline?
    pure logical function is_tables(document, index)
       type(toml_document), intent(in) :: document
-      !> In the tree of the document
+      !> Node of the document
       integer, intent(in) :: index
       integer :: k
 
@@ -115,10 +116,10 @@ contains
       end do
    end function is_tables
 
-   !> The n-th child, 0 when there are fewer
+   !> The n-th child, 0 if there are fewer
    pure integer function number_of(document, array, n) result(node)
       type(toml_document), intent(in) :: document
-      !> Node in the tree of the document, and which of its children, from 1
+      !> Node of the document, and index of the child, from 1
       integer, intent(in) :: array, n
       integer :: k
 
@@ -132,7 +133,7 @@ contains
    !> Number of values in an array of arrays
    recursive pure integer function leaves_of(document, index) result(n)
       type(toml_document), intent(in) :: document
-      !> In the tree of the document
+      !> Node of the document
       integer, intent(in) :: index
       integer :: k
 
@@ -148,10 +149,10 @@ contains
       end do
    end function leaves_of
 
-   !> A key was asked for
+   !> Record that a key was looked up
    subroutine note_key(self, group, key)
       class(toml_tables), intent(inout) :: self
-      !> "" for a key of the case
+      !> Group, "" for a key of the case
       character(len=*), intent(in) :: group, key
       integer :: k
 
@@ -165,7 +166,7 @@ contains
       self%asked_keys(k) = key
    end subroutine note_key
 
-   !> The sets of friction of the case; 0 for none
+   !> Node of the friction sets of the case; 0 if there are none
    integer function sets_of(self) result(node)
       class(toml_tables), intent(inout) :: self
 
@@ -175,10 +176,10 @@ contains
       if (node > 0) self%used(node) = .true.
    end function sets_of
 
-   !> A key of the table in hand, or remembered; 0 for none
+   !> A key of the current table, or a stored one; 0 if there is none
    integer function list_of(self, key) result(node)
       class(toml_tables), intent(in) :: self
-      !> As the file writes it
+      !> Key as in the file
       character(len=*), intent(in) :: key
       integer :: table
 
@@ -188,12 +189,12 @@ contains
       if (node == 0 .and. self%part_node == 0) node = self%memory%recall(trim(self%group) // "." // key)
    end function list_of
 
-   !> Find a key in the table in hand, then in those of cases before; an element of an array for names that end with a figure
+   !> Find a key in the current table, then in those of previous cases; for names that end with a figure, an element of an array
    subroutine find(self, key, node)
       class(toml_tables), intent(inout) :: self
-      !> As the file writes it
+      !> Key as in the file
       character(len=*), intent(in) :: key
-      !> 0 when it was never given
+      !> Node; 0 if it was never given
       integer, intent(out) :: node
       integer :: figure, stem, table
 
@@ -229,14 +230,14 @@ contains
       end if
    end subroutine find
 
-   !> A problem at a node; at the table in hand or the case where there is none
+   !> Add a problem at a node; without a node at the current table or the case
    subroutine add_problem(self, kind, index, message)
       class(toml_tables), intent(inout) :: self
       !> Member of severity
       integer, intent(in) :: kind
-      !> Node, 0 for none
+      !> Node, 0 if there is none
       integer, intent(in) :: index
-      !> One sentence
+      !> Message of one sentence
       character(len=*), intent(in) :: message
       integer :: place
 
@@ -249,7 +250,7 @@ contains
       end associate
    end subroutine add_problem
 
-   !> Length of a value in told
+   !> Maximum length of a value in messages
    pure integer function len_told(self, index) result(length)
       class(toml_tables), intent(in) :: self
       integer, intent(in) :: index
@@ -263,12 +264,12 @@ contains
       end associate
    end function len_told
 
-   !> "key = value" as it was given
+   !> "key = value" as in the input
    pure function told(self, key, index) result(text)
       class(toml_tables), intent(in) :: self
-      !> As the file writes it
+      !> Key as in the file
       character(len=*), intent(in) :: key
-      !> Of the value in the tree of the document
+      !> Node of the value
       integer, intent(in) :: index
       character(len=len(key) + 3 + len_told(self, index)) :: text
 
@@ -281,7 +282,7 @@ contains
       end associate
    end function told
 
-   !> Line on which a group begins, 0 when the case does not give it
+   !> Line on which a group begins, 0 if the case does not give it
    pure integer function line_of(self, name) result(line)
       class(toml_tables), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -292,10 +293,10 @@ contains
       if (node > 0) line = self%document%nodes(node)%line
    end function line_of
 
-   !> What the case gives and nothing asked for is an error, with the nearest key that was asked for
+   !> Report keys of the case that nothing has looked up, as errors, with the nearest valid key
    subroutine refuse_unused(self, known_groups)
       class(toml_tables), intent(inout) :: self
-      !> Groups that some case can have
+      !> All groups that a case can have
       character(len=*), intent(in) :: known_groups(:)
       integer :: k
 
@@ -310,7 +311,7 @@ contains
       end do
    end subroutine refuse_unused
 
-   !> Keys of a group, and of tables in it
+   !> Check the keys of a group, and of the tables in it
    recursive subroutine refuse_unused_below(self, index, group)
       class(toml_tables), intent(inout) :: self
       integer, intent(in) :: index
@@ -330,13 +331,13 @@ contains
       end do
    end subroutine refuse_unused_below
 
-   !> A key that nothing asked for
+   !> Report a key that nothing has looked up
    subroutine refuse_key(self, index, group, known)
       class(toml_tables), intent(inout) :: self
       integer, intent(in) :: index
-      !> Where it stands, "" for the case
+      !> Group of the key, "" for the case
       character(len=*), intent(in) :: group
-      !> Keys that other cases can have there
+      !> Keys of this group that are valid in other cases
       character(len=*), intent(in) :: known(:)
       character(len=key_length) :: keys(max_keys)
       character(len=:), allocatable :: message, words
@@ -350,7 +351,7 @@ contains
       else
          place = nearest_word(self%document%key_of(index), keys)
          if (place > 0) then
-            ! S_WS on a roller: a number of other cases
+            ! S_WS on a roller: a number that is valid in other cases
             if (bounds_of(capital(self%document%key_of(index))) > 0) then
                message = message // " has no meaning in this case, whose choices do not ask for it"
             else
