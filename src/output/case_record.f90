@@ -1,4 +1,4 @@
-!> What a solved case has to tell to programs: status, totals, how they were obtained
+!> Results of a solved case for programs: status, totals, and how they were obtained
 !>
 !> Values are unfiltered, unlike those of the .out file.
 module contact_output_case_record
@@ -21,38 +21,38 @@ module contact_output_case_record
    public :: case_head, describe_head, describe_list, describe_patch, describe_run, describe_wheel_rail, planned_text, &
       & run_summary, side_sign
 
-   !> How far a run has come
+   !> Progress of a run
    type :: run_summary
-      !> Cases of the input; where it cannot be read to its end, those up to there
+      !> Number of cases of the input; if it cannot be read to its end, number of those before that point
       integer :: planned = 0
       !> Can the input be read to its end?
       logical :: readable = .true.
-      !> Cases that are finished: solved, refused, or only taken note of
+      !> Number of finished cases: solved, refused, or only read
       integer :: finished = 0
-      !> How they ended, by members of case_state
+      !> Number of cases by their final status, indexed by the members of case_state
       integer :: ended(case_state%solved:case_state%refused) = 0
-      !> Why the run ended before all cases were finished; unallocated when it did not, or not yet
+      !> Why the run ended before all cases were finished; unallocated if it did not, or is still running
       character(len=:), allocatable :: reason
    contains
       !> Are all cases finished?
       procedure :: is_complete
    end type run_summary
 
-   !> Which case this is and how it went
+   !> Identification and status of a case
    type :: case_head
       !> Number of the case; result element, 0 for none; contact patch number of the module line; module
       integer :: number = 0, result_element = 0, contact_problem = 1, module_number = 3
       !> Line of the input at which the case begins
       integer :: line = 0
-      !> Cases of the run that are finished with this one
+      !> Number of finished cases of the run, including this one
       integer :: finished = 0
-      !> How it ended
+      !> Final status
       type(case_status) :: status
       !> Elapsed time of the solution [s]
       real(wp) :: seconds = 0.0_wp
    end type case_head
 
-   !> How an iteration ended, in words, by members of ending
+   !> How an iteration ended, in words, indexed by the members of ending
    character(len=*), parameter :: ending_names(ending%not_started:ending%out_of_time) = [character(len=15) :: "nothing to do", &
       & "converged", "iteration limit", "stagnated", "diverged", "beyond friction", "out of time"]
 
@@ -63,7 +63,7 @@ contains
       is_complete = self%readable .and. self%finished == self%planned .and. .not. allocated(self%reason)
    end function is_complete
 
-   !> "6 of 12 cases", "6 of at least 12 cases", with blanks behind
+   !> "6 of 12 cases", "6 of at least 12 cases", padded with blanks
    pure function planned_text(run) result(text)
       type(run_summary), intent(in) :: run
       character(len=48) :: text
@@ -75,7 +75,7 @@ contains
       end if
    end function planned_text
 
-   !> How far the run has come; how its cases ended is told at its end
+   !> Write the progress of the run; numbers of cases by their status are written at its end
    subroutine describe_run(record, run)
       class(record_writer), intent(inout) :: record
       type(run_summary), intent(in) :: run
@@ -124,7 +124,7 @@ contains
       if (.not. head%status%has_result()) call record%text("failure", "why there is no result", head%status%reason)
    end subroutine describe_head
 
-   !> What all patches of wheel and rail make together
+   !> Totals of all patches of a wheel on a rail together
    subroutine describe_wheel_rail(record, spec, pair)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
@@ -148,12 +148,12 @@ contains
       call record%close_group()
    end subroutine describe_wheel_rail
 
-   !> One contact patch: totals, what is to be thought of it, how it was solved
+   !> One contact patch: totals, warnings about them, and how it was solved
    subroutine describe_patch(record, spec, contact, place)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
-      !> Where it is, in module 1
+      !> Position of the patch, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
       type(total_list) :: totals
 
@@ -173,7 +173,7 @@ contains
    !> A group of totals, or of other values of a list
    subroutine describe_list(record, name, totals)
       class(record_writer), intent(inout) :: record
-      !> Of the group; a curve over the cases can be drawn of each total
+      !> Group name; each total can be plotted over the cases
       character(len=*), intent(in) :: name
       type(total_list), intent(in) :: totals
       integer :: k
@@ -192,13 +192,13 @@ contains
       call record%close_group()
    end subroutine describe_list
 
-   !> Estimated errors of the totals; those that have none are named
+   !> Estimated errors of the totals; totals without an estimate are named
    subroutine describe_errors(record, errors, totals, reason)
       class(record_writer), intent(inout) :: record
-      !> Of the first totals of the list, in their units; NaN for none
+      !> Errors of the first totals of the list, in their units; NaN for those without an estimate
       real(wp), intent(in) :: errors(:)
       type(total_list), intent(in) :: totals
-      !> Why there is no estimate; "" where there is one
+      !> Why there is no estimate; "" if there is one
       character(len=*), intent(in) :: reason
       character(len=:), allocatable :: without
       integer :: k
@@ -222,10 +222,10 @@ contains
       call record%close_group()
    end subroutine describe_errors
 
-   !> What became of the accuracy that was asked for
+   !> Result of the solution to a prescribed accuracy
    subroutine describe_accuracy(record, report)
       class(record_writer), intent(inout) :: record
-      !> Of the case
+      !> Report of the case
       type(accuracy_report), intent(in) :: report
 
       call record%open_group("accuracy", columns=.true.)
@@ -248,7 +248,7 @@ contains
       call record%close_group()
    end subroutine describe_accuracy
 
-   !> Where contact is cut off by the border of the potential contact or the end of a profile; nothing where it is not
+   !> Position where contact is truncated by the border of the potential contact or the end of a profile; nothing if it is not
    subroutine describe_border(record, spec, contact)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
@@ -263,7 +263,7 @@ contains
       call record%close_group()
    end subroutine describe_border
 
-   !> How many elements wide contact is where these are too few; nothing where they are enough
+   !> Number of elements across the contact, if these are too few; otherwise nothing
    subroutine describe_resolution(record, contact)
       class(record_writer), intent(inout) :: record
       type(patch_result), intent(in) :: contact
@@ -277,7 +277,7 @@ contains
       call record%close_group()
    end subroutine describe_resolution
 
-   !> Which methods ended the solution of a patch, and how well
+   !> Methods that ended the solution of a patch, and their residuals
    subroutine describe_solution(record, spec, contact)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec

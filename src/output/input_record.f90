@@ -1,4 +1,4 @@
-!> The input of a case for programs: what was asked, kept groups included, by the groups, keys and words of the readable format
+!> The input of a case for programs: its specification, kept groups included, by the groups, keys and words of the readable format
 module contact_output_input_record
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -17,25 +17,25 @@ module contact_output_input_record
 
    public :: describe_input
 
-   !> Values of a key, one for each set or body where there are several
+   !> Values of a key, one for each set or body if there are several
    type :: key_values
       character(len=key_length) :: key = ""
       character(len=11) :: unit = ""
       character(len=80) :: title = ""
       logical :: is_count = .false., is_list = .false.
       real(wp), allocatable :: values(:)
-      !> A word instead
+      !> A word instead of values
       character(len=:), allocatable :: text
    end type key_values
 
-   !> The archive that hands each group to a file
+   !> The archive that writes each group to a record
    type, extends(case_archive) :: input_archive
       class(record_writer), pointer :: record => null()
-      !> Of the case: 1 or 3, choices, and whether motion is a shift
+      !> Data of the case: module 1 or 3, choices, and whether motion is a shift
       integer :: module_number = 3
       type(case_digits) :: digits
       logical :: is_shift = .false.
-      !> What the group in hand has so far: 1...n_keys
+      !> Number of keys of the current group so far, and the keys 1...n_keys
       integer :: n_keys = 0
       type(key_values), allocatable :: keys(:)
    contains
@@ -50,8 +50,8 @@ module contact_output_input_record
 
 contains
 
-   !> Choices by their words, digits as the case gave them, and all groups of numbers that the case uses, without points below
-   !> the surface and lists of all elements
+   !> Choices by their words, digits as given by the case, and all groups of numbers that the case uses, without points below the
+   !> surface and lists of all elements
    subroutine describe_input(record, spec)
       class(record_writer), intent(inout), target :: record
       type(case_spec), intent(in) :: spec
@@ -64,7 +64,7 @@ contains
       a%module_number = merge(1, 3, allocated(spec%wheel_rail))
       a%is_shift = spec%motion == motion%shift
       whole = spec
-      ! whatever the case uses; lists of all elements and points are in other places
+      ! all groups used by the case; lists of all elements and points are stored elsewhere
       whole%parts = case_parts(extra_slip=part_source%kept)
       whole%has_stress = .false.
       a%digits = digits_of(whole)
@@ -134,7 +134,7 @@ contains
       end if
    end subroutine record_choice
 
-   !> A number, unless none is requested
+   !> A number, unless the value means that none is requested
    subroutine record_number(self, name, title, value, lowest, highest)
       class(input_archive), intent(inout) :: self
       character(len=*), intent(in) :: name, title
@@ -146,14 +146,14 @@ contains
       if (value > 0.0_wp) call self%record%number(name, "-", title, value)
    end subroutine record_number
 
-   !> Hand over what the group has
+   !> Write the group to the record
    subroutine end_group(self)
       class(input_archive), intent(inout) :: self
       integer :: k, method
 
       do k = 1, self%n_keys
          associate (row => self%keys(k))
-            ! of smoothing splines a weight, of the other methods a wavelength
+            ! a weight for smoothing splines, a wavelength for the other methods
             if (row%key == "smooth") then
                call find_key(self, "ismooth", 0, method)
                row%unit = merge("mm3", "mm ", nint(self%keys(method)%values(1)) == 0)
@@ -172,7 +172,7 @@ contains
       call self%record%close_group()
    end subroutine end_group
 
-   !> Take the items in hand; what comes again, in the next set or for the second body, makes a list
+   !> Collect the current items; values that are repeated, for the next set or the second body, form a list
    subroutine take_line(self)
       class(input_archive), intent(inout) :: self
       character(len=key_length) :: key
@@ -193,7 +193,7 @@ contains
       call self%finish_line()
    end subroutine take_line
 
-   !> Add the value of an item to those of a key
+   !> Append the value of an item to those of its key
    subroutine add(self, key, item)
       class(input_archive), intent(inout) :: self
       character(len=*), intent(in) :: key
@@ -201,7 +201,7 @@ contains
       integer :: at, bounds
 
       bounds = item%row
-      ! one of two names
+      ! the item has one of two names
       if (bounds == 0) bounds = bounds_of(trim(capital(key)))
       call find_key(self, key, bounds, at)
       associate (row => self%keys(at))
@@ -224,11 +224,11 @@ contains
       end associate
    end subroutine add
 
-   !> Place of a key in the group, a new one if need be, with what the table of bounds says about it
+   !> Index of a key in the group, which is added if necessary, with unit and description from the table of bounds
    subroutine find_key(self, key, bounds, at)
       class(input_archive), intent(inout) :: self
       character(len=*), intent(in) :: key
-      !> Row of the table, 0 for none
+      !> Row of the table, 0 if there is none
       integer, intent(in) :: bounds
       integer, intent(out) :: at
       type(key_values), allocatable :: longer(:)
@@ -248,7 +248,7 @@ contains
       if (index(bounds_table(bounds)%unit, "...") == 0) self%keys(at)%unit = bounds_table(bounds)%unit
    end subroutine find_key
 
-   !> More values of a key
+   !> Append values to those of a key
    subroutine append(row, values)
       type(key_values), intent(inout) :: row
       real(wp), intent(in) :: values(:)
@@ -257,7 +257,7 @@ contains
       row%values = [row%values, values]
    end subroutine append
 
-   !> A list under its own name
+   !> A list, under its own name
    subroutine take_list(self, name, values, n, units, bounds)
       class(input_archive), intent(inout) :: self
       character(len=*), intent(in) :: name

@@ -1,6 +1,6 @@
-!> Cases in the readable format: choices by their words, then the groups that a case gives
+!> Cases in the readable format: choices by their words, followed by the groups that a case gives
 !>
-!> A case says what differs from the one before. What the reader would conclude for itself is left out, see
+!> A case contains what differs from the previous one. Digits that the reader derives from the rest of the case are left out, see
 !> contact_input_toml_case.
 module contact_output_toml_case_writer
    use contact_base_choices, only : motion, slip_source, variation
@@ -20,7 +20,7 @@ module contact_output_toml_case_writer
 
    character(len=*), parameter :: line_feed = achar(10)
 
-   !> What was written last for a result element
+   !> Texts written last for a result element
    type :: element_memory
       integer :: module_number = 0, reid = 0, cpid = 1
       logical :: is_first = .true.
@@ -28,9 +28,9 @@ module contact_output_toml_case_writer
       type(case_spec) :: spec
    end type element_memory
 
-   !> Writes one case after the other
+   !> Writes the cases of a file in turn
    type :: toml_experiment_writer
-      !> What was written so far
+      !> Text written so far
       type(text_buffer) :: text
       integer, private :: count = 0, current = 0
       type(element_memory), allocatable, private :: elements(:)
@@ -41,7 +41,7 @@ module contact_output_toml_case_writer
 
 contains
 
-   !> Write a case behind the others
+   !> Append a case
    subroutine add_case(self, module_number, reid, cpid, spec, remarks)
       class(toml_experiment_writer), intent(inout) :: self
       !> 1 or 3
@@ -49,7 +49,7 @@ contains
       !> Result element, 0 for the default one, and contact patch
       integer, intent(in) :: reid, cpid
       type(case_spec), intent(in) :: spec
-      !> Lines of comments above the case, each with its "# " and the end of the line
+      !> Lines of comments above the case, each with its "# " and line feed
       character(len=*), intent(in) :: remarks
       type(toml_writer) :: a
       type(remembered_texts), target :: presets, texts
@@ -84,7 +84,7 @@ contains
       end associate
    end subroutine add_case
 
-   !> The case with numbers that nobody has given, where they are preset
+   !> A copy of the case in which the numbers that have preset values have these
    subroutine make_preset(spec, preset)
       type(case_spec), intent(in) :: spec
       type(case_spec), intent(out) :: preset
@@ -115,11 +115,11 @@ contains
       preset%wheel_rail%wheel_profile%name = ""
    end subroutine make_preset
 
-   !> Module, result element and patch, where they are not those of the case before
+   !> Write module, result element and patch, if they differ from those of the previous case
    subroutine put_element(self, a, before)
       type(toml_experiment_writer), intent(in) :: self
       type(toml_writer), intent(inout) :: a
-      !> Number of the element of the case before, 0 for none
+      !> Index of the element of the previous case, 0 if there is none
       integer, intent(in) :: before
       type(element_memory) :: old
 
@@ -139,11 +139,11 @@ contains
       end associate
    end subroutine put_element
 
-   !> Choices that are not those of the case before
+   !> Write choices that differ from those of the previous case
    subroutine put_choices(a, module_number, is_first, old, spec)
       type(toml_writer), intent(inout) :: a
       integer, intent(in) :: module_number
-      !> Is there no case before?
+      !> Is there no previous case?
       logical, intent(in) :: is_first
       type(case_spec), intent(in) :: old, spec
       type(case_digits) :: digits, usual
@@ -185,7 +185,7 @@ contains
       call put_renewal(a, is_first, old, spec)
    end subroutine put_choices
 
-   !> What was written before for a choice that is kept in its own way does not count
+   !> The earlier text of a choice that is kept by a rule of its own is ignored
    subroutine forget(a, key)
       type(toml_writer), intent(inout) :: a
       character(len=*), intent(in) :: key
@@ -193,7 +193,7 @@ contains
       call a%memory%keep("." // key, "")
    end subroutine forget
 
-   !> The key renew, where the reader would renew something else
+   !> Write the key renew, if the reader would renew other groups
    subroutine put_renewal(a, is_first, old, spec)
       type(toml_writer), intent(inout) :: a
       logical, intent(in) :: is_first
@@ -223,7 +223,7 @@ contains
       a%case_text = a%case_text // "renew = [" // names(min(3, len(names) + 1):) // "]" // line_feed
    end subroutine put_renewal
 
-   !> What ends: damping and temperatures that the case before had; and how temperatures are computed
+   !> Write what ends: damping and temperatures of the previous case; and how temperatures are computed
    subroutine put_ends(a, old, spec, is_first)
       type(toml_writer), intent(inout) :: a
       type(case_spec), intent(in) :: old, spec
@@ -236,7 +236,7 @@ contains
 
    contains
 
-      !> A group with a model that is none
+      !> Write a group whose model is "none"
       subroutine end_group(group)
          character(len=*), intent(in) :: group
 
@@ -245,7 +245,7 @@ contains
       end subroutine end_group
    end subroutine put_ends
 
-   !> Make the memory of a result element the current one
+   !> Select the stored texts of a result element
    subroutine select_element(self, module_number, reid, cpid)
       class(toml_experiment_writer), intent(inout) :: self
       integer, intent(in) :: module_number, reid, cpid

@@ -1,7 +1,7 @@
 !> The archive that writes a case in the readable format
 !>
-!> Numbers that are those of the last case with this group are left out, and so are preset numbers that nobody has changed: the
-!> reader finds them again in the same way. Real numbers have as many figures as tell them apart from all others.
+!> Numbers equal to those of the last case with this group are left out, and so are unchanged preset numbers: the reader restores
+!> them by the same rules. Real numbers are written with as many figures as distinguish them from all others.
 module contact_output_toml_writer
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -18,11 +18,11 @@ module contact_output_toml_writer
    public :: quoted, remembered_texts, toml_writer
 
    integer, parameter :: max_keys = 400
-   !> Column of remarks, and width of lines of long lists
+   !> Column of remarks, and width of lines of long lists [characters]
    integer, parameter :: remark_column = 34, line_width = 100
    character(len=*), parameter :: line_feed = achar(10)
 
-   !> Texts of values by "group.key"
+   !> Texts of values, by "group.key"
    type :: remembered_texts
       integer :: count = 0
       character(len=2*key_length) :: names(max_keys) = ""
@@ -38,19 +38,19 @@ module contact_output_toml_writer
 
    !> Writes the tables of a case
    type, extends(case_archive) :: toml_writer
-      !> What was written so far of the case, of the group in hand, and of its sets or blocks
+      !> Text written so far of the case, of the current group, and of its sets or blocks
       character(len=:), allocatable :: case_text, body, parts
       character(len=key_length) :: group = ""
-      !> What cases before this one gave, and what numbers are before any case gives them
+      !> Values given by previous cases, and preset values of numbers
       type(remembered_texts), pointer :: memory => null(), presets => null()
-      !> Of the case: 1 or 3, digits
+      !> Data of the case: module 1 or 3, digits
       integer :: module_number = 3
       type(case_digits) :: digits
-      !> Are preset numbers being noted? Then nothing is written
+      !> Are preset numbers being recorded? Then nothing is written
       logical :: is_recording = .false.
-      !> Has each row of the grid a friction of its own?
+      !> Has each row of the grid a friction law of its own?
       logical :: has_rows = .false.
-      !> Is a set or block in hand?
+      !> Is the current table a set or block?
       logical :: in_part = .false.
    contains
       procedure :: end_line => write_line
@@ -59,7 +59,7 @@ module contact_output_toml_writer
       procedure :: own_number => write_own_number
       procedure :: open_group => open_table
       procedure :: close_group => close_table
-      !> Add a key with a value to the group in hand, unless it is what it was
+      !> Add a key with a value to the current group, unless the value is unchanged
       procedure :: put
       !> Add a key to the case itself
       procedure :: put_choice
@@ -67,10 +67,10 @@ module contact_output_toml_writer
 
 contains
 
-   !> Is this the text that was kept for a name?
+   !> Is this the text stored for a name?
    pure logical function is_same(self, name, text)
       class(remembered_texts), intent(in) :: self
-      !> Of a group, and what it says
+      !> Name of a value, and its text
       character(len=*), intent(in) :: name, text
       integer :: k
 
@@ -80,10 +80,10 @@ contains
       end do
    end function is_same
 
-   !> Keep the text for a name
+   !> Store the text for a name
    pure subroutine keep(self, name, text)
       class(remembered_texts), intent(inout) :: self
-      !> Of a group, and what it says
+      !> Name of a value, and its text
       character(len=*), intent(in) :: name, text
       integer :: k
 
@@ -97,7 +97,7 @@ contains
       self%texts(k)%text = text
    end subroutine keep
 
-   !> A group begins
+   !> Begin a group
    subroutine open_table(self, text)
       class(toml_writer), intent(inout) :: self
       character(len=*), intent(in) :: text
@@ -110,7 +110,7 @@ contains
       call put_group_choices(self)
    end subroutine open_table
 
-   !> A choice
+   !> Write a choice
    subroutine write_choice(self, name, title, words, chosen, usual, none)
       class(toml_writer), intent(inout) :: self
       character(len=*), intent(in) :: name, title, words(:)
@@ -123,7 +123,7 @@ contains
       call put_own(self, name, trim(own_word(words(chosen))), title, chosen == usual)
    end subroutine write_choice
 
-   !> A number that is 0 where none is requested
+   !> Write a number that is 0 if none is requested
    subroutine write_own_number(self, name, title, value, lowest, highest)
       class(toml_writer), intent(inout) :: self
       character(len=*), intent(in) :: name, title
@@ -135,12 +135,12 @@ contains
       call put_own(self, name, trim(exact_text(value)), title, .not. value > 0.0_wp)
    end subroutine write_own_number
 
-   !> Write such a key, unless it is as it is anyway and no case has it
+   !> Write such a key, unless it has its default value and no previous case has given it
    subroutine put_own(self, name, text, title, is_usual)
       class(toml_writer), intent(inout) :: self
-      !> Key, its right-hand side, and meaning
+      !> Key, right-hand side, and meaning
       character(len=*), intent(in) :: name, text, title
-      !> Would readers take the same without the key?
+      !> Is it the value that readers use without the key?
       logical, intent(in) :: is_usual
 
       if (self%is_recording .or. (is_usual .and. all(self%memory%names /= trim(self%group) // "." // name))) return
@@ -151,7 +151,7 @@ contains
       end if
    end subroutine put_own
 
-   !> Choices that stand in the group in hand
+   !> Write the choices of the current group
    subroutine put_group_choices(self)
       class(toml_writer), intent(inout) :: self
       character(len=:), allocatable :: text
@@ -167,7 +167,7 @@ contains
       end do
    end subroutine put_group_choices
 
-   !> A group ends: its header, its keys, its sets; kinematics need no header when nothing has changed
+   !> End a group: its header, its keys, its sets; kinematics have no header if nothing has changed
    subroutine close_table(self)
       class(toml_writer), intent(inout) :: self
 
@@ -180,7 +180,7 @@ contains
       self%group = ""
    end subroutine close_table
 
-   !> Write the items in hand
+   !> Write the current items
    subroutine write_line(self)
       class(toml_writer), intent(inout) :: self
       character(len=:), allocatable :: text
@@ -202,7 +202,7 @@ contains
       call self%finish_line()
    end subroutine write_line
 
-   !> A set of friction or a block of points has a table of its own
+   !> A set of friction or a block of points is written as a table of its own
    subroutine begin_part(self)
       class(toml_writer), intent(inout) :: self
 
@@ -250,10 +250,10 @@ contains
       end select
    end subroutine text_of_item
 
-   !> An angle or a rate, in degrees where that is shorter and exactly the same
+   !> An angle or a rate, in degrees if that is shorter and exactly the same
    subroutine text_of_angle(value, unit, text)
       real(wp), intent(in) :: value
-      !> rad or rad/s
+      !> Value [rad] or [rad/s]
       character(len=*), intent(in) :: unit
       character(len=:), allocatable, intent(out) :: text
       integer, parameter :: short = 10
@@ -272,11 +272,11 @@ contains
       text = '"' // degrees // '"'
    end subroutine text_of_angle
 
-   !> A text in quotes
+   !> A text in double quotes
    pure subroutine quoted(value, text)
-      !> As the program has it
+      !> Text as in the program
       character(len=*), intent(in) :: value
-      !> With escapes
+      !> Text with escapes
       character(len=:), allocatable, intent(out) :: text
       character(len=6) :: escape
       integer :: k
@@ -295,14 +295,14 @@ contains
       text = text // '"'
    end subroutine quoted
 
-   !> Add a key with a value to the group in hand, unless the reader finds the value without it
+   !> Add a key with a value to the current group, unless the reader obtains the same value without it
    subroutine put(self, key, text, item, remark)
       class(toml_writer), intent(inout) :: self
-      !> As the file writes it, and its right-hand side
+      !> Key as in the file, and its right-hand side
       character(len=*), intent(in) :: key, text
-      !> With what it means
+      !> Item, with its meaning
       type(archive_item), intent(in), optional :: item
-      !> What is said about it where there is no item
+      !> Remark, if there is no item
       character(len=*), intent(in), optional :: remark
       character(len=:), allocatable :: line, name
       logical :: can_miss
@@ -338,7 +338,7 @@ contains
       end if
    end subroutine put
 
-   !> What a line means, as a comment, in the words of the format
+   !> Meaning of a line, as a comment in the words of the format
    subroutine add_remark(self, line, remark)
       class(toml_writer), intent(in) :: self
       character(len=:), allocatable, intent(inout) :: line
@@ -351,12 +351,12 @@ contains
       line = line // "  # " // text
    end subroutine add_remark
 
-   !> Add a key to the case itself, unless it is what it was
+   !> Add a key to the case itself, unless its value is unchanged
    subroutine put_choice(self, key, text, remark)
       class(toml_writer), intent(inout) :: self
-      !> text is a value of TOML
+      !> Key, and its right-hand side
       character(len=*), intent(in) :: key, text
-      !> "" for none
+      !> Remark; "" for none
       character(len=*), intent(in) :: remark
       character(len=:), allocatable :: line
 
@@ -367,7 +367,7 @@ contains
       self%case_text = self%case_text // line // line_feed
    end subroutine put_choice
 
-   !> Write a list as an array, one of small arrays where values belong together
+   !> Write a list as an array, as an array of small arrays if values belong together
    subroutine write_list(self, name, values, n, units, bounds)
       class(toml_writer), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -386,7 +386,7 @@ contains
          if (name == "Y,ALPHA" .or. name == "EXRHS") group = 2
          if (name == "XL,XH,YL,YH") group = 4
       end associate
-      ! written into a text that is long enough, so that time grows with the length only
+      ! written into a text of sufficient length, so that time is linear in the length
       allocate(character(len=n*27 + 64) :: text)
       last = 0
       line = key // " = ["
@@ -413,7 +413,7 @@ contains
 
    contains
 
-      !> Add a line
+      !> Append a line
       subroutine add_text(piece)
          character(len=*), intent(in) :: piece
 

@@ -1,4 +1,4 @@
-!> Contact surfaces and blocks below them as VTK files, for ParaView and its kin
+!> Contact surfaces and subsurface blocks as VTK files, for ParaView and similar programs
 !>
 !> <name>.<case><patch>.vts holds the elements as cells, <name>.<case><patch>.block<k>.vts the points of a
 !> subsurface block, <name>.<case>.rail.vts and .wheel.vts the surfaces of both bodies, and <name>.pvd lists all of them with
@@ -24,48 +24,49 @@ module contact_output_vtk_files
 
    public :: vtk_files
 
-   !> The collection of an experiment
+   !> The collection of files of an experiment
    type :: vtk_files
       !> Folder and name of the results
       character(len=:), allocatable, private :: base
-      !> The file of the collection, and the place of its closing lines in it [bytes]
+      !> File of the collection, and position of its closing lines [bytes]
       type(output_file), private :: file
       integer(c_long), private :: last = 0
-      !> Number of cases of the input, and of those of which a file could not be written
+      !> Number of cases of the input; number of cases of which a file could not be written
       integer, private :: planned = 0, lost = 0
    contains
       procedure :: open_collection
       procedure :: close_collection
       procedure :: place
-      !> The files of a solved case of module 3, and of module 1
+      !> Write the files of a solved case of module 3, of module 1
       procedure :: write_contact
       procedure :: write_wheel_rail
       procedure, private :: list_file
       procedure, private :: list_loss
    end type vtk_files
 
-   !> In the list, where files of a case are not there
+   !> Entry of the list for a case whose files are missing
    character(len=*), parameter :: loss = "    <!-- missing: a file of case "
 
-   !> Numbers of the surfaces of the bodies in the list, behind those of the patches
+   !> Part numbers of the surfaces of the bodies in the list, above those of the patches
    integer, parameter :: rail_part = 98, wheel_part = 99
 
-   !> Length of the remark at the end of the collection, so that each covers the one before
+   !> Length of the remark at the end of the collection, the same for all remarks, so that each overwrites the one before
+   !> [characters]
    integer, parameter :: remark_length = 80
 
 contains
 
-   !> Begin the collection
+   !> Open the collection
    subroutine open_collection(self, base, run, limits, error, place)
       class(vtk_files), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: base
-      !> What is planned
+      !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> As for open_result
+      !> Limits, as for open_result
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
-      !> Go on behind so many bytes
+      !> Continue after this number of bytes; absent: new file
       integer(long), intent(in), optional :: place
 
       self%base = base
@@ -87,13 +88,13 @@ contains
       call tell_unfinished(self)
    end subroutine open_collection
 
-   !> Bytes of the list so far, without its end
+   !> Size of the list so far, without its end [bytes]
    integer(long) function place(self)
       class(vtk_files), intent(in) :: self
       place = self%last
    end function place
 
-   !> Tell how far the run has come, and close
+   !> Record the progress of the run, and close
    subroutine close_collection(self, run, error)
       class(vtk_files), intent(inout) :: self
       type(run_summary), intent(in) :: run
@@ -109,7 +110,7 @@ contains
       call close_result(self%file, self%base // ".pvd", error)
    end subroutine close_collection
 
-   !> The end of the collection while the run goes on
+   !> Write the end of the collection of an unfinished run
    subroutine tell_unfinished(self)
       class(vtk_files), intent(inout) :: self
 
@@ -117,7 +118,7 @@ contains
       call self%file%flush_now()
    end subroutine tell_unfinished
 
-   !> The closing lines with a remark
+   !> Write the closing lines with a remark
    subroutine write_end(self, remark)
       class(vtk_files), intent(in) :: self
       character(len=*), intent(in) :: remark
@@ -139,7 +140,7 @@ contains
          & '" file="' // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
    end subroutine list_file
 
-   !> A line in front of the end of the collection
+   !> Insert a line before the end of the collection
    subroutine add_entry(self, line)
       class(vtk_files), intent(inout) :: self
       character(len=*), intent(in) :: line
@@ -150,7 +151,7 @@ contains
       call tell_unfinished(self)
    end subroutine add_entry
 
-   !> Say in the list that a file of a case could not be written
+   !> Record in the list that a file of a case could not be written
    subroutine list_loss(self, case_number)
       class(vtk_files), intent(inout) :: self
       integer, intent(in) :: case_number
@@ -159,7 +160,7 @@ contains
       call add_entry(self, loss // integer_text(case_number) // " -->")
    end subroutine list_loss
 
-   !> How many cases of a list have lost a file
+   !> Number of cases of a list of which a file is missing
    subroutine count_losses(name, length, lost)
       character(len=*), intent(in) :: name
       !> Length of the list [bytes]
@@ -185,7 +186,7 @@ contains
       end do
    end subroutine count_losses
 
-   !> A text as XML wants it
+   !> A text with the characters escaped that are reserved in XML
    pure function for_xml(text) result(safe)
       character(len=*), intent(in) :: text
       character(len=len(replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), '"', "&quot;"))) :: safe
@@ -193,7 +194,7 @@ contains
       safe = replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), '"', "&quot;")
    end function for_xml
 
-   !> A solved case of module 3
+   !> Write a solved case of module 3
    subroutine write_contact(self, head, spec, contact, error)
       class(vtk_files), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -205,14 +206,14 @@ contains
       if (allocated(error)) call self%list_loss(head%number)
    end subroutine write_contact
 
-   !> A solved case of module 1
+   !> Write a solved case of module 1
    subroutine write_wheel_rail(self, head, spec, pair, rail, wheel, error)
       class(vtk_files), intent(inout) :: self
       !> Number of the case
       type(case_head), intent(in) :: head
-      !> What was asked
+      !> Specification
       type(case_spec), intent(in) :: spec
-      !> What was found
+      !> Results
       type(wheel_rail_result), intent(in) :: pair
       !> Profiles or surfaces of both bodies
       type(body_profile), intent(in) :: rail, wheel
@@ -230,7 +231,7 @@ contains
       if (allocated(error)) call self%list_loss(head%number)
    end subroutine write_wheel_rail
 
-   !> The surface of a body; nothing where there is none
+   !> Write the surface of a body; nothing if there is none
    subroutine write_body(self, head, spec, pair, profile, name, error)
       type(vtk_files), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -254,7 +255,7 @@ contains
       call add_context(error, "writing VTK files")
    end subroutine write_body
 
-   !> Surface and blocks of a patch
+   !> Write surface and blocks of a patch
    subroutine write_patch(self, head, spec, contact, number, error, place)
       type(vtk_files), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -263,7 +264,7 @@ contains
       !> Number of the patch, 0 for module 3
       integer, intent(in) :: number
       type(error_type), allocatable, intent(out) :: error
-      !> Where the patch is, in module 1
+      !> Position of the patch, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
       character(len=:), allocatable :: name
       integer :: k, part
@@ -283,7 +284,7 @@ contains
       call add_context(error, "writing VTK files")
    end subroutine write_patch
 
-   !> The elements of a patch as cells
+   !> Write the elements of a patch as cells
    subroutine write_surface(name, spec, contact, error, place)
       character(len=*), intent(in) :: name
       type(case_spec), intent(in) :: spec
@@ -330,7 +331,7 @@ contains
       end associate
    end subroutine write_surface
 
-   !> The points of a subsurface block
+   !> Write the points of a subsurface block
    subroutine write_block(name, spec, block, error, place)
       character(len=*), intent(in) :: name
       type(case_spec), intent(in) :: spec
@@ -363,14 +364,14 @@ contains
       call finish_grid(grid, name, reshape(points, [size(points)]), error, spec%limits)
    end subroutine write_block
 
-   !> A point of a patch in track coordinates; as it is in module 3
+   !> A point of a patch in track coordinates; unchanged in module 3
    pure function in_track(local, s, place, row) result(point)
       !> x, y, z [mm] about the reference of the patch, for a right-hand pair
       real(wp), intent(in) :: local(3)
       !> -1 for the left side
       real(wp), intent(in) :: s
       type(wheel_rail_patch), intent(in), optional :: place
-      !> Row of elements at whose level the point is, for curved references; row i has its centre at i
+      !> Row of elements to which the height of the point is relative, for curved references; the centre of row i is at i
       real(wp), intent(in), optional :: row
       real(wp) :: point(3), t
       integer :: k
@@ -392,7 +393,7 @@ contains
       point(2) = s*point(2)
    end function in_track
 
-   !> A vector of a patch in track axes; as it is in module 3
+   !> A vector of a patch in track axes; unchanged in module 3
    pure function turned(local, s, place, row) result(vector)
       real(wp), intent(in) :: local(3), s
       type(wheel_rail_patch), intent(in), optional :: place
