@@ -23,15 +23,15 @@ module contact_hdf5_case_file
 
    !> The HDF5 file of an experiment
    type, extends(hdf5_file) :: hdf5_case_file
-      !> Where the results come from
+      !> Origin of the results
       type(provenance), private :: origin
    contains
       procedure :: open_file
-      !> Go on behind some of the rows of a file that was opened again, or give it up
+      !> Continue after the given rows of a reopened file, or refuse it
       procedure :: go_on
       procedure :: abandon
       procedure :: close_file
-      !> A case without result, of module 3, and of module 1
+      !> Write a case without result, of module 3, of module 1
       procedure :: write_failure
       procedure :: write_contact
       procedure :: write_wheel_rail
@@ -45,12 +45,12 @@ contains
       character(len=*), intent(in) :: name, experiment, version
       !> The input file, and the folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
-      !> What is planned
+      !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> Must files be below the folder?
+      !> Limits, with whether files must be below the folder
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
-      !> Absent for the provenance while it is not allocated
+      !> The folder if files are confined to it; otherwise unallocated, which is absent in calls
       character(len=:), allocatable :: below
 
       call self%make_file(name, experiment, "contact " // version, error)
@@ -60,7 +60,7 @@ contains
       call tell_start(self, run, error)
    end subroutine open_file
 
-   !> The run begins
+   !> Begin the run
    subroutine tell_start(file, run, error)
       class(hdf5_file), intent(inout) :: file
       type(run_summary), intent(in) :: run
@@ -83,13 +83,13 @@ contains
 
    subroutine go_on(self, cases, patches, input, folder, run, limits, error)
       class(hdf5_case_file), intent(inout) :: self
-      !> Rows that stay
+      !> Number of rows that are kept
       integer, intent(in) :: cases, patches
       !> The input file, and the folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
-      !> What is planned
+      !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> Must files be below the folder?
+      !> Limits, with whether files must be below the folder
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: told_at_the_end(3) = [character(len=13) :: "solved", "not_converged", "refused"]
@@ -107,7 +107,7 @@ contains
 
    subroutine close_file(self, run, error)
       class(hdf5_case_file), intent(inout) :: self
-      !> How far the run has come
+      !> Write the progress of the run
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
@@ -121,7 +121,7 @@ contains
       call self%finish_file(error)
    end subroutine close_file
 
-   !> A case that has no result: a row of /cases, and why
+   !> Write a case that has no result: a row of /cases, and the reason
    subroutine write_failure(self, head)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -130,7 +130,7 @@ contains
       call self%end_case(head%finished)
    end subroutine write_failure
 
-   !> A solved case of module 3
+   !> Write a solved case of module 3
    subroutine write_contact(self, head, spec, contact)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -145,7 +145,7 @@ contains
       call self%end_case(head%finished)
    end subroutine write_contact
 
-   !> A solved case of module 1
+   !> Write a solved case of module 1
    subroutine write_wheel_rail(self, head, spec, pair, rail, wheel)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
@@ -175,11 +175,11 @@ contains
       call self%end_case(head%finished)
    end subroutine write_wheel_rail
 
-   !> Note where a profile comes from
+   !> Record the origin of a profile
    subroutine note_profile(self, profile, limits)
       type(hdf5_case_file), intent(inout) :: self
       type(profile_spec), intent(in) :: profile
-      !> Must files be below the folder of the experiment?
+      !> Limits, with whether files must be below the folder of the experiment
       type(case_limits), intent(in) :: limits
 
       if (allocated(profile%points) .or. .not. allocated(profile%name)) return
@@ -219,7 +219,7 @@ contains
       if (contact_problem > 1) name = trim(name) // "_cp" // integer_text(contact_problem)
    end function name_of
 
-   !> One contact patch
+   !> Write one contact patch
    subroutine write_patch(file, head, number, spec, contact, place)
       class(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
@@ -227,7 +227,7 @@ contains
       integer, intent(in) :: number
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
-      !> Where it is, in module 1
+      !> Position of the patch, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
       integer :: k
 
@@ -268,14 +268,14 @@ contains
       call file%leave()
    end subroutine write_patch
 
-   !> The elements and their fields
+   !> Write the elements and their fields
    subroutine write_elements(file, left, contact, place)
       class(hdf5_file), intent(inout) :: file
-      !> Is this a wheel on the left side of the track?
+      !> Does the patch belong to a wheel on the left side of the track?
       logical, intent(in) :: left
-      !> In true coordinates of its side of the track
+      !> Result, in true coordinates of its side of the track
       type(patch_result), target, intent(in) :: contact
-      !> In module 1
+      !> Present in module 1
       type(wheel_rail_patch), intent(in), optional :: place
       type(element_field), allocatable :: rows(:)
       type(total_list) :: totals
@@ -317,7 +317,7 @@ contains
       call file%leave()
    end subroutine write_elements
 
-   !> Curved reference of conformal contact, one point per row of elements
+   !> Write the curved reference of conformal contact, one point per row of elements
    subroutine write_curve(file, spec, place)
       class(hdf5_file), intent(inout) :: file
       type(case_spec), intent(in) :: spec
@@ -348,7 +348,7 @@ contains
       end subroutine put
    end subroutine write_curve
 
-   !> Points of a profile about its marker
+   !> Write the points of a profile, relative to its marker
    subroutine write_profile(file, name, spec, curve)
       class(hdf5_file), intent(inout) :: file
       character(len=*), intent(in) :: name
@@ -362,7 +362,7 @@ contains
       call file%close_group()
    end subroutine write_profile
 
-   !> Displacements and stresses of a block of points
+   !> Write displacements and stresses of a block of points
    subroutine write_block(file, block)
       class(hdf5_file), intent(inout) :: file
       type(subsurface_result), intent(in) :: block

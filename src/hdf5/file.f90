@@ -1,4 +1,4 @@
-!> One HDF5 file per experiment: inputs, totals, fields and how they were obtained, case by case
+!> One HDF5 file per experiment: inputs, totals, fields and the methods that gave them, case by case
 !>
 !> Layout, see doc/user/results.md:
 !>
@@ -7,12 +7,12 @@
 !>     /case_0001/patch_1/totals/<name>, solver/<name>, fields/<name>, grid/<name>, subsurface/block_1/<name>
 !>     /case_0001/patch_1/x_element, y_element        dimension scales of the fields; those of a block are its x, y, z
 !>
-!> Every array has dimension scales: columns the number of the case, a list without others is its own.
+!> Every array has dimension scales: for columns the numbers of the cases; a list without another scale is its own.
 !>
-!> Groups and fields that are as they were in the case before are stored once and linked.
+!> Groups and fields that are unchanged since the previous case are stored once and linked.
 !>
-!> The file itself is `container`, the columns are `columns`, the values of a group `values`, and what can be linked `kept`; none of
-!> them knows what a case is.
+!> The file itself is `container`, the columns are `columns`, the values of a group `values`, and objects that can be linked `kept`;
+!> none of them depends on the content of a case.
 module contact_hdf5_file
    use hdf5, only : h5lcreate_hard_f, h5t_ieee_f64le, h5t_std_i8le, hid_t, hsize_t
    use contact_base_error, only : error_type
@@ -27,86 +27,86 @@ module contact_hdf5_file
 
    public :: hdf5_file
 
-   !> Conventions that units and flags follow
+   !> Conventions of units and flags
    character(len=*), parameter :: conventions = "CF-1.11"
    !> Number of this layout
    integer, parameter :: layout = 1
-   !> Wait this many times as long as the last copy took before the next one: 2 % of the time goes into copies, and up to 5 %
-   !> where nothing new would be readable for longer than the usual wait [s]; chosen
+   !> Ratio of the time between two copies to the time of the last copy: 2 % of the time is used for copies, and up to 5 % if
+   !> nothing new would be readable for longer than the usual wait [s]; chosen
    real(wp), parameter :: waits_per_copy = 50.0_wp, fewer_waits = 20.0_wp, usual_wait = 1.0_wp
-   !> Groups inside each other at most; a case has 3
+   !> Maximum depth of nested groups; a case has 3
    integer, parameter :: max_depth = 8
 
    !> The file
    type, extends(record_writer) :: hdf5_file
       type(hdf5_container) :: container
-      !> Totals of cases and of patches; which of them has the open row
+      !> Totals of cases and of patches; is the open row that of a patch?
       type(column_table), private :: cases, patches
       logical, private :: in_patch = .false.
-      !> Objects of the cases before
+      !> Objects of previous cases
       type(kept_list), private :: kept
-      !> The group in the making, the groups around it, and its place among kept objects
+      !> The open group, its parent groups and their number, and its path among kept objects
       integer(hid_t), private :: group = -1
       integer(hid_t), private :: parents(max_depth) = -1
       integer, private :: depth = 0
       character(len=:), allocatable, private :: place
-      !> Name and values of the group of values in the making; are they columns, are only texts stored beside the columns?
+      !> Name and values of the open group of values; are they columns, are only texts stored beside the columns?
       character(len=:), allocatable, private :: leaf
       type(value_list), private :: values
       logical, private :: as_columns = .false., only_texts = .false.
-      !> Do the lists of numbers in the group lie along the first of them?
+      !> Is the first list of numbers in the group the dimension scale of the others?
       logical, private :: is_table = .false.
-      !> Scales of the next arrays, in the order of their dimensions
+      !> Dimension scales of the next arrays, in the order of their dimensions
       integer(hid_t), private :: scales(3) = -1
-      !> Time of the last copy, and how long to wait for the next [s]
+      !> Time of the last copy, and minimum time until the next one [s]
       real(wp), private :: last_copy = 0.0_wp, wait = 0.0_wp
    contains
-      !> Begin a file; or go on with one, behind some of its rows of /cases and /patches
+      !> Create a file; or continue a file after given rows of /cases and /patches
       procedure :: make_file
       procedure :: open_again
       procedure :: rows
       procedure :: cut
       procedure :: finish_file
-      !> Remove the file in the making; what stands under its name stays
+      !> Remove the unfinished file; the file of the final name is unchanged
       procedure :: abandon
       procedure :: is_open
       !> Begin and end a case
       procedure :: begin_case
       procedure :: end_case
-      !> Begin and end a group of groups in the case
+      !> Open and close a group of groups in the case
       procedure :: enter
       procedure :: leave
-      !> A row of the columns of cases, or of patches
+      !> Begin a row of the columns of cases, or of patches
       procedure :: begin_row
-      !> An array over the elements, shape (mx, my), or the points of a block, shape (nx, ny, nz)
+      !> Write an array over the elements, shape (mx, my), or over the points of a block, shape (nx, ny, nz)
       procedure :: field
       procedure :: division
       procedure :: block
-      !> Places along a dimension of the arrays that follow
+      !> Write the coordinates along a dimension of the next arrays
       procedure :: scale
       procedure :: open_group
-      !> The lists of the open group are columns of a table
+      !> Declare the lists of the open group as columns of a table
       procedure :: make_table
       procedure :: close_group
-      !> Instead of close_group: the values become attributes of the file
+      !> Replaces close_group: the values become attributes of the file
       procedure :: close_attributes
-      !> Bring the readable file up to date
+      !> Update the readable file
       procedure :: renew
-      !> Size of the file in the making [bytes]
+      !> Size of the unfinished file [bytes]
       procedure :: bytes_so_far
       procedure :: take
    end type hdf5_file
 
 contains
 
-   !> Make the file
+   !> Create the file
    subroutine make_file(self, name, experiment, version, error)
       class(hdf5_file), intent(inout) :: self
       !> Name of the file
       character(len=*), intent(in) :: name
-      !> Name of the experiment, and of the program that writes
+      !> Name of the experiment, and of the program that writes the file
       character(len=*), intent(in) :: experiment, version
-      !> Allocated when the file cannot be written
+      !> Allocated if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%container%create(name, error)
@@ -125,12 +125,12 @@ contains
       end associate
    end subroutine make_file
 
-   !> Go on with a file of results
+   !> Continue a file of results
    subroutine open_again(self, name, error)
       class(hdf5_file), intent(inout) :: self
       !> Name of the file
       character(len=*), intent(in) :: name
-      !> Allocated when the file cannot be read or written
+      !> Allocated if the file cannot be read or written
       type(error_type), allocatable, intent(out) :: error
 
       call self%container%reopen(name, error)
@@ -144,17 +144,17 @@ contains
    !> Number of rows of a table
    pure integer function rows(self, patch)
       class(hdf5_file), intent(in) :: self
-      !> Of that of patches, or of cases?
+      !> Rows of the table of patches? Otherwise of cases
       logical, intent(in) :: patch
 
       rows = self%cases%rows()
       if (patch) rows = self%patches%rows()
    end function rows
 
-   !> Leave out what was written behind some rows
+   !> Remove data that were written after given rows
    subroutine cut(self, cases, patches, name_of)
       class(hdf5_file), intent(inout) :: self
-      !> Rows that stay
+      !> Number of rows that are kept
       integer, intent(in) :: cases, patches
       interface
          !> Name of the group of a case
@@ -182,10 +182,10 @@ contains
       end associate
    end subroutine cut
 
-   !> Write what is left and close
+   !> Write buffered data and close
    subroutine finish_file(self, error)
       class(hdf5_file), intent(inout) :: self
-      !> Allocated when anything failed
+      !> Allocated if any call has failed
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. self%container%is_open) return
@@ -197,7 +197,7 @@ contains
       call self%container%close_file(error)
    end subroutine finish_file
 
-   !> Remove the file in the making
+   !> Remove the unfinished file
    subroutine abandon(self)
       class(hdf5_file), intent(inout) :: self
       type(error_type), allocatable :: ignored
@@ -212,20 +212,20 @@ contains
       is_open = self%container%is_open
    end function is_open
 
-   !> The values of the group become attributes of the file
+   !> Make the values of the group attributes of the file
    subroutine close_attributes(self)
       class(hdf5_file), intent(inout) :: self
 
       call self%values%write_attributes(self%container)
    end subroutine close_attributes
 
-   !> Size of the file in the making [bytes]
+   !> Size of the unfinished file [bytes]
    integer(long) function bytes_so_far(self) result(bytes)
       class(hdf5_file), intent(in) :: self
       bytes = self%container%bytes_so_far()
    end function bytes_so_far
 
-   !> Bring the readable file up to date
+   !> Update the readable file
    subroutine renew(self)
       class(hdf5_file), intent(inout) :: self
       real(wp) :: before, took
@@ -244,17 +244,17 @@ contains
       class(hdf5_file), intent(inout) :: self
       !> Name of its group
       character(len=*), intent(in) :: name
-      !> Name of the contact problem to which the case belongs, as objects are kept for each
+      !> Name of the contact problem to which the case belongs; objects are kept for each
       character(len=*), intent(in) :: slot
 
       call self%container%new_group(self%container%file, name, self%group)
       self%place = slot
    end subroutine begin_case
 
-   !> End a case; the readable file has it now or soon
+   !> End a case; the readable file is updated now or later
    subroutine end_case(self, finished)
       class(hdf5_file), intent(inout) :: self
-      !> Cases of the run that are finished
+      !> Number of finished cases of the run
       integer, intent(in) :: finished
 
       call self%container%release(self%group)
@@ -263,7 +263,7 @@ contains
       call self%renew()
    end subroutine end_case
 
-   !> Go into a new group of the case
+   !> Open a new group of the case
    subroutine enter(self, name)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name !! Without slash
@@ -276,7 +276,7 @@ contains
       self%place = self%place // "/" // name
    end subroutine enter
 
-   !> Back to the group around it
+   !> Return to the parent group
    subroutine leave(self)
       class(hdf5_file), intent(inout) :: self
 
@@ -286,7 +286,7 @@ contains
       self%place = self%place(:index(self%place, "/", back=.true.) - 1)
    end subroutine leave
 
-   !> Begin a row of the columns of cases, or of those of patches
+   !> Begin a row of the columns of cases, or of patches
    subroutine begin_row(self, patch)
       class(hdf5_file), intent(inout) :: self
       logical, intent(in) :: patch !! Of the patches instead of the cases?
@@ -302,9 +302,9 @@ contains
    !> Begin a group of values
    subroutine open_group(self, name, columns, brief)
       class(hdf5_file), intent(inout) :: self
-      !> Empty for values that are columns only
+      !> Name; empty for values that are columns only
       character(len=*), intent(in) :: name
-      !> Are the values columns of totals too? Are numbers stored there only? Default: neither
+      !> Are the values columns of totals too? Are numbers stored as columns only? Default: no, no
       logical, intent(in), optional :: columns, brief
 
       self%leaf = name
@@ -316,14 +316,14 @@ contains
       self%values%count = 0
    end subroutine open_group
 
-   !> Lists of numbers in the open group, all of the same length, lie along the first of them
+   !> The first list of numbers in the open group is the dimension scale of the others, which have the same length
    subroutine make_table(self)
       class(hdf5_file), intent(inout) :: self
 
       self%is_table = .true.
    end subroutine make_table
 
-   !> Write the group of values; what is as in the case before is linked, as a whole or one by one
+   !> Write the group of values; values that are unchanged since the previous case are linked, together or one by one
    subroutine close_group(self)
       class(hdf5_file), intent(inout) :: self
       integer(hid_t) :: along, group
@@ -383,14 +383,14 @@ contains
       call self%values%add(item)
    end subroutine take
 
-   !> Places along a dimension of the arrays that follow, as a dataset of the group that was entered
+   !> Write the coordinates along a dimension of the next arrays, as a dataset of the open group
    subroutine scale(self, dimension, name, unit, title, values)
       class(hdf5_file), intent(inout) :: self
-      !> Its number, 1 for the one that runs fastest
+      !> Index of the dimension, 1 for the one that varies fastest
       integer, intent(in) :: dimension
       !> Name, unit and description
       character(len=*), intent(in) :: name, unit, title
-      !> The places
+      !> Coordinates
       real(wp), intent(in) :: values(:)
       integer(hsize_t) :: dims(1)
       integer(hid_t) :: none(0)
@@ -400,11 +400,11 @@ contains
          & self%scales(dimension))
    end subroutine scale
 
-   !> An array over the elements
+   !> Write an array over the elements
    subroutine field(self, name, unit, title, values)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name, unit, title !! Of the dataset; its unit, and in words what it is
-      !> Shape (mx, my)
+      !> Values, shape (mx, my)
       real(wp), intent(in), contiguous, target :: values(:, :)
       integer(hsize_t) :: dims(2)
 
@@ -413,11 +413,11 @@ contains
          & self%scales(:2))
    end subroutine field
 
-   !> Element states
+   !> Write element states
    subroutine division(self, name, title, states)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name, title !! Of the dataset, and in words what it is
-      !> Shape (mx, my)
+      !> States, shape (mx, my)
       integer, intent(in) :: states(:, :)
       real(wp), allocatable :: values(:, :)
       integer(hsize_t) :: dims(2)
@@ -427,13 +427,13 @@ contains
       call self%kept%write(self%container, self%group, self%place, name, "", title, values, dims, h5t_std_i8le, self%scales(:2))
    end subroutine division
 
-   !> An array over the points of a block
+   !> Write an array over the points of a block
    subroutine block(self, name, unit, title, values, nx, ny, nz)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name, unit, title !! Of the dataset; its unit, and in words what it is
-      !> Size nx ny nz, x fastest
+      !> Values, shape (nx ny nz), x fastest
       real(wp), intent(in), contiguous :: values(:)
-      !> Points in each direction
+      !> Number of points in each direction
       integer, intent(in) :: nx, ny, nz
       integer(hid_t) :: data
       integer(hsize_t) :: dims(3)

@@ -1,6 +1,6 @@
-!> Where results come from: the group /provenance with the time, a copy of the input, and hashes of input and profiles
+!> Origin of results: the group /provenance with the time, a copy of the input, and hashes of input and profiles
 !>
-!> The time stands in /provenance/created/seconds, so that who compares files by all but times leaves it out with the others.
+!> The time is stored in /provenance/created/seconds, so that comparisons that skip times skip it as well.
 module contact_hdf5_provenance
    use, intrinsic :: iso_c_binding, only : c_long, c_null_ptr, c_ptr
    use hdf5, only : h5dcreate_f, h5dget_type_f, h5dopen_f, h5dread_f, h5dwrite_f, h5gcreate_f, h5gopen_f, h5ldelete_f, &
@@ -21,20 +21,20 @@ module contact_hdf5_provenance
 
    public :: provenance
 
-   !> What is known of it while the file is open
+   !> Data of the group while the file is open
    type :: provenance
-      !> The group
+      !> Identifier of the group
       integer(hid_t), private :: group = -1
       !> Folder to which names of files are relative, "" for the current one
       character(len=:), allocatable, private :: folder
-      !> Names of the profiles that were noted, each in ":"
+      !> Names of the recorded profiles, each enclosed in ":"
       character(len=:), allocatable, private :: known
       integer, private :: profiles = 0
    contains
-      !> Begin with the input, or with what an interrupted run has noted
+      !> Begin with the input, or with the record of an interrupted run
       procedure :: start
       procedure :: start_again
-      !> Note a profile, at its first use
+      !> Record a profile, at its first use
       procedure :: note_profile
       procedure :: release
    end type provenance
@@ -43,14 +43,14 @@ module contact_hdf5_provenance
 
 contains
 
-   !> Begin with the input
+   !> Write name, hash and copy of the input
    subroutine start(self, container, input, folder, below)
       class(provenance), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of the input file, and folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
-      !> Folder below which files must be; absent: anywhere
+      !> Folder below which files must be; absent: no restriction
       character(len=*), intent(in), optional :: below
       integer :: status
 
@@ -62,7 +62,7 @@ contains
       call write_input(container, self%group, input, below)
    end subroutine start
 
-   !> Name, hash and copy of the input
+   !> Write name, hash and copy of the input into a group
    subroutine write_input(container, group, input, below)
       !> The open file
       type(hdf5_container), intent(inout) :: container
@@ -70,7 +70,7 @@ contains
       integer(hid_t), intent(in) :: group
       !> Name of the input file
       character(len=*), intent(in) :: input
-      !> Folder below which it must be; absent: anywhere
+      !> Folder below which the input must be; absent: no restriction
       character(len=*), intent(in), optional :: below
       type(input_lexer) :: lexer
       type(error_type), allocatable :: error
@@ -86,7 +86,7 @@ contains
       call write_copy(container, group, text)
    end subroutine write_input
 
-   !> When the file was begun
+   !> Write the time at which the file was created
    subroutine write_time(container, group)
       !> The open file
       type(hdf5_container), intent(inout) :: container
@@ -107,14 +107,14 @@ contains
       call container%release(inner)
    end subroutine write_time
 
-   !> Go on with the group that is there: the input may have been mended, profiles are those of the cases so far
+   !> Continue with an existing group: the input may have been corrected; profiles are those of the cases so far
    subroutine start_again(self, container, input, folder, below)
       class(provenance), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of the input file, and folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
-      !> Folder below which files must be; absent: anywhere
+      !> Folder below which files must be; absent: no restriction
       character(len=*), intent(in), optional :: below
       character(len=*), parameter :: changed(3) = [character(len=12) :: "input", "input_file", "input_sha256"]
       character(len=:), allocatable :: name
@@ -124,7 +124,7 @@ contains
       call h5lexists_f(container%file, group_name, is_there, status)
       call container%check(status)
       if (.not. is_there) then
-         ! of an earlier version
+         ! written by an earlier version
          call self%start(container, input, folder, below)
          return
       end if
@@ -178,18 +178,18 @@ contains
       call container%release(data)
    end subroutine read_name
 
-   !> Note name and hash of a profile file at its first use
+   !> Record name and hash of a profile file at its first use
    subroutine note_profile(self, container, name, confined)
       class(provenance), intent(inout) :: self
       !> The open file
       type(hdf5_container), intent(inout) :: container
-      !> As the input gives it
+      !> Name as in the input
       character(len=*), intent(in) :: name
-      !> Must it be below the folder of the experiment?
+      !> Must the file be below the folder of the experiment?
       logical, intent(in) :: confined
       type(input_lexer) :: lexer
       type(error_type), allocatable :: error
-      !> Absent for the lexer while it is not allocated
+      !> `below` is the folder if files are confined to it; otherwise unallocated, which is absent in calls
       character(len=:), allocatable :: below, path, text
       integer(hid_t) :: group
 
@@ -210,15 +210,15 @@ contains
       call container%release(group)
    end subroutine note_profile
 
-   !> Name and hash of a file
+   !> Write name and hash of a file
    subroutine describe(container, group, prefix, name, text)
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> Of the names of the datasets
+      !> Prefix of the names of the datasets
       character(len=*), intent(in) :: prefix
-      !> Name of the file and what it holds
+      !> Name of the file, and its content
       character(len=*), intent(in) :: name, text
 
       call write_text("file", "name of the file", name)
@@ -234,7 +234,7 @@ contains
       end subroutine write_text
    end subroutine describe
 
-   !> All bytes of the input, as one text of its length
+   !> Write all bytes of the input, as one text of its length
    subroutine write_copy(container, group, text)
       !> The open file
       type(hdf5_container), intent(inout) :: container
