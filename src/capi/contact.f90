@@ -18,12 +18,12 @@ module contact_capi_contact
 
    public :: set_creepages, set_extra_slip, set_grid, set_hertz, set_normal, set_undeformed_distance, set_velocity
 
-   !> Smallest velocity: a body that stands still counts as such [mm/s]
+   !> Minimum velocity; a body at rest is treated as moving with it [mm/s]
    real(wp), parameter :: min_velocity = 1.0e-9_wp
 
 contains
 
-   !> Potential contact area; in module 1 the contact search and discretisation
+   !> Set the potential contact area; in module 1 contact search and discretisation
    subroutine set_grid(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -35,7 +35,7 @@ contains
       end if
    end subroutine set_grid
 
-   !> Contact search of wheel and rail
+   !> Set the contact search of wheel and rail
    subroutine set_search(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -65,17 +65,17 @@ contains
       end associate
    end subroutine set_search
 
-   !> A grid of a contact problem
+   !> Set the grid of a contact problem
    subroutine set_window(a, unknown, lowest, highest, problem)
       type(caller), intent(inout) :: a
-      !> What there is not, and what there is instead
+      !> Message for an unknown option, with the known ones
       character(len=*), intent(in) :: unknown
-      !> IPOTCN
+      !> Range of IPOTCN
       integer, intent(in) :: lowest, highest
       type(library_problem), intent(inout) :: problem
       type(grid_spec) :: grid
 
-      ! both routines for the potential contact set the same
+      ! both routines for the potential contact belong to the same setting
       problem%setting%group = "potential contact"
       grid%form = a%single(1)
       if (grid%form < lowest .or. grid%form > highest) call a%refuse_call("there is no " // unknown)
@@ -87,7 +87,7 @@ contains
       if (grid%form == grid_form%hertz_line_curvature .or. grid%form == grid_form%hertz_line) problem%digits%b = 2
    end subroutine set_window
 
-   !> Hertzian geometry
+   !> Set a Hertzian geometry
    subroutine set_hertz(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -96,7 +96,7 @@ contains
       call set_window(a, "Hertzian option " // integer_text(a%single(1)) // "; -6 to -1 are", -6, -1, problem)
    end subroutine set_hertz
 
-   !> Undeformed distance
+   !> Set the undeformed distance
    subroutine set_undeformed_distance(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -116,7 +116,7 @@ contains
       if (a%is_good) problem%spec%geometry = geometry
    end subroutine set_undeformed_distance
 
-   !> Number of heights of a profile, the first value of the caller; 2 when it cannot be meant
+   !> Number of heights of a profile, from the first value of the caller; 2 if that value cannot be a number of heights
    pure integer function number_of_heights(a) result(n)
       type(caller), intent(in) :: a
 
@@ -127,16 +127,16 @@ contains
       end associate
    end function number_of_heights
 
-   !> A prescribed approach or force, which chooses N
+   !> Set a prescribed approach or force, which determines N
    subroutine set_normal(a, name, value, n, digit)
       type(caller), intent(inout) :: a
-      !> As the table of bounds has it
+      !> Name as in the table of bounds
       character(len=*), intent(in) :: name
-      !> Where the problem keeps it
+      !> Variable of the problem
       real(wp), intent(inout), target :: value
-      !> N of the problem
+      !> N-digit of the problem
       integer, intent(inout) :: n
-      !> What it becomes
+      !> New value of the N-digit
       integer, intent(in) :: digit
 
       call a%real(name, value)
@@ -144,7 +144,7 @@ contains
       if (a%is_good) n = digit
    end subroutine set_normal
 
-   !> Creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
+   !> Set creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
    subroutine set_creepages(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -165,7 +165,7 @@ contains
       end associate
    end subroutine set_creepages
 
-   !> Extra term of the rigid slip, one value per element; what is missing is zero
+   !> Set the extra term of the rigid slip, one value per element; missing values are zero
    subroutine set_extra_slip(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -185,12 +185,12 @@ contains
       if (is_heard(2)) call say(2, a%call_of, integer_text(given) // " values for " // integer_text(n) // " elements")
    end subroutine set_extra_slip
 
-   !> Rolling velocity
+   !> Set the rolling velocity
    subroutine set_velocity(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
 
-      ! as the published interface has it, a velocity without sign
+      ! by the published interface, the velocity has no sign
       associate (value => raised(abs(a%numbers(1)%v)*inward(problem%units, quantity%velocity), min_velocity))
          if (fits(a%call_of, "VELOC", value)) problem%stored%rolling%veloc = value(1)
       end associate

@@ -1,4 +1,4 @@
-!> What callers get of one patch: fields of its elements, their maxima, errors, wear
+!> Results of one patch for callers: fields of its elements, their maxima, errors, wear
 module contact_capi_fields
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -15,7 +15,7 @@ module contact_capi_fields
 
 contains
 
-   !> One element field by its number
+   !> Give one element field by its number
    subroutine get_field(a, view)
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view
@@ -33,11 +33,11 @@ contains
       end if
    end subroutine get_field
 
-   !> Fields that all cases have, one for each result of the routine
+   !> Give fields that exist in all cases, one for each result of the routine
    subroutine get_fields(a, view, names)
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view
-      !> Of the fields
+      !> Names of the fields
       character(len=*), intent(in) :: names(:)
       type(element_field), allocatable :: rows(:)
       integer :: k
@@ -48,10 +48,10 @@ contains
       end do
    end subroutine get_fields
 
-   !> Hand over one field as far as there is room, x running fastest, from the lowest y as the caller sees it
+   !> Write one field to the caller's array up to its size, x varying fastest, from the lowest y in the axes of the caller
    subroutine give_field(a, k, view, row)
       type(caller), intent(in) :: a
-      !> Number of the result
+      !> Index of the result
       integer, intent(in) :: k
       type(result_view), intent(in) :: view
       type(element_field), intent(in) :: row
@@ -60,14 +60,14 @@ contains
 
       unit = quantity_of(row%unit)
       factor = 1.0_wp
-      ! by contract shifts are in mm in all units, and the rigid slip has the other sign
+      ! by contract shifts are in mm in all units, and the rigid slip has the opposite sign
       if (any(row%name == ["sx", "sy", "wx", "wy"])) unit = quantity%number
       if (any(row%name == ["wx", "wy"])) factor = -1.0_wp
       factor = factor/row%divisor*outward(view%units, unit, row%along, view%left)
       call a%give(k, factor*reshape(row%values(:, view%rows()), [size(row%values)]))
    end subroutine give_field
 
-   !> Estimated errors of the totals of a patch; -1 for none
+   !> Estimated errors of the totals of a patch; -1 if there is no estimate
    subroutine get_errors(a, view)
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view
@@ -81,7 +81,7 @@ contains
       call a%give(1, view%errors(names))
    end subroutine get_errors
 
-   !> Totals of wear and fatigue of a patch; 0 for those that the case has not
+   !> Totals of wear and fatigue of a patch; 0 for those that do not exist in the case
    subroutine get_wear(a, view)
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view
@@ -92,7 +92,7 @@ contains
          & "traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]))
    end subroutine get_wear
 
-   !> Largest surface temperatures; 0 when they are not calculated
+   !> Maximum surface temperatures; 0 if they are not calculated
    subroutine get_largest_temperatures(a, view)
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view

@@ -1,4 +1,4 @@
-!> Cases of callers written as an input file of the program (flag 2002)
+!> Cases of callers, written as an input file of the program (flag 2002)
 module contact_capi_input_dump
    use contact_base_error, only : error_type
    use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
@@ -14,12 +14,12 @@ module contact_capi_input_dump
 
    public :: dump_contact_case, dump_wheel_rail_case
 
-   !> The amount: digits as given, complete cases
+   !> Value of the flag: digits as given, complete cases
    integer, parameter :: as_given = 1, complete = 2
 
 contains
 
-   !> A contact problem, after it was solved
+   !> Write a contact problem, after it was solved
    subroutine dump_contact_case(problem, spec)
       type(library_problem), intent(in) :: problem
       !> The case
@@ -39,7 +39,7 @@ contains
       ignored = dumps_input()
    end subroutine dump_contact_case
 
-   !> Wheel on rail, before it is solved
+   !> Write a wheel on a rail, before it is solved
    subroutine dump_wheel_rail_case(this, problem)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
@@ -70,7 +70,7 @@ contains
       ignored = dumps_input()
    end subroutine dump_wheel_rail_case
 
-   !> The name of a profile for the input file; one that was given by values gets a file, once
+   !> Name of a profile for the input file; a profile that was given by values is written to a file, once
    subroutine name_profile(this, number, body, profile, given)
       type(entry_type), intent(in) :: this
       !> Number of the case

@@ -1,4 +1,4 @@
-!> What callers get of one patch: totals, and its settings as they act
+!> Results of one patch for callers: totals, and the settings used in the solution
 module contact_capi_results
    use, intrinsic :: iso_c_binding, only : c_double
    use contact_base_choices, only : motion
@@ -36,7 +36,7 @@ contains
    !> V, chi, dq, spinxo, spinyo, tau_c0
    function kinematic_constants(problem, icp) result(list)
       type(library_problem), intent(in) :: problem
-      !> Patch of module 1
+      !> Index of the patch of module 1
       integer, intent(in) :: icp
       real(wp) :: list(6)
 
@@ -94,7 +94,7 @@ contains
       end subroutine take_flexibility
    end function material_constants
 
-   !> L, number of points, memory; position and coefficients per point, in internal units by contract
+   !> L, number of points, memory; position and coefficients of each point, in internal units by contract
    pure function friction_constants(spec) result(list)
       type(case_spec), intent(in) :: spec
       real(wp), allocatable :: list(:)
@@ -168,7 +168,7 @@ contains
       end associate
    end subroutine get_grid
 
-   !> Approach, prescribed or found
+   !> Approach, prescribed or computed
    subroutine get_approach(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -179,7 +179,7 @@ contains
       call a%give_each([approach*outward(problem%units, quantity%length)])
    end subroutine get_approach
 
-   !> Creepages or shifts, prescribed or found
+   !> Creepages or shifts, prescribed or computed
    subroutine get_creepages(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -228,7 +228,7 @@ contains
       end do
    end subroutine get_sensitivities
 
-   !> Processor and elapsed time of calculations since the last reset
+   !> Processor and elapsed time of calculations since the last reset [s]
    subroutine get_time(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -240,7 +240,7 @@ contains
       end if
    end subroutine get_time
 
-   !> Count the time of calculations from zero again
+   !> Reset the time of calculations to zero
    subroutine reset_time(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(inout) :: problem

@@ -1,7 +1,7 @@
-!> What is behind all settings and results: arguments are unpacked, the problem is found, and other threads are let in
+!> Common part of all routines for settings and results: unpacks arguments, finds the problem, and locks it against other threads
 !>
-!> A routine gets its arguments as a `caller`. A null pointer of C is no value: no elements, `no_number`, or not a number; and no
-!> room for a result.
+!> A routine receives its arguments as a `caller`. A null pointer from C is read as a missing value: no elements, `no_number`, or
+!> NaN; for a result, nothing is written.
 module contact_capi_routines
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
    use contact_base_kinds, only : wp
@@ -30,15 +30,15 @@ module contact_capi_routines
 
    public :: run_routine
 
-   !> Most points of a profile
+   !> Maximum number of points of a profile
    integer, parameter :: most_points = 1000000
 
 contains
 
    !> Run a routine
    subroutine run_routine(name, kinds, arguments) bind(c, name="contact_run_routine")
-      !> The routine as messages have it; letters for what it is for and for each of its arguments, see make_interface.py.
-      !> Null-terminated
+      !> Name of the routine in messages; letters for the problems it applies to and for each of its arguments, see
+      !> make_interface.py. Null-terminated
       character(kind=c_char), intent(in) :: name(*), kinds(*)
       !> Addresses of the arguments
       type(c_ptr), intent(in) :: arguments(*)
@@ -62,11 +62,11 @@ contains
       call leave(problem)
    end subroutine run_routine
 
-   !> Make a setting, or hand over results
+   !> Apply a setting, or give results
    subroutine do_what_is_asked(a, problem, view)
       type(caller), intent(inout) :: a
       type(library_problem), pointer, intent(inout) :: problem
-      !> For results that there are when a patch has been solved
+      !> For routines that require a solved patch
       type(result_view), intent(in) :: view
 
       select case (a%call_of%name)
@@ -136,9 +136,9 @@ contains
       end select
    end subroutine do_what_is_asked
 
-   !> Which problems a routine is for
+   !> Problems to which a routine applies
    pure type(scope_type) function scope_of(letter) result(allowed)
-      !> The first of its kinds
+      !> The first letter of its kinds
       character(kind=c_char), intent(in) :: letter
 
       select case (letter)
@@ -152,7 +152,7 @@ contains
       end select
    end function scope_of
 
-   !> Take the arguments of a call
+   !> Unpack the arguments of a call
    subroutine unpack_arguments(kinds, arguments, a)
       character(kind=c_char), intent(in) :: kinds(*)
       type(c_ptr), intent(in) :: arguments(*)
@@ -210,7 +210,7 @@ contains
 
    contains
 
-      !> Number of elements of an array, by the place of its length among the arguments; none when the array is not there
+      !> Number of elements of an array, from the argument that contains its length; 0 if the array is missing
       subroutine take_length()
          length = max(0, integer_at(arguments(1 + iachar(kinds(k + 1)) - iachar("0"))))
          if (.not. c_associated(arguments(place))) length = 0
@@ -219,7 +219,7 @@ contains
       end subroutine take_length
    end subroutine unpack_arguments
 
-   !> An integer of the caller
+   !> An integer argument
    integer function integer_at(address) result(value)
       type(c_ptr), intent(in) :: address
       integer(c_int), pointer :: argument
@@ -229,7 +229,7 @@ contains
       value = integer_of(argument)
    end function integer_at
 
-   !> A number of the caller
+   !> A real argument
    real(wp) function real_at(address) result(value)
       type(c_ptr), intent(in) :: address
       real(c_double), pointer :: argument

@@ -15,7 +15,7 @@ module contact_capi_wheel_rail_settings
 
 contains
 
-   !> Place of the rail in the track, deviations of the rail, springs of a massless rail (Z)
+   !> Position of the rail in the track, deviations of the rail, springs of a massless rail (Z)
    subroutine set_track(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -23,7 +23,7 @@ contains
       type(rail_spec) :: rail
 
       associate (method => a%single(1), wheel_rail => problem%spec%wheel_rail)
-         ! methods that set the same belong together
+         ! methods that set the same group belong together
          select case (method)
          case (0); continue
          case (1); problem%setting%group = "track"
@@ -46,7 +46,7 @@ contains
       end associate
    end subroutine set_track
 
-   !> Gauge or absolute placement, cant, radius of a roller, curvature
+   !> Gauge or absolute position, cant, radius of a roller, curvature
    subroutine visit_place(a, track)
       type(caller), intent(inout) :: a
       type(track_spec), intent(inout), target :: track
@@ -70,8 +70,8 @@ contains
       call a%end_line()
    end subroutine visit_place
 
-   !> Dimensions, position, velocity and flexible deviations of the wheelset: each routine takes its numbers, and E becomes what an
-   !> input file of the case has
+   !> Dimensions, position, velocity and flexible deviations of the wheelset: each routine sets its numbers, and E becomes the digit
+   !> of an equivalent case of an input file
    subroutine set_wheelset(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
@@ -89,7 +89,7 @@ contains
             select case (routine)
             case ("cntc_setWheelsetDimensions")
                if (method == 3 .or. method == 5) call visit_dimensions(a, wheelset)
-            ! on rollers as well; which place the first value is will be seen when the case is solved
+            ! on rollers as well; the meaning of the first value, which depends on the track, is resolved when the case is solved
             case ("cntc_setWheelsetPosition")
                call visit_position(a, wheelset, roller=.false., with_force=.false.)
             ! on rollers the first value is the pitch rate of the roller
