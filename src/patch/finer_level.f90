@@ -1,4 +1,4 @@
-!> A solution on other elements of the same window: where iterations on a finer grid start from
+!> A solution interpolated to other elements of the same window: initial values of the iterations on a finer grid
 module contact_patch_finer_level
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -11,11 +11,11 @@ module contact_patch_finer_level
 
 contains
 
-   !> Tractions between the centres of the old elements, bilinear; zero beyond the old window
+   !> Interpolate tractions between the centres of the old elements, bilinear; zero outside the old window
    subroutine interpolate_fields(grid, fields)
-      !> The new elements
+      !> Grid of the new elements
       type(potential_contact), intent(in) :: grid
-      !> On exit on these, without what particles carry along
+      !> On entry on the old elements, on exit on the new ones, without the memory carried by particles
       type(traction_fields), intent(inout) :: fields
       type(traction_fields) :: old
       integer :: first(2, max(grid%mx, grid%my))
@@ -50,25 +50,25 @@ contains
       end do
    end subroutine interpolate_fields
 
-   !> The element whose centre lies before a place, and how far the place lies behind it, in elements
+   !> The last element whose centre is at or before a point, and the distance of the point from this centre
    elemental subroutine place(distance, first, part)
-      !> From the centre of the first element [elements]
+      !> Distance from the centre of the first element [elements]
       real(wp), intent(in) :: distance
-      !> Number of the element, 0 or less before the first one
+      !> Index of the element, 0 or less before the first one
       integer, intent(out) :: first
-      !> 0 to 1
+      !> Distance from its centre [elements], 0 to 1
       real(wp), intent(out) :: part
 
       first = floor(distance) + 1
       part = distance - floor(distance)
    end subroutine place
 
-   !> Value between four centres, zero outside the field
+   !> Value interpolated between four centres, zero outside the field
    pure real(wp) function value_at(field, ix, iy, a, b) result(value)
       real(wp), intent(in) :: field(:, :)
-      !> Element before the place
+      !> Indices of the element before the point
       integer, intent(in) :: ix, iy
-      !> Parts of an element behind it
+      !> Distances from its centre [elements]
       real(wp), intent(in) :: a, b
       integer :: i, k
 

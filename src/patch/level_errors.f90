@@ -1,6 +1,6 @@
-!> Errors of totals from what they differ by between a solution and that with elements three times as long
+!> Errors of totals, estimated from the differences between a solution and that with elements three times as long
 !>
-!> Orders, and what errors are not below: see doc/theory/errors.md.
+!> For the orders, and the lower bounds of errors, see doc/theory/errors.md.
 module contact_patch_level_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
@@ -14,74 +14,77 @@ module contact_patch_level_errors
 
    public :: coupled_friction_floor, error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error, trusted
 
-   !> Order of what jumps with single elements
+   !> Order of totals that change by steps of single elements
    real(wp), parameter :: jump_order = 1.0_wp
-   !> Of frictional power with the first order: its error falls to 1/(1 + 1.65) with elements of a third; median of tests/accuracy
+   !> Order of frictional power with the first-order scheme: its error decreases to 1/(1 + 1.65) with elements of a third; median of
+   !> tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
-   !> Contact of fewer elements across is not resolved, and in that direction not coarsened either: any total is off by this times
+   !> Contact of fewer elements across is not resolved, and is not coarsened in that direction: relative error of any total, times
    !> n^-2; of the hard cases of tests/stability
    real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp
-   !> Tractions of unlike bodies pull pressures up where elements do not see it: factor of the difference parameter K times n^-2 in
-   !> the largest pressure; of the hard cases
+   !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
+   !> K times n^-2 in the largest pressure; of the hard cases
    real(wp), parameter :: coupled_floor = 4.0_wp
-   !> Pressures of unlike bodies drive tractions at the leading edge: factor of K k n^-1 in forces by the second order, with k = K
-   !> over the coefficient of friction, at most 1, see doc/theory/second_order.md
+   !> Pressures of unlike bodies cause tractions at the leading edge: factor of K k n^-1 in forces with the second-order scheme,
+   !> with k = K over the coefficient of friction, at most 1, see doc/theory/second_order.md
    real(wp), parameter :: coupled_friction_floor = 0.15_wp
-   !> Where they reach the bound beside adhesion, the zone of slip ahead is narrower than elements: factor of k^3 times the root of
-   !> the part that sticks, times n^-1; of unlike bodies with seed 8101
+   !> If these tractions reach the bound next to adhesion, the slip zone at the leading edge is narrower than an element: factor of
+   !> k^3 times the root of the fraction in adhesion, times n^-1; of unlike bodies with seed 8101
    real(wp), parameter :: hidden_slip = 0.5_wp
-   !> A peak of pressures bends by 4 n^-2 of itself over an element of a contact of n; what it bends beyond this multiple is a peak
-   !> that elements do not resolve, and off by this part of the bend; chosen with the hard cases of tests/stability
+   !> The relative second difference of a smooth peak over an element is 4 n^-2 for n elements across. The excess above this
+   !> multiple of n^-2 belongs to a peak that is not resolved, whose error is this fraction of the excess; chosen with the hard
+   !> cases of tests/stability
    real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
-   !> Errors of tangential forces and moment are at least this part of the largest of them
+   !> Minimum error of tangential forces and moment, as a fraction of the largest of their errors
    real(wp), parameter :: other_component = 0.2_wp
-   !> Where slip turns round without adhesion in between, elements do not see where: forces are off by this part of what an
-   !> element carries there. Root of the mean square over positions of the grid, two rollers of aluminium and steel; in shifts of
-   !> like bodies, where single elements at the edge of what slips back do so (kind shifts, seed 7101)
+   !> Where slip reverses its direction without adhesion in between, the position is not resolved: error of forces as a fraction of
+   !> the force of an element there. Root mean square over positions of the grid, two rollers of aluminium and steel; in shifts of
+   !> like bodies, where single elements at the edge of the region that slips back cause it (kind shifts, seed 7101)
    real(wp), parameter :: reversal_share = 0.7_wp, reversal_in_shifts = 0.18_wp
-   !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
+   !> General errors, for n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
    !> with seed 5301. Forces of steady rolling; of shifts
    real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.12_wp
-   !> The same of a single layer in rolling, whose slip has a length of its own: factor of n^-1 (seed 4001)
+   !> The same for a single layer in rolling, whose slip has its own characteristic length: factor of n^-1 (seed 4001)
    real(wp), parameter :: layer_floor = 0.3_wp
    !> Elements that do not resolve the relaxation of viscoelastic bodies: factor of n^-1, by order (seeds 8101 and 8103)
    real(wp), parameter :: relaxing_floor(2) = [0.05_wp, 0.15_wp]
-   !> Part of these that moments have where both forces are prescribed; of random contacts (seed 3101)
+   !> Fraction of these errors in moments if both forces are prescribed; of random contacts (seed 3101)
    real(wp), parameter :: moment_alone = 0.5_wp
-   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1,
-   !> there also of the energy of tractions
+   !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
+   !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures and of tractions
+   !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energies of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
-   !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
-   !> part and of n^-order of that of tractions, and part of the error of that by the levels; error in general over n^-2 of the
-   !> part of pressures; of random contacts of tests/accuracy
+   !> Elastic energy if the error of the part due to pressures is known with its sign. Unknown error: factors of n^-2 of that part
+   !> and of n^-order of the part due to tractions, and fraction of the error of the latter by the levels. General error over n^-2
+   !> of the part due to pressures. Of random contacts of tests/accuracy
    real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp, usual_energy = 0.055_wp
-   !> What levels tell of the power of the motion: part that has their sign, and part that has not; of random contacts of
-   !> tests/accuracy (seeds 1001 and 1002)
+   !> Change of the power of the motion between the levels: fraction that has the sign of the error, and fraction of unknown sign;
+   !> of random contacts of tests/accuracy (seeds 1001 and 1002)
    real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
-   !> Forces by the second order where friction falls with slip: factor of its relative deviations times n^-2 (seeds 1001 and 1002);
-   !> where slip turns, of its turn across the contact times n^-2 (seed 2001)
+   !> Forces with the second-order scheme if friction decreases with slip: factor of its relative deviations times n^-2 (seeds 1001
+   !> and 1002); if the direction of slip turns: of its turn across the contact times n^-2 (seed 2001)
    real(wp), parameter :: falling_floor = 6.0_wp, turning_floor = 0.15_wp
-   !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
-   !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak,
-   !> of like and of unlike bodies
+   !> Exponent of the ratio of an error by the levels to the general error, if larger than 1: of an error that jumps with the offset
+   !> of the grid the levels are two samples, and the general error is that usual for this number of elements. For forces and power
+   !> with the second-order scheme, and for the peak, of like and of unlike bodies
    real(wp), parameter :: trust(2) = [0.7_wp, 0.8_wp], peak_trust(2) = [0.65_wp, 0.75_wp]
-   !> Elements across on which the coarse level of a third of them sees what a peak is like; with fewer its difference is larger
-   !> than its order says, and counts with a smaller power; of viscoelastic bodies and bumpy profiles (seeds 55 and 5301)
+   !> Number of elements across for which the coarse level, with a third of them, resolves the shape of a peak; with fewer, its
+   !> difference is larger than its order predicts, and the exponent is smaller; of viscoelastic bodies and bumpy profiles (seeds 55
+   !> and 5301)
    real(wp), parameter :: clear_peak = 20.0_wp
-   !> Parts of the elastic energy have errors of opposite signs more often than not: median of their sum over the root of squares
+   !> The parts of the elastic energy usually have errors of opposite signs: median of their sum over the root of squares
    real(wp), parameter :: opposite = 0.45_wp
-   !> Part of a residual that shows in forces; measured between tolerances of 1e-2 and 1e-4
+   !> Fraction of a residual that appears as an error of forces; measured between tolerances of 1e-2 and 1e-4
    real(wp), parameter :: residual_share = 0.3_wp
 
 contains
 
-   !> What the error of a total is relative to, in its unit
+   !> Reference value of the relative error of a total, in its unit
    pure real(wp) function scale_of(row, scale) result(unit)
-      !> Of the finer level, with value and law
+      !> Total of the finer level, with value and law
       type(total), intent(in) :: row
-      !> See scales
+      !> See type scale_type
       type(scale_type), intent(in) :: scale
 
       unit = abs(row%value)
@@ -94,13 +97,13 @@ contains
 
    !> Error of one total in its unit
    pure real(wp) function error_of(row, difference, scale, errors) result(e)
-      !> The total of the finer level
+      !> Total of the finer level
       type(total), intent(in) :: row
-      !> Between the levels
+      !> Difference between the levels
       real(wp), intent(in) :: difference
-      !> See scales
+      !> See type scale_type
       type(scale_type), intent(in) :: scale
-      !> Its relative parts
+      !> Relative contributions to the error: solvers and window
       type(error_estimate), intent(in) :: errors
       real(wp) :: floor, part, stopping, unit
 
@@ -140,28 +143,28 @@ contains
       e = max(e, floor*unit) + (stopping + errors%window)*unit
    end function error_of
 
-   !> Part of the difference of the levels that is the error of the finer one, where there is an order
+   !> Ratio of the error of the finer level to the difference of the levels; 1 if errors have no clean order
    pure real(wp) function part_of(scale, order) result(part)
       type(scale_type), intent(in) :: scale
-      !> Of the error
+      !> Order of the error
       real(wp), intent(in) :: order
 
       part = 1.0_wp
       if (scale%clean) part = 1.0_wp/(coarsening**order - 1.0_wp)
    end function part_of
 
-   !> Error beyond that part of the difference of the levels, where friction follows temperatures whose errors have another order
+   !> Additional error if friction follows temperatures, whose errors have another order
    pure real(wp) function by_heat(scale, part, difference, unit) result(e)
       type(scale_type), intent(in) :: scale
-      !> That counts already
+      !> Ratio that is included already
       real(wp), intent(in) :: part
-      !> Between the levels, and what it is relative to
+      !> Difference between the levels, and reference value of the relative error
       real(wp), intent(in) :: difference, unit
 
       e = max(0.0_wp, 1.0_wp/(coarsening**scale%heat_order - 1.0_wp) - part)*min(difference, scale%warmed*unit)
    end function by_heat
 
-   !> Relative error of tangential forces of so many elements in general
+   !> General relative error of tangential forces for this number of elements
    pure real(wp) function friction_floor(scale) result(floor)
       type(scale_type), intent(in) :: scale
 
@@ -175,14 +178,15 @@ contains
       if (is_unseen(scale)) floor = floor*scale%irregular
    end function friction_floor
 
-   !> Its part of first order by elements that do not resolve the relaxation of the bodies, over the root of the part that sticks
+   !> First-order contribution of elements that do not resolve the relaxation of the bodies, over the root of the fraction in
+   !> adhesion
    pure real(wp) function unrelaxed(scale) result(floor)
       type(scale_type), intent(in) :: scale
 
       floor = merge(relaxing_floor(2), relaxing_floor(1), scale%order > first_order)*scale%relaxation/scale%mean_across
    end function unrelaxed
 
-   !> The same with what pressures of unlike bodies bring in, of first order by both schemes
+   !> The same including the contribution of pressures of unlike bodies, of first order with both schemes
    pure real(wp) function driven_floor(scale) result(floor)
       type(scale_type), intent(in) :: scale
 
@@ -191,17 +195,17 @@ contains
          & hidden_slip*scale%driven**3*sqrt(scale%sticking)/scale%mean_across)
    end function driven_floor
 
-   !> Is it a step of transient rolling that the second order is not made for?
+   !> Is it a step of transient rolling for which the second-order scheme is not suited?
    pure logical function is_long_step(scale)
       type(scale_type), intent(in) :: scale
 
       is_long_step = scale%steps .and. scale%order <= first_order
    end function is_long_step
 
-   !> Relative error of tangential tractions, where levels tell little of it at a single point: in transient rolling, and where
-   !> friction follows temperatures; zero otherwise
+   !> Relative error of tangential tractions in cases in which levels show little of it at a single point: in transient rolling, and
+   !> if friction follows temperatures; zero otherwise
    pure real(wp) function traction_error(scale) result(e)
-      !> See scales, with differences of the levels
+      !> See type scale_type; with differences of the levels
       type(scale_type), intent(in) :: scale
 
       e = scale%warmed/(coarsening**scale%heat_order - 1.0_wp)
@@ -209,48 +213,48 @@ contains
       if (is_long_step(scale)) e = e + force_error(scale%friction, scale%adhesion, scale%mean_across)
    end function traction_error
 
-   !> Do the levels tell nothing about tractions? Steps of one element are no steps of one element on a coarser level
+   !> Are tractions of both levels not comparable? Steps of one element are not steps of one element on a coarser level
    pure logical function is_unseen(scale)
       type(scale_type), intent(in) :: scale
 
       is_unseen = scale%steps .and. scale%order > first_order
    end function is_unseen
 
-   !> How much larger the error of the normal problem is than that of so many elements in general, at least 1
+   !> Ratio of the error of the normal problem to the general error for this number of elements, at least 1
    pure real(wp) function irregularity(row, difference, scale) result(ratio)
       !> Normal force or approach of the finer level
       type(total), intent(in) :: row
-      !> Between the levels
+      !> Difference between the levels
       real(wp), intent(in) :: difference
-      !> See scales
+      !> See type scale_type
       type(scale_type), intent(in) :: scale
 
       ratio = max(1.0_wp, difference/(coarsening**normal_order - 1.0_wp)*scale%across**2 &
          & /(normal_floor*max(abs(row%value), tiny(ratio))))
    end function irregularity
 
-   !> Power with which differences of levels count in forces and power, see trusted
+   !> Exponent for the differences of levels of forces and power, see trusted
    pure real(wp) function trust_in(scale) result(power)
       type(scale_type), intent(in) :: scale
 
       power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
    end function trust_in
 
-   !> What differences of levels tell, and the error of so many elements in general, together
+   !> Error from the differences of levels and the general error
    pure real(wp) function trusted(told, floor, power) result(e)
-      !> By the levels, and in general
+      !> Error by the levels, and general error
       real(wp), intent(in) :: told, floor
-      !> Of what is told above the general error
+      !> Exponent of the ratio of both, if larger than 1
       real(wp), intent(in) :: power
 
       e = told
       if (told > floor .and. floor > 0.0_wp) e = floor*(told/floor)**power
    end function trusted
 
-   !> Error of frictional power or work without that of solvers and window, in its unit
+   !> Error of frictional power or work without contributions of solvers and window, in its unit
    pure real(wp) function error_of_power(scale, difference, unit) result(e)
       type(scale_type), intent(in) :: scale
-      !> Between the levels, and power itself, positive
+      !> Difference between the levels, and the power itself, positive
       real(wp), intent(in) :: difference, unit
       real(wp) :: floor, full_power, heat
 
@@ -266,7 +270,7 @@ contains
          return
       end if
       e = difference
-      ! the power of the motion and what remains may change by as much with opposite signs
+      ! the power of the motion and the residual power may change by equal amounts of opposite signs
       if (scale%has_motion_power .and. .not. scale%balances) &
          & e = hypot(scale%motion_change, scale%surplus - scale%coarse_surplus)
       e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*e
@@ -278,12 +282,12 @@ contains
       e = e + heat
       if (scale%jumps) e = trusted(e, floor, trust_in(scale))
       e = max(e, floor)
-      ! of unlike bodies the balance tells errors of pressures, too, that hardly show in power by the second order
+      ! for unlike bodies the balance includes errors of pressures that hardly affect power with the second-order scheme
       if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
    end function error_of_power
 
-   !> Error of frictional power in steady rolling [W]: what friction does not take of the power of the motion, with its sign, and
-   !> the error of that power
+   !> Error of frictional power in steady rolling [W]: the difference of the power of the motion and frictional power, with its
+   !> sign, and the error of the power of the motion
    pure real(wp) function error_by_balance(scale, unit) result(e)
       type(scale_type), intent(in) :: scale
       !> Frictional power, positive [W]
@@ -294,11 +298,12 @@ contains
       told = part_of(scale, scale%order)*abs(scale%motion_change)
       if (scale%jumps) told = trusted(told, floor, trust_in(scale))
       e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
-      ! a surplus that jumps with the offset of the grid may be small by accident: that of the coarser level is another sample of it
+      ! a surplus that jumps with the offset of the grid may be small by chance: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, part_of(scale, scale%order)*abs(scale%coarse_surplus))
    end function error_by_balance
 
-   !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
+   !> Error of the elastic energy without contributions of solvers and window [J]: errors of its parts, whose signs vary between
+   !> cases
    pure real(wp) function error_of_energy(scale) result(e)
       type(scale_type), intent(in) :: scale
       real(wp) :: parts(2), floor(2), more
@@ -311,7 +316,7 @@ contains
          & more = layer_power_floor*scale%adhesion*abs(scale%energy(2))/scale%across
       if (scale%used > 0.0_wp) more = more + energy_of_forces*traction_error(scale)/scale%used*abs(scale%energy(2))
       if (scale%has_normal_energy .and. scale%across >= resolved) then
-         ! the error changes its sign with the offset of the grid: not less than half of its root of the mean square
+         ! the error changes its sign with the offset of the grid: at least half of its root mean square
          e = max(usual_energy*floor(1), hypot(scale%normal_energy + parts(2), &
             & dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)) + more))
          return
@@ -321,11 +326,12 @@ contains
       e = max(e, dot_product(energy_floor, [scale%irregular, 1.0_wp]*floor) + more)
    end function error_of_energy
 
-   !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak
+   !> Error of the largest pressure: the error of pressures, and with order 1 the difference between the peak and the nearest
+   !> element centre
    pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
-      !> Solved, with the parts of the error
+      !> Solved patch, with the contributions of solvers and window
       type(patch_result), intent(in) :: result
-      !> See scales
+      !> See type scale_type
       type(scale_type), intent(in) :: scale
       !> Peak of the pressures of the coarse level [N/mm2]
       real(wp), intent(in) :: coarse_peak
@@ -342,9 +348,10 @@ contains
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
 
-   !> How much the largest value is above the mean of its neighbours, twice, in the direction where that is more
+   !> Second difference at the largest value: twice its excess over the mean of its neighbours, in the direction in which it is
+   !> larger
    pure real(wp) function largest_bend(field) result(bend)
-      !> Shape (mx, my); zero is ahead of the first and behind the last value
+      !> Shape (mx, my); zero before the first and after the last value
       real(wp), intent(in) :: field(:, :)
       integer :: at(2)
 
@@ -354,7 +361,7 @@ contains
       if (size(field, 2) >= 3) bend = max(bend, 2.0_wp*field(at(1), at(2)) - beside_of(field(at(1), :), at(2)))
    end function largest_bend
 
-   !> Sum of the values on both sides of a place
+   !> Sum of the values on both sides of index i
    pure real(wp) function beside_of(line, i) result(sum_beside)
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
