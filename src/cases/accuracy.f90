@@ -1,8 +1,8 @@
-!> A contact problem to an accuracy that was asked for: grids in the same window, each finer than the one before
+!> A contact problem solved to a prescribed accuracy: grids in the same window, each finer than the one before
 !>
-!> The estimate of each grid (contact_patch_error_estimate) tells how many elements the next one needs. Cases that continue one
-!> another stand on the same elements (contact_cases_accuracy_series). Elements, order and tolerance that are chosen go into the
-!> specification, so that outputs tell what was solved.
+!> The estimate of each grid (contact_patch_error_estimate) determines the number of elements of the next. Cases that continue one
+!> another are solved on the same elements (contact_cases_accuracy_series). Chosen elements, order and tolerance are set in the
+!> specification, so that outputs describe what was solved.
 module contact_cases_accuracy
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use contact_base_accuracy_report, only : accuracy_report
@@ -30,20 +30,20 @@ module contact_cases_accuracy
 
    public :: solve_contact_case
 
-   !> Elements of a side that stand for plane strain, and are not refined
+   !> Number of elements of a side that represents plane strain, and is not refined
    integer, parameter :: no_direction = 2
 
 contains
 
-   !> Solve one case: as it is, or with the grid that its accuracy needs
+   !> Solve one case: as specified, or with the grid required by its accuracy
    subroutine solve_contact_case(session, spec, log, result, solved, error, folder)
       type(contact_session), intent(inout) :: session
       !> Complete specification
       type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
-      !> Gets `accuracy` where one was asked for
+      !> Result, with `accuracy` if one is prescribed
       type(patch_result), intent(inout) :: result
-      !> The case with the elements, the order and EPS that its accuracy has chosen; unallocated where none was asked for
+      !> The case with the elements, the order and EPS chosen for its accuracy; unallocated if none is prescribed
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
@@ -73,20 +73,20 @@ contains
       call log%write_deferred()
       session%curvatures = 0.0_wp
       if (allocated(session%problem%hertz)) session%curvatures = [session%problem%hertz%a1, session%problem%hertz%b1]
-      ! the next case lays out its own grid
+      ! the next case has a grid of its own
       session%problem%has_geometry = .false.
    end subroutine solve_contact_case
 
-   !> Refuse a case whose grid cannot be chosen, by name
+   !> Refuse a case for which no grid can be chosen, with the reason
    subroutine refuse_contact(session, spec, error)
-      !> With what the case before has left
+      !> With data of the previous case
       type(contact_session), intent(in) :: session
-      !> Of module 3, with an accuracy
+      !> Case of module 3 with an accuracy
       type(case_spec), intent(in) :: spec
-      !> Allocated when it does not go
+      !> Allocated if the case is refused
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: cannot = "an accuracy was asked for, but the grid cannot be chosen with "
-      !> Sine of an angle of rolling that is one along x
+      !> Maximum sine of an angle of rolling that is regarded as along x
       real(wp), parameter :: along_x = 0.01_wp
 
       call refuse_case(spec, error)
@@ -112,7 +112,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
-      !> As it was solved
+      !> The case as it was solved
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: folder
@@ -148,7 +148,7 @@ contains
       call leave_errors(result)
    end subroutine approximate
 
-   !> No total of a simplified method has an estimate: elements would tell of the method's own limit only
+   !> Totals of a simplified method have no estimates: refining elements would show its discretisation error only
    subroutine leave_errors(result)
       type(patch_result), intent(inout) :: result
       type(total_list) :: list
@@ -160,15 +160,15 @@ contains
       result%errors%reason = "a simplified method was chosen; its error is told with the accuracy"
    end subroutine leave_errors
 
-   !> From grid to grid until the estimate is small enough, or no finer one can be had
+   !> Refine the grid until the estimate is small enough, or no finer grid is possible
    subroutine refine(session, spec, method, log, result, solved, error, folder)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
-      !> Why no simplified method is chosen, where they are allowed; "" where they are not
+      !> Why no simplified method is chosen, if they are allowed; otherwise ""
       character(len=*), intent(in) :: method
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
-      !> As it was solved
+      !> The case as it was solved
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: folder
@@ -202,7 +202,7 @@ contains
          end if
          report%levels = report%levels + 1
          report%seconds = report%seconds + report%last_seconds
-         ! a finer grid needs the cases before, too, which the first one may have had already
+         ! a finer grid needs the previous cases on it, too; on the first grid they may have been solved already
          cases = merge(session%series%before(spec) + 1, 1, report%levels == 1)
          if (.not. result%status%has_result()) exit
          report%estimated = -1.0_wp
@@ -240,15 +240,15 @@ contains
       call tell_report(session, spec, result, report, solved, log)
    end subroutine refine
 
-   !> A smaller tolerance for the next grid, or for the same one, where iterations stopped too early for what is asked
+   !> Reduce the tolerance of the next grid, or of the same one, if iterations stopped too early for the accuracy
    subroutine tighten(result, report, eps, tightened)
-      !> Of the present grid, with its errors
+      !> Result of the present grid, with its errors
       type(patch_result), intent(in) :: result
-      !> What was asked for
+      !> Report, with the prescribed accuracy
       type(accuracy_report), intent(in) :: report
-      !> On entry the present tolerance
+      !> On entry the present tolerance, on return the new one
       real(wp), intent(inout) :: eps
-      !> Is it smaller?
+      !> Was it reduced?
       logical, intent(out) :: tightened
       real(wp) :: part
 
@@ -260,13 +260,13 @@ contains
       tightened = eps < report%eps
    end subroutine tighten
 
-   !> Of the grids of a search that ended too early keep the one with the smaller estimate
+   !> Keep the grid with the smaller estimate at the end of a search that stopped too early
    subroutine keep_better(session, best, report, result)
       type(contact_session), intent(in) :: session
-      !> The grid before the last
+      !> Result of the grid before the last
       type(patch_result), intent(in) :: best
       type(accuracy_report), intent(inout) :: report
-      !> The last one, which may have no result
+      !> Result of the last grid, which may be missing
       type(patch_result), intent(inout) :: result
       real(wp) :: before
 
@@ -278,15 +278,15 @@ contains
       report%estimated = before
    end subroutine keep_better
 
-   !> Tell what was chosen; a warning where the accuracy was not reached
+   !> Report the choices; a warning if the accuracy was not reached
    subroutine tell_report(session, spec, result, report, solved, log)
-      !> With the curvatures of the case before
+      !> With the curvatures of the previous case
       type(contact_session), intent(in) :: session
-      !> As it was asked for
+      !> The case as specified
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(inout) :: result
       type(accuracy_report), intent(inout) :: report
-      !> The case with what was chosen
+      !> The case with the choices
       type(case_spec), allocatable, intent(out) :: solved
       type(log_type), intent(inout) :: log
 

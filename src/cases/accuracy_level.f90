@@ -1,4 +1,4 @@
-!> One grid of an accuracy that was asked for: the case on it, behind those that it continues
+!> One grid of a search for a prescribed accuracy: the case solved on it, after those that it continues
 module contact_cases_accuracy_level
    use contact_base_choices, only : estimate_choice, grid_form, motion, time_link
    use contact_base_error, only : error_type
@@ -18,18 +18,18 @@ module contact_cases_accuracy_level
 
 contains
 
-   !> Are there semi-axes that belong to the load of a case before? The curvatures that followed from them are kept
+   !> Are there semi-axes that belong to the load of a previous case? Then the curvatures derived from them are kept
    pure logical function keeps_axes(spec)
       type(case_spec), intent(in) :: spec
 
       keeps_axes = any(spec%grid%form == [grid_form%hertz_axes, grid_form%hertz_line]) .and. .not. spec%has_new_geometry()
    end function keeps_axes
 
-   !> Curvatures in place of semi-axes
+   !> Replace semi-axes by curvatures
    pure subroutine take_curvatures(curvatures, grid)
-      !> Of x**2 and y**2 [1/mm]
+      !> Coefficients of x**2 and y**2 [1/mm]
       real(wp), intent(in) :: curvatures(2)
-      !> Around semi-axes; gets another form
+      !> On entry with semi-axes, on return with curvatures
       type(grid_spec), intent(inout) :: grid
 
       grid%a1 = curvatures(1)
@@ -37,16 +37,16 @@ contains
       grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
    end subroutine take_curvatures
 
-   !> The grid that a search begins with
+   !> The first grid of a search
    subroutine first_grid(session, spec, law, fixed, grid)
       !> With the grid of the cases that this one continues
       type(contact_session), intent(in) :: session
       type(case_spec), intent(in) :: spec
       !> Expected error
       type(accuracy_law), intent(in) :: law
-      !> Numbers of elements that stay, 0 for others
+      !> Prescribed numbers of elements, 0 for others
       integer, intent(in) :: fixed(2)
-      !> Not finer than limits allow
+      !> First grid, not finer than limits allow
       type(level_grid), intent(out) :: grid
 
       if (has_history(spec)) then
@@ -60,10 +60,10 @@ contains
       call stay_below(most_elements(spec%limits), fixed, grid%counts)
    end subroutine first_grid
 
-   !> Solve a case on one grid, behind those that it continues
+   !> Solve a case on one grid, after those that it continues
    subroutine solve_level(session, spec, grid, refines, log, result, is_solved, seconds, error, folder)
       type(contact_session), intent(inout) :: session
-      !> As it was asked for
+      !> The case as specified
       type(case_spec), intent(in) :: spec
       !> Elements, window and tolerance
       type(level_grid), intent(in) :: grid
@@ -73,7 +73,7 @@ contains
       type(patch_result), intent(inout) :: result
       !> Did all iterations converge, also those of the cases before?
       logical, intent(out) :: is_solved
-      !> What it took
+      !> Elapsed time [s]
       real(wp), intent(out) :: seconds
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
@@ -100,14 +100,14 @@ contains
    !> Solve one case on one grid
    subroutine solve_step(session, spec, grid, refines, log, result, is_solved, error, folder)
       type(contact_session), intent(inout) :: session
-      !> As it was asked for
+      !> The case as specified
       type(case_spec), intent(in) :: spec
       type(level_grid), intent(in) :: grid
       !> Do iterations start from the solution of this case on a coarser grid?
       logical, intent(in) :: refines
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
-      !> Stays true where iterations converge
+      !> Set to false if iterations do not converge, otherwise unchanged
       logical, intent(inout) :: is_solved
       type(error_type), allocatable, intent(out) :: error
       character(len=*), intent(in), optional :: folder

@@ -1,7 +1,7 @@
-!> How an accuracy that was asked for is sought: what stands against it, the first grid, the next one, and the tolerance
+!> Rules of the search for a prescribed accuracy: cases in which it is impossible, the first grid, the next one, and the tolerance
 !>
-!> Sizes are counted in elements across the contact. An error that goes as C n^-p asks for n = (C/error)^(1/p); C of the first
-!> grid is a typical value, later ones are what the estimate of the grid before says. See doc/theory/accuracy.md.
+!> Sizes are given as the number of elements across the contact. An error of C n^-p requires n = (C/error)^(1/p); C of the first
+!> grid is a typical value, later it follows from the estimate of the previous grid. See doc/theory/accuracy.md.
 module contact_cases_accuracy_plan
    use contact_base_choices, only : estimate_choice, force_control, heat_source, is_simplified, kernel_model, &
       & material_model, motion, pressure_model, slip_source, time_link, variation
@@ -22,66 +22,69 @@ module contact_cases_accuracy_plan
       & is_accuracy, is_near_enough, largest_accuracy, most_elements, most_levels, not_converged, observed_order, prepare_level, &
       & refuse_case, shorten_aspect, smallest_accuracy, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
 
-   !> Accuracies that can be asked for
+   !> Range of accuracies that can be prescribed
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
-   !> Why an accuracy is not reached where solvers end before their tolerance, on two grids
+   !> Reason of an accuracy that is not reached because solvers end before their tolerance, on two grids
    character(len=*), parameter :: not_converged = "iterations did not converge"
-   !> Most grids that are tried
+   !> Maximum number of grids of a search
    integer, parameter :: most_levels = 8
-   !> Most elements of a grid where no limit is given: some seconds, and 0.4 GB; chosen
+   !> Maximum number of elements of a grid without a prescribed limit: some seconds, and 0.4 GB; chosen
    integer(long), parameter :: usual_limit = 250000_long
-   !> Factor of the number of elements across where a grid has no estimate, because contact is too few elements wide or was missed
+   !> Factor of the number of elements across if a grid has no estimate, because contact is too few elements wide or was missed
    real(wp), parameter :: without_estimate = 2.5_wp
 
-   !> Typical error of n elements across the contact: factor times n^-order; the order that estimates of one contact fall with from
-   !> grid to grid; and estimates are not below bound/n
+   !> Typical error for n elements across the contact: factor times n^-order; order by which estimates of one contact decrease from
+   !> grid to grid; lower bound of estimates, bound/n
    type :: accuracy_law
       real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp
    end type accuracy_law
-   !> Forces in steady rolling by the first and by the second order, and all else; of tests/accuracy: upper quartiles of estimates,
-   !> and medians of the orders of those that are too large on the first grid (seed 7101)
+   !> Forces in steady rolling with the first- and the second-order scheme, and all other errors; of tests/accuracy: upper quartiles
+   !> of estimates, and medians of the orders of those that are too large on the first grid (seed 7101)
    type(accuracy_law), parameter :: first_order = accuracy_law(0.25_wp, 1.0_wp, 1.0_wp), &
       & second_order = accuracy_law(0.6_wp, 1.8_wp, 2.1_wp), normal_order = accuracy_law(0.25_wp, 2.0_wp, 2.0_wp)
-   !> The second order where forces are prescribed, of unlike bodies, and of bodies that relax (seed 7101)
+   !> The second-order scheme with prescribed forces, of unlike bodies, and of viscoelastic bodies (seed 7101)
    type(accuracy_law), parameter :: by_forces = accuracy_law(0.9_wp, 1.8_wp, 2.1_wp), &
       & unlike = accuracy_law(0.9_wp, 1.8_wp, 1.2_wp), relaxing = accuracy_law(1.5_wp, 1.8_wp, 1.5_wp)
-   !> Transient rolling in steps of a fixed length, errors of which fall with powers of a half to one
+   !> Transient rolling in steps of a fixed length, whose errors have orders between a half and one
    type(accuracy_law), parameter :: in_steps = accuracy_law(0.6_wp, 0.75_wp, 0.75_wp)
-   !> Friction that follows temperatures which count the heat of an element twice; of examples/sliding_temperature
+   !> Friction that follows temperatures in which the heat of an element is counted twice; of examples/sliding_temperature
    type(accuracy_law), parameter :: heated = accuracy_law(0.05_wp, 0.5_wp, 0.5_wp)
 
-   !> Elements across of the first grid: least, and most. Fewer tell nothing of the error; a first grid of more may waste more time
+   !> Minimum and maximum number of elements across of the first grid. Fewer give no information on the error; a first grid of more
+   !> may waste time
    real(wp), parameter :: least_across = 11.0_wp, most_across = 90.0_wp, most_across_first_order = 45.0_wp
-   !> Elements across of the first grid relative to those that are expected to do, chosen for the sum of both times; below so many
-   !> elements across time does not depend on their number
+   !> Number of elements across of the first grid relative to the expected number, chosen for the minimum total time of both grids;
+   !> number of elements across below which time does not depend on it
    real(wp), parameter :: first_share = 0.6_wp, quick_across = 24.0_wp
-   !> Part of the accuracy that the next grid aims at; and the part at which it is taken as reached: estimates may be too small
+   !> Fraction of the accuracy that the next grid is designed for; fraction at which it is regarded as reached, since estimates may
+   !> be too small
    real(wp), parameter :: aim = 0.65_wp, enough = 0.65_wp
-   !> Where the grid before lets expect no more, both are samples of one error, and their mean counts, in logarithms, with this
-   !> weight of the grid before: the part at which that is enough, and the largest part for the estimate alone; of seed 7101
+   !> If the error predicted from the previous grid is not larger, both are samples of one error. Their mean is used, in logarithms,
+   !> with this weight of the previous grid; fraction of the accuracy at which the mean is sufficient, and maximum fraction for the
+   !> estimate alone; of seed 7101
    real(wp), parameter :: weight_before = 0.3_wp, enough_of_both = 0.75_wp, enough_alone = 0.85_wp
-   !> Least and largest factor of the number of elements across from one grid to the next; chosen
+   !> Minimum and maximum factor of the number of elements across from one grid to the next; chosen
    real(wp), parameter :: least_factor = 1.2_wp, largest_factor = 5.0_wp
-   !> The error that the grid before lets expect counts with this part: differences of levels may be small by accident
+   !> Weight of the error predicted from the previous grid: differences of levels may be small by chance
    real(wp), parameter :: share_before = 0.4_wp
-   !> Tolerance of the solvers relative to the accuracy, of which 0.3 shows in forces; its bounds
+   !> Tolerance of the solvers relative to the accuracy, of which a fraction of 0.3 appears in forces; its bounds
    real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
-   !> Part of the accuracy that iterations may leave by stopping; more asks for a smaller tolerance. Chosen
+   !> Maximum fraction of the accuracy for the error of stopped iterations; above it the tolerance is reduced. Chosen
    real(wp), parameter :: stopping_share = 0.25_wp
-   !> Time grows with this power of the number of elements, times a reserve: is there time for another grid?
+   !> Exponent of the number of elements in the time of a grid, and factor of reserve, to decide if there is time for another grid
    real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
-   !> Coefficient of friction that the expected error of unlike bodies takes
+   !> Coefficient of friction in the expected error of unlike bodies
    real(wp), parameter :: usual_friction = 0.3_wp
-   !> Largest ratio of the sides of elements
+   !> Maximum ratio of the sides of elements
    real(wp), parameter :: largest_aspect = 6.0_wp
 
 contains
 
-   !> Refuse a case whose accuracy cannot be chosen, by name
+   !> Refuse a case whose accuracy cannot be reached by choosing a grid, with the reason
    subroutine refuse_case(spec, error)
-      !> With an accuracy
+      !> Case with an accuracy
       type(case_spec), intent(in) :: spec
-      !> Allocated when it does not go
+      !> Allocated if the case is refused
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: why
       character(len=12) :: text
@@ -122,7 +125,7 @@ contains
          & error_kind%unsupported)
    end subroutine refuse_case
 
-   !> Can a number be asked for, or is it 0 for none?
+   !> Is a number a valid accuracy, or 0 for none?
    pure logical function is_accuracy(number)
       !> Largest relative error of the forces [-]
       real(wp), intent(in) :: number
@@ -130,11 +133,11 @@ contains
       is_accuracy = abs(number) <= 0.0_wp .or. (number >= smallest_accuracy .and. number <= largest_accuracy)
    end function is_accuracy
 
-   !> What every level is solved with
+   !> Set the choices common to all levels
    pure subroutine prepare_level(eps, level)
       !> Tolerance of the solvers
       real(wp), intent(in) :: eps
-      !> On entry the case; its elements are chosen by the caller
+      !> The case; its elements are set by the caller
       type(case_spec), intent(inout) :: level
 
       level%iteration%accuracy = 0.0_wp
@@ -142,19 +145,19 @@ contains
       level%iteration%order = acting_order(level)
       level%estimates_errors = .true.
       level%has_stress = .false.
-      ! each level stands for itself
+      ! each level is independent of previous cases
       level%link = time_link%initiate
       level%estimate = estimate_choice%fresh
    end subroutine prepare_level
 
-   !> Order of the scheme: steps of transient rolling that are given are as long as one element on one grid alone
+   !> Order of the scheme: prescribed steps of transient rolling have the length of an element on one grid only
    pure integer function acting_order(spec) result(order)
       type(case_spec), intent(in) :: spec
 
       order = merge(1, 2, spec%motion == motion%transient_rolling)
    end function acting_order
 
-   !> Typical error of a case before anything of it is known
+   !> Typical error of a case before it is solved
    pure type(accuracy_law) function expected_law(spec) result(law)
       type(case_spec), intent(in) :: spec
       type(combined_material) :: material
@@ -179,9 +182,9 @@ contains
       if (material%coupled()) law%bound = coupled_friction_floor*abs(material%ak)*min(1.0_wp, abs(material%ak)/usual_friction)
    end function expected_law
 
-   !> The same where only the first order acts
+   !> The same for the first-order scheme
    pure type(accuracy_law) function first_order_alone(law) result(lower)
-      !> What was expected of the scheme that did not act
+      !> Expected error of the scheme that was not used
       type(accuracy_law), intent(in) :: law
 
       lower = law
@@ -189,9 +192,9 @@ contains
       lower%falls = min(law%falls, first_order%falls)
    end function first_order_alone
 
-   !> Elements across the contact of the first grid
+   !> Number of elements across the contact of the first grid
    pure real(wp) function first_across(law, asked) result(across)
-      !> What is expected
+      !> Expected error
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: asked
@@ -202,15 +205,15 @@ contains
       across = usual_number(max(least_across, across))
    end function first_across
 
-   !> Elements across the contact of the grid that is expected to do
+   !> Number of elements across the contact of the grid that is expected to be sufficient
    pure real(wp) function expected_across(law, asked) result(across)
-      !> What is expected
+      !> Expected error
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: asked
 
       across = first_across(law, asked)
-      ! those of the second order have a first grid that does more often than not
+      ! with the second order, the first grid is usually sufficient
       if (law%order <= 1.0_wp .or. law%order >= normal_order%order) across = max(across, &
          & (law%factor/(aim*asked))**(1.0_wp/law%order))
       across = max(across, law%bound/(aim*asked))
@@ -218,7 +221,7 @@ contains
 
    !> Is an estimate small enough?
    pure logical function is_near_enough(estimated, expected, asked)
-      !> Estimate of this grid, negative for none; and what the one before has let expect, 0 for none [-]
+      !> Estimate of this grid, negative for none; and error predicted from the previous grid, 0 for none [-]
       real(wp), intent(in) :: estimated, expected
       !> Accuracy [-]
       real(wp), intent(in) :: asked
@@ -229,11 +232,11 @@ contains
          & .and. estimated**(1.0_wp - weight_before)*expected**weight_before <= enough_of_both*asked
    end function is_near_enough
 
-   !> Order of the estimates of two grids, not more than the expected one, and not less than one
+   !> Order observed between the estimates of two grids, limited to the range from one to the expected order
    pure real(wp) function observed_order(law, estimated, before, expected) result(order)
-      !> What is expected
+      !> Expected error
       type(accuracy_law), intent(in) :: law
-      !> Estimates of this grid and of the one before, not positive for none; and what that one has let expect by the law [-]
+      !> Estimates of this grid and of the previous one, not positive for none; and error of this grid predicted from the latter [-]
       real(wp), intent(in) :: estimated, before, expected
 
       order = law%falls
@@ -241,15 +244,15 @@ contains
       order = min(law%falls, max(first_order%falls, law%falls*log(before/estimated)/log(before/expected)))
    end function observed_order
 
-   !> Elements across the contact that are expected to do
+   !> Number of elements across the contact that is expected to be sufficient
    pure real(wp) function finer_across(across, estimated, asked, order) result(finer)
-      !> Elements across of the present grid
+      !> Number of elements across of the present grid
       real(wp), intent(in) :: across
       !> Its estimate, negative for none [-]
       real(wp), intent(in) :: estimated
       !> Accuracy [-]
       real(wp), intent(in) :: asked
-      !> Of the error
+      !> Order of the error
       real(wp), intent(in) :: order
 
       finer = without_estimate
@@ -257,16 +260,16 @@ contains
       finer = usual_number(finer*across)
    end function finer_across
 
-   !> The next number of a series with a fixed ratio, closer to 1 for larger ones: cases that are alike share the plans of their
-   !> transforms, which take longer to make than a solution on less than 60 x 60 elements
+   !> The next number of a series with a fixed ratio, which is closer to 1 for large numbers: similar cases share the plans of their
+   !> transforms, whose creation takes longer than a solution on less than 60 x 60 elements
    pure real(wp) function usual_number(number) result(usual)
       !> Positive
       real(wp), intent(in) :: number
-      !> A number of the series, and how many of them lie between it and its double
+      !> A number of the series, and number of its terms per factor of two
       real(wp), parameter :: first = 10.0_wp, in_octave(2) = [4.0_wp, 8.0_wp]
-      !> Beyond it the second one holds: there solutions take longer than plans
+      !> Number above which the second ratio is used, since solutions take longer than plans
       real(wp), parameter :: large = 48.0_wp
-      !> What counts as equal
+      !> Tolerance of equality, in steps of the series
       real(wp), parameter :: slack = 0.1_wp
       real(wp) :: steps
 
@@ -274,9 +277,9 @@ contains
       usual = anint(first*2.0_wp**(ceiling(steps*log(number/first)/log(2.0_wp) - slack)/steps))
    end function usual_number
 
-   !> Most elements that the grid of a case may have
+   !> Maximum number of elements of the grid of a case
    pure real(wp) function most_elements(limits) result(most)
-      !> What the case may take: elements, memory, time
+      !> Limits of the case: elements, memory, time
       type(case_limits), intent(in) :: limits
 
       most = real(usual_limit, wp)
@@ -286,11 +289,11 @@ contains
 
    !> Is there time for a grid of more elements?
    logical function time_is_left(limits, seconds, ratio)
-      !> What the case may take: elements, memory, time
+      !> Limits of the case: elements, memory, time
       type(case_limits), intent(in) :: limits
       !> Time of the present grid [s]
       real(wp), intent(in) :: seconds
-      !> Elements of the next grid over those of the present one
+      !> Ratio of the number of elements of the next grid to that of the present one
       real(wp), intent(in) :: ratio
 
       time_is_left = reserve*seconds*ratio**time_power <= limits%deadline%left()
@@ -304,21 +307,21 @@ contains
       eps = min(largest_eps, max(smallest_eps, eps_share*asked))
    end function solver_tolerance
 
-   !> A smaller tolerance, but not less than makes sense
+   !> A smaller tolerance, bounded by the smallest reasonable one
    pure real(wp) function smaller_tolerance(eps, factor) result(smaller)
-      !> Present one, and its factor [-]
+      !> Present tolerance, and its factor [-]
       real(wp), intent(in) :: eps, factor
 
       smaller = min(eps, max(smallest_eps, factor*eps))
    end function smaller_tolerance
 
-   !> Sides of elements for as many elements along both sides of the contact, where these are not too unlike
+   !> Sides of elements for equal numbers of elements along both sides of the contact, with a limited ratio
    pure subroutine shorten_aspect(lengths, across, sides)
       !> Sides of the contact [mm]
       real(wp), intent(in) :: lengths(2)
-      !> Elements across
+      !> Number of elements across
       real(wp), intent(in) :: across
-      !> Of the elements [mm]
+      !> Sides of the elements [mm]
       real(wp), intent(out) :: sides(2)
 
       sides = lengths/across

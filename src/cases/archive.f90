@@ -1,12 +1,12 @@
-!> How the numbers of a case go into and out of every format
+!> Transfer of the numbers of a case to and from every format
 !>
-!> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs name the numbers of each group of
-!> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files and
-!> a caller of the library give them values, the writer of input files looks at them.
+!> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs list the numbers of each group of the
+!> input once, in their order. The operation is defined by an extension of `case_archive`: the reader of input files and a caller of
+!> the library set the values, the writer of input files reads them.
 !>
-!> The numbers of one line are noted first (`real`, `integer`, `text`) and handled together by `end_line`, so that a complaint
-!> can tell the whole line. Variables that are noted must therefore have the attribute `target`, and hold new values after
-!> `end_line` only.
+!> The numbers of one line are collected first (`real`, `integer`, `text`) and processed together by `end_line`, so that messages
+!> can show the whole line. Collected variables must therefore have the attribute `target`, and have new values only after
+!> `end_line`.
 module contact_cases_archive
    use contact_base_kinds, only : wp
    use contact_text_bounds, only : bounds_of, bounds_table
@@ -16,10 +16,10 @@ module contact_cases_archive
 
    public :: archive_item, case_archive, is_pair, item_kind, own_word, text_variable
 
-   !> Most numbers on a line, and length of a number with its name
+   !> Maximum number of items on a line, and length of a number with its name
    integer, parameter :: max_items = 12
    integer, parameter, public :: shown_length = 64
-   !> Lengths of lists, which the lists tell in formats with names
+   !> Lengths of lists, which need not be given in formats with names
    character(len=6), parameter, public :: lengths(*) = [character(len=6) :: "NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT"]
 
    type :: item_kind_list
@@ -35,113 +35,113 @@ module contact_cases_archive
       character(len=:), allocatable :: value
    end type text_variable
 
-   !> One number of a line and where it belongs
+   !> One number of a line, and its variable
    type :: archive_item
-      !> Name as in the input files; "A|B" when it is A or B, depending on another number of the line
+      !> Name as in the input files; "A|B" if it is A or B, depending on another number of the line
       character(len=13) :: name = ""
-      !> Member of item_kind, and row of the table of bounds, 0 when it has none
+      !> Member of item_kind, and row of the table of bounds, 0 if there is none
       integer :: kind = 0, row = 0
       !> Has it a value before a case gives one?
       logical :: is_preset = .false.
-      !> May it be missing? Then it is the default
+      !> May it be missing? Then the default is used
       logical :: is_optional = .false.
       real(wp) :: default = 0.0_wp
-      !> Are bounds the business of the caller, because they depend on other numbers?
+      !> Are bounds checked by the caller, because they depend on other numbers?
       logical :: is_unchecked = .false.
-      !> Was it given? Always so unless it is optional and values come in
+      !> Was it given? Always true unless it is optional and values are being read
       logical :: given = .true.
-      !> The variable of its kind
+      !> Variable, by its kind
       real(wp), pointer :: r => null()
       integer, pointer :: i => null()
       type(text_variable), pointer :: s => null()
    end type archive_item
 
-   !> One format or use
+   !> An archive: one format or operation
    type, abstract :: case_archive
-      !> The items of the line in hand, or of the one that ended last until the next begins
+      !> Items of the current line, or of the last line until the next begins
       type(archive_item) :: items(max_items)
       integer :: count = 0
       logical, private :: has_ended = .false.
-      !> Do values come in?
+      !> Are values set by the archive?
       logical :: is_reading = .false.
-      !> Do the rules of the published interface of the library hold? The smaller one of two coefficients of Coulomb friction
-      !> counts there, not the static one, and distances of patches are not compared
+      !> Do the rules of the published interface of the library apply? With two coefficients of Coulomb friction, the smaller one is
+      !> used instead of the static one, and distances of patches are not compared
       logical :: of_library = .false.
-      !> Was everything good so far, so that going on makes sense?
+      !> Are all values valid so far?
       logical :: is_good = .true.
    contains
-      !> Note a number, the components of a vector, an integer, a text
+      !> Collect a number, the components of a vector, an integer, a text
       procedure :: real => note_real
       procedure :: reals => note_reals
       procedure :: integer => note_integer
       procedure :: text => note_text
-      !> Handle the line: give its variables their values, or do with them what the format is for
+      !> Process the line: set the values of its variables, or read them
       procedure(end_line_interface), deferred :: end_line
-      !> A list of numbers with lines of its own
+      !> A list of numbers on lines of its own
       procedure(list_interface), deferred :: list
-      !> A choice or a number of the readable format that input files have no place for, in the group in hand or in the case itself
+      !> A choice or a number that exists in the readable format but not in input files, in the current group or in the case itself
       procedure :: own_choice => ignore_choice
       procedure :: own_number => ignore_number
-      !> A number of the last line is wrong, doubtful or replaced: `tell` says so, nothing where values do not come in
+      !> A number of the last line is wrong, doubtful or replaced: reported by `tell`, which does nothing if values are not set
       procedure :: refuse
       procedure :: warn
       procedure :: tell => tell_nothing
-      !> Reading cannot go on, with the reason; the name is blank when no number of the last line is to blame
+      !> Reading cannot continue, with the reason; the name is blank if no number of the last line is the cause
       procedure :: fail => say_nothing
-      !> A group of numbers begins and ends; groups do not nest
+      !> Begin and end a group of numbers; groups are not nested
       procedure :: open_group => ignore_name
       procedure :: close_group => ignore
-      !> The numbers of a group, as a whole, are wrong or doubtful: `tell_of_group` says so, nothing where values do not come in
+      !> The numbers of a group are inconsistent or doubtful: reported by `tell_of_group`, which does nothing if values are not set
       procedure :: refuse_group
       procedure :: warn_of_group
       procedure :: tell_of_group => tell_nothing_of_group
-      !> What readers of a file should know about the group in hand
+      !> A remark on the current group for readers of a file
       procedure :: comment => ignore_name
-      !> Where reading stopped, if it did
+      !> Add the position at which reading stopped, if it did
       procedure :: add_context => ignore_name
-      !> Check the bounds of a number of the last line that was noted as unchecked
+      !> Check the bounds of a number of the last line that was collected as unchecked
       procedure :: check => check_nothing
-      !> Where an item of the last line stands in its file
+      !> Position of an item of the last line in its file
       procedure :: place => place_nowhere
-      !> Line on which a group begins, 0 when it has none
+      !> Line on which a group begins, 0 if there is none
       procedure :: line_of => no_line
-      !> A number of the last line with its name, as it was given
+      !> A number of the last line with its name, as given
       procedure :: shown => show_item
       !> Was an optional number of the last line given?
       procedure :: was_given
-      !> Place of a number in the last line
+      !> Index of a number in the last line
       procedure :: place_of
-      !> What end_line does last
+      !> Last step of end_line
       procedure :: finish_line
    end type case_archive
 
    abstract interface
-      !> Handle the items, and call `finish_line`
+      !> Process the items, and call `finish_line`
       subroutine end_line_interface(self)
          import :: case_archive
          class(case_archive), intent(inout) :: self
       end subroutine end_line_interface
 
-      !> Handle a list
+      !> Process a list
       subroutine list_interface(self, name, values, n, units, bounds)
          import :: case_archive, wp
          class(case_archive), intent(inout) :: self
-         !> As the table of bounds and the manual have it
+         !> Name as in the table of bounds and the manual
          character(len=*), intent(in) :: name
-         !> Unallocated, or of another size, where values come in
+         !> Unallocated or of another size if values are set
          real(wp), allocatable, intent(inout) :: values(:)
          !> Number of values
          integer, intent(in) :: n
-         !> Unit of each value in turn, begun anew at the end; default mm. With rad among them files may have degrees
+         !> Unit of each value in turn, repeated cyclically; default mm. If rad is among them, files may use degrees
          character(len=*), intent(in), optional :: units(:)
-         !> Name of the bounds in the table; default that of the list
+         !> Name of the bounds in the table; default: that of the list
          character(len=*), intent(in), optional :: bounds
       end subroutine list_interface
    end interface
 
 contains
 
-   !> Room for one more item
+   !> Add an item
    subroutine add_item(self, name, kind, default)
       class(case_archive), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -167,18 +167,18 @@ contains
       end associate
    end subroutine add_item
 
-   !> Note a number; angles are those whose unit is rad or rad/s
+   !> Collect a number; angles are identified by the unit rad or rad/s
    subroutine note_real(self, name, value, default, unchecked, preset)
       class(case_archive), intent(inout) :: self
-      !> As the table of bounds and the manual have it
+      !> Name as in the table of bounds and the manual
       character(len=*), intent(in) :: name
-      !> In internal units: N, mm, s, rad
+      !> Variable, in internal units: N, mm, s, rad
       real(wp), intent(inout), target :: value
       !> Value of an optional number that is not given
       real(wp), intent(in), optional :: default
       !> Are bounds checked by the caller?
       logical, intent(in), optional :: unchecked
-      !> Has it a value, in this place, before a case gives one? Default as in the table of bounds
+      !> Has it a value, in this position, before a case gives one? Default as in the table of bounds
       logical, intent(in), optional :: preset
 
       call add_item(self, name, item_kind%real, default)
@@ -192,12 +192,12 @@ contains
       end associate
    end subroutine note_real
 
-   !> Note the components of a vector: name1, name2, ...
+   !> Collect the components of a vector: name1, name2, ...
    subroutine note_reals(self, name, values)
       class(case_archive), intent(inout) :: self
-      !> Without the figure of the component
+      !> Name without the figure of the component
       character(len=*), intent(in) :: name
-      !> In internal units: N, mm, s, rad
+      !> Variables, in internal units: N, mm, s, rad
       real(wp), intent(inout), target :: values(:)
       integer :: k
 
@@ -206,16 +206,16 @@ contains
       end do
    end subroutine note_reals
 
-   !> Note an integer
+   !> Collect an integer
    subroutine note_integer(self, name, value, default, branch, unchecked)
       class(case_archive), intent(inout) :: self
-      !> As the table of bounds and the manual have it
+      !> Name as in the table of bounds and the manual
       character(len=*), intent(in) :: name
-      !> Read, written or checked, as the archive is made for
+      !> Variable, which is read, written or checked by the archive
       integer, intent(inout), target :: value
       !> Value of an optional number that is not given
       integer, intent(in), optional :: default
-      !> May files write it as a number with a decimal point, of which the sign counts? Default no
+      !> May files give it as a number with a decimal point, of which the sign is used? Default no
       logical, intent(in), optional :: branch
       !> Are bounds checked by the caller?
       logical, intent(in), optional :: unchecked
@@ -232,12 +232,12 @@ contains
       if (present(unchecked)) self%items(self%count)%is_unchecked = unchecked
    end subroutine note_integer
 
-   !> Note a text
+   !> Collect a text
    subroutine note_text(self, name, value)
       class(case_archive), intent(inout) :: self
-      !> As the manual has it
+      !> Name as in the manual
       character(len=*), intent(in) :: name
-      !> Read, written or checked, as the archive is made for
+      !> Variable, which is read, written or checked by the archive
       type(text_variable), intent(inout), target :: value
 
       call add_item(self, name, item_kind%text)
@@ -247,7 +247,7 @@ contains
    !> Was an item of the last line given?
    pure logical function was_given(self, name)
       class(case_archive), intent(in) :: self
-      !> As the item was noted
+      !> Name of the item as collected
       character(len=*), intent(in) :: name
       integer :: k
 
@@ -256,10 +256,10 @@ contains
       if (k > 0) was_given = self%items(k)%given
    end function was_given
 
-   !> Place of an item in the last line, 0 when it is not there
+   !> Index of an item in the last line, 0 if it is missing
    pure integer function place_of(self, name) result(k)
       class(case_archive), intent(in) :: self
-      !> As the item was noted
+      !> Name of the item as collected
       character(len=*), intent(in) :: name
 
       do k = 1, self%count
@@ -268,11 +268,11 @@ contains
       k = 0
    end function place_of
 
-   !> Do an item and the next one belong to the bodies 1 and 2? Then they are one list
+   !> Do an item and the next one belong to the bodies 1 and 2? Then they form a list
    pure logical function is_pair(items, k)
-      !> The line
+      !> Items of the line
       type(archive_item), intent(in) :: items(:)
-      !> Place of the first item
+      !> Index of the first item
       integer, intent(in) :: k
       integer :: n
 
@@ -283,19 +283,19 @@ contains
       is_pair = items(k + 1)%name == items(k)%name(:n - 1) // "2"
    end function is_pair
 
-   !> The line in hand is done
+   !> End the current line
    pure subroutine finish_line(self)
       class(case_archive), intent(inout) :: self
 
       self%has_ended = .true.
    end subroutine finish_line
 
-   !> A number of the last line cannot be used
+   !> A number of the last line is invalid
    subroutine refuse(self, name, text)
       class(case_archive), intent(inout) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> What is said behind its name and its value
+      !> Message after its name and value
       character(len=*), intent(in) :: text
 
       call self%tell(.true., name, text)
@@ -306,16 +306,16 @@ contains
       class(case_archive), intent(inout) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> What is said behind its name and its value
+      !> Message after its name and value
       character(len=*), intent(in) :: text
 
       call self%tell(.false., name, text)
    end subroutine warn
 
-   !> The numbers of the group in hand, or of those before it, do not go together
+   !> The numbers of the current group, or of previous groups, are inconsistent
    subroutine refuse_group(self, text)
       class(case_archive), intent(inout) :: self
-      !> One sentence
+      !> Message of one sentence
       character(len=*), intent(in) :: text
 
       call self%tell_of_group(.true., text)
@@ -324,22 +324,22 @@ contains
    !> The numbers of the group in hand are doubtful
    subroutine warn_of_group(self, text)
       class(case_archive), intent(inout) :: self
-      !> One sentence
+      !> Message of one sentence
       character(len=*), intent(in) :: text
 
       call self%tell_of_group(.false., text)
    end subroutine warn_of_group
 
-   !> A choice among words; formats without keys of their own have none
+   !> A choice among words; ignored by formats without keys of their own
    subroutine ignore_choice(self, name, title, words, chosen, usual, none)
       class(case_archive), intent(inout) :: self
-      !> Key and meaning; the words, numbers and "true" and "false" among them
+      !> Key and meaning; words, which may be numbers, "true" and "false"
       character(len=*), intent(in) :: name, title, words(:)
-      !> Place of the word that is chosen
+      !> Index of the chosen word
       integer, intent(inout) :: chosen
-      !> Place of the word that counts while no case has the key
+      !> Index of the word that applies until a case has the key
       integer, intent(in) :: usual
-      !> Place of the word that requests nothing; records leave it out
+      !> Index of the word that requests nothing; records leave it out
       integer, intent(in), optional :: none
 
       associate (unused => self, no_name => name, no_title => title, no_words => words, no_choice => chosen, no_usual => usual, &
@@ -347,23 +347,23 @@ contains
       end associate
    end subroutine ignore_choice
 
-   !> A number, 0 where none is requested; formats without keys of their own have none
+   !> A number, 0 if none is requested; ignored by formats without keys of their own
    subroutine ignore_number(self, name, title, value, lowest, highest)
       class(case_archive), intent(inout) :: self
       !> Key and meaning
       character(len=*), intent(in) :: name, title
-      !> In the unit of the key
+      !> Value in the unit of the key
       real(wp), intent(inout) :: value
-      !> Its range, beside 0
+      !> Its range, apart from 0
       real(wp), intent(in) :: lowest, highest
 
       associate (unused => self, no_name => name, no_title => title, no_value => value, no_range => [lowest, highest])
       end associate
    end subroutine ignore_number
 
-   !> A word of a choice as the readable format writes it: in quotes, but for numbers, "true" and "false"
+   !> A word of a choice as in the readable format: in quotes, except for numbers, "true" and "false"
    pure function own_word(word) result(text)
-      !> Of own_choice
+      !> Word, see own_choice
       character(len=*), intent(in) :: word
       character(len=len(word) + 2) :: text
 
@@ -371,55 +371,55 @@ contains
       if (verify(trim(word), "0123456789") > 0 .and. all(word /= ["true ", "false"])) text = '"' // trim(word) // '"'
    end function own_word
 
-   !> Values that do not come in are right
+   !> Nothing, since values that are not set are valid
    subroutine tell_nothing(self, is_error, name, text)
       class(case_archive), intent(inout) :: self
-      !> Can the number not be used? Otherwise it is doubtful
+      !> Is the number invalid? Otherwise doubtful
       logical, intent(in) :: is_error
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> What is said behind its name and its value
+      !> Message after its name and value
       character(len=*), intent(in) :: text
 
       associate (unused => self, no_error => is_error, no_name => name, no_text => text)
       end associate
    end subroutine tell_nothing
 
-   !> Values that do not come in are right
+   !> Nothing, since values that are not set are valid
    subroutine tell_nothing_of_group(self, is_error, text)
       class(case_archive), intent(inout) :: self
-      !> Do its numbers not go together? Otherwise they are doubtful
+      !> Are its numbers inconsistent? Otherwise doubtful
       logical, intent(in) :: is_error
-      !> One sentence
+      !> Message of one sentence
       character(len=*), intent(in) :: text
 
       associate (unused => self, no_error => is_error, no_text => text)
       end associate
    end subroutine tell_nothing_of_group
 
-   !> Values that do not come in are right
+   !> Nothing, since values that are not set are valid
    subroutine say_nothing(self, name, text)
       class(case_archive), intent(inout) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> What is said behind its name and its value
+      !> Message after its name and value
       character(len=*), intent(in) :: text
 
       associate (unused => self, no_name => name, no_text => text)
       end associate
    end subroutine say_nothing
 
-   !> Formats without groups need not know where they begin, and values that do not come in are right
+   !> Nothing, for formats without groups and for values that are not set
    subroutine ignore_name(self, text)
       class(case_archive), intent(inout) :: self
-      !> Name of the group, or what is said about it
+      !> Name of the group, or a remark on it
       character(len=*), intent(in) :: text
 
       associate (unused => self, no_text => text)
       end associate
    end subroutine ignore_name
 
-   !> Formats without groups need not know where they end
+   !> Nothing, for formats without groups
    subroutine ignore(self)
       class(case_archive), intent(inout) :: self
 
@@ -427,31 +427,31 @@ contains
       end associate
    end subroutine ignore
 
-   !> Values that do not come in are right
+   !> Nothing, since values that are not set are valid
    subroutine check_nothing(self, name, bounds)
       class(case_archive), intent(inout) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> Name of the bounds in the table; default that of the item
+      !> Name of the bounds in the table; default: that of the item
       character(len=*), intent(in), optional :: bounds
 
       associate (unused => self, no_name => name, is_there => present(bounds))
       end associate
    end subroutine check_nothing
 
-   !> Values that do not come in stand nowhere
+   !> Values that are not set have no position
    subroutine place_nowhere(self, name, line, column)
       class(case_archive), intent(in) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
-      !> Stay as they are
+      !> Unchanged
       integer, intent(inout) :: line, column
 
       associate (unused => self, no_name => name, no_line => line, no_column => column)
       end associate
    end subroutine place_nowhere
 
-   !> Groups of values that do not come in stand nowhere
+   !> Groups of values that are not set have no line
    pure integer function no_line(self, name) result(line)
       class(case_archive), intent(in) :: self
       !> Name of the group
@@ -462,10 +462,10 @@ contains
       end associate
    end function no_line
 
-   !> An item of the last line, "DX = 0.5", with blanks behind
+   !> An item of the last line, "DX = 0.5", padded with blanks
    pure function show_item(self, name) result(text)
       class(case_archive), intent(in) :: self
-      !> As the item was noted
+      !> Name of the item as collected
       character(len=*), intent(in) :: name
       character(len=shown_length) :: text
       integer :: k

@@ -1,9 +1,10 @@
-!> What a case will cost, before it starts: elements, memory, time on one thread
+!> Estimated cost of a case before it starts: elements, memory, time on one thread
 !>
-!> Times are rough, to tell seconds from hours. They were measured for a ball on a plane, half of the potential contact
-!> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
-!> Stresses below the surface count for memory only. Accuracies that are asked for were measured with random contacts and wheels
-!> by tests/accuracy/cost.py, the first of its size in a process, which makes plans of transforms, on a like machine.
+!> Times are rough, sufficient to distinguish seconds from hours. They were measured for a ball on a plane, with half of the
+!> potential contact area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of
+!> 2022. Subsurface stresses are included in the memory only. Times of prescribed accuracies were measured with random contacts and
+!> wheels by tests/accuracy/cost.py, for the first case of its size in a process, including the plans of transforms, on a similar
+!> machine.
 module contact_cases_estimate
    use contact_base_choices, only : force_control, material_model, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
@@ -23,51 +24,51 @@ module contact_cases_estimate
 
    !> Cost of a case
    type :: case_cost
-      !> Elements of the potential contact area; of one patch in wheel-rail contact
+      !> Number of elements of the potential contact area; of one patch in wheel-rail contact
       integer(long) :: elements = 0
       !> Is that number only an upper bound?
       logical :: at_most = .false.
-      !> Are there more elements than NPOT_MAX? Those of a shift or of transient rolling stand on the rail and are not enlarged
+      !> Are there more elements than NPOT_MAX? In shifts and transient rolling elements are fixed to the rail and are not enlarged
       logical :: beyond_most = .false.
       !> Memory [bytes] and processor time [s]
       real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
    end type case_cost
 
-   !> Whatever the case is [s]
+   !> Constant time of a case, and of a search for its patches [s]
    real(wp), parameter :: every_case = 1.0e-4_wp, every_search = 2.0e-3_wp
-   !> Per element [s]: pressures; tractions in shifts and transient rolling; in steady rolling
+   !> Time per element [s]: pressures; tractions in shifts and transient rolling; in steady rolling
    real(wp), parameter :: pressures = 2.2e-6_wp, by_step = 4.5e-6_wp, steadily = 1.1e-5_wp
-   !> Per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
+   !> Time per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
    real(wp), parameter :: by_convex_gs = 3.6e-7_wp, by_steady_gs = 2.2e-7_wp
-   !> Factors: friction that changes with slip; turns of pressures and tractions at most; trials for a prescribed force
+   !> Factors of the time: friction that varies with slip; trials for a prescribed force; maximum number of outer iterations
    real(wp), parameter :: changing_friction = 1.7_wp, trials = 8.0_wp
    integer, parameter :: turns = 8
-   !> Times NPOT_MAX that are refused where elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
+   !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
-   !> All grids of a case with an accuracy, per element of the usual last one [s]: pressures; with tractions of shifts; of rolling;
-   !> of a wheel, whose height is sought. Each case, files of profiles, and each value of a profile [s]. Elements of that grid over
-   !> those of the first one, since some contacts need a second
+   !> All grids of a case with an accuracy, time per element of the usual last grid [s]: pressures; with tractions of shifts; of
+   !> rolling; of a wheel, whose height is searched. Time of each case, of files of profiles, and of each value of a profile [s].
+   !> Ratio of the number of elements of that grid to those of the first one, since some contacts need a second
    real(wp), parameter :: accurate_pressures = 2.0e-6_wp, accurate_shift = 3.5e-6_wp, accurate_rolling = 4.2e-6_wp, &
       & accurate_wheel = 8.0e-6_wp, accurate_case = 1.7e-3_wp, accurate_profiles = 4.0e-3_wp, accurate_value = 2.0e-6_wp, &
       & more_elements = 1.05_wp
-   !> Simplified methods that were allowed, per element [s]: one march; and marches that find creepages for forces
+   !> Simplified methods, if allowed: time of one march per element [s]; number of marches that determine creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
-   !> Factors: turns of pressures and tractions; bodies that remember; trials for prescribed forces; elements of profiles, which are
-   !> bumpy or touch in two places, and of bodies that remember; friction that changes with slip
+   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; elements of profiles, which are
+   !> bumpy or touch in two positions; friction that varies with slip
    real(wp), parameter :: accurate_turns = 2.0_wp, remembering = 2.4_wp, accurate_trials = 1.4_wp, uneven = 2.0_wp, falling = 2.0_wp
-   !> Factor and order of the estimates of unlike bodies in steady rolling, which fall slower than those that a search expects
+   !> Factor and order of the estimates of unlike bodies in steady rolling, which decrease more slowly than expected by a search
    real(wp), parameter :: unlike_factor = 0.37_wp, unlike_order = 1.45_wp
-   !> Part of a window along each side that contact takes
+   !> Fraction of a window along each side that is covered by contact
    real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
 
 contains
 
-   !> Estimate from the specification alone
+   !> Estimate the cost from the specification alone
    subroutine estimate_cost(spec, cost)
       type(case_spec), intent(in) :: spec
-      !> Elements, seconds and bytes
+      !> Cost: elements, seconds and bytes
       type(case_cost), intent(out) :: cost
       type(potential_contact) :: grid
       type(combined_material) :: material
@@ -115,12 +116,12 @@ contains
       cost%seconds = cost%seconds + every_search
       if (.not. (spec%normal == normal_control%force .or. spec%force /= force_control%creepages)) return
       cost%seconds = cost%seconds + trials*pressures*n
-      ! tractions change the pressures of unlike bodies: every trial needs them
+      ! tractions change the pressures of unlike bodies: every trial computes them
       material = combine(spec%material%poiss, spec%material%gg)
       if (material%coupled()) cost%seconds = cost%seconds + trials*tangential
    end subroutine estimate_cost
 
-   !> A case with an accuracy, by the errors of contacts in general: single ones take half or twice of it, bumpy ones more
+   !> A case with an accuracy, by the general errors of contacts: single contacts take half or twice the time, bumpy ones more
    subroutine estimate_accurate(spec, cost)
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(inout) :: cost
@@ -169,7 +170,7 @@ contains
       if (allocated(spec%geometry%profile)) cost%seconds = cost%seconds + accurate_value*size(spec%geometry%profile)
    end subroutine estimate_accurate
 
-   !> Does the outer iteration turn?
+   !> Are there several outer iterations?
    pure logical function is_dissimilar(spec)
       type(case_spec), intent(in) :: spec
       type(combined_material) :: material
@@ -178,7 +179,7 @@ contains
       is_dissimilar = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
    end function is_dissimilar
 
-   !> Elements of a patch of wheel-rail contact, by Hertz for a ball; all that are allowed where no force is prescribed
+   !> Number of elements of a patch of wheel-rail contact, by Hertz for a ball; the maximum allowed number if no force is prescribed
    subroutine guess_patch(spec, cost)
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(inout) :: cost
@@ -197,9 +198,9 @@ contains
       cost%at_most = .false.
    end subroutine guess_patch
 
-   !> Half of a side of a wheel's contact, by Hertz for a ball [mm]
+   !> Typical half side of the contact of a wheel, by Hertz for a ball [mm]
    pure real(wp) function typical_half_side(spec, fz) result(a)
-      !> Materials
+      !> Case, with its materials
       type(case_spec), intent(in) :: spec
       !> Vertical force [N]
       real(wp), intent(in) :: fz
@@ -209,9 +210,9 @@ contains
       a = (0.75_wp*max(0.0_wp, fz)*typical_radius*(1.0_wp - material%nu)/material%gg)**(1.0_wp/3.0_wp)
    end function typical_half_side
 
-   !> A cost in words, with blanks behind
+   !> A cost in words, padded with blanks
    pure function cost_text(cost) result(text)
-      !> Elements, seconds and bytes
+      !> Cost: elements, seconds and bytes
       type(case_cost), intent(in) :: cost
       character(len=240) :: text
       character(len=12) :: memory, time

@@ -1,6 +1,7 @@
-!> Choices and numbers of a case that only the readable format has a place for, once for all formats
+!> Choices and numbers of a case that exist in the readable format only, listed once for all formats
 !>
-!> As in contact_cases_inputs. Input files leave them to options of the command line, callers of the library to flags.
+!> As in contact_cases_inputs. The program sets them by options of the command line for input files, callers of the library by
+!> flags.
 module contact_cases_own_keys
    use contact_base_choices, only : heat_source
    use contact_base_kinds, only : wp
@@ -15,7 +16,7 @@ module contact_cases_own_keys
 
 contains
 
-   !> Of the case itself
+   !> Keys of the case itself
    subroutine visit_own_case(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -24,7 +25,7 @@ contains
          & spec%estimates_errors)
    end subroutine visit_own_case
 
-   !> Of the group "iteration"
+   !> Keys of the group "iteration"
    subroutine visit_own_iteration(a, iteration)
       class(case_archive), intent(inout) :: a
       type(iteration_spec), intent(inout) :: iteration
@@ -35,7 +36,7 @@ contains
       call visit_flag(a, "allow", "what may take the place of the full theory", allowances(2:1:-1), iteration%allows_approximate)
    end subroutine visit_own_iteration
 
-   !> Of the group "heat"
+   !> Keys of the group "heat"
    subroutine visit_own_heat(a, heat)
       class(case_archive), intent(inout) :: a
       type(heat_spec), intent(inout) :: heat

@@ -30,34 +30,34 @@ module contact_cases_session
 
    public :: check_case, contact_session, refuse_nonsense, release_session, solve_case
 
-   !> Memory of one problem: what the physics remembers, and scratch
+   !> Data of one problem that are kept from case to case: physical state and workspace
    type :: contact_session
       type(patch_state) :: state
       type(patch_workspace) :: workspace
       type(patch_problem) :: problem
-      !> The level that errors are estimated from; unallocated before they are asked for
+      !> The coarse level for error estimates; unallocated until they are requested
       type(coarse_level), allocatable :: coarse
-      !> What stresses below the surface keep from case to case
+      !> Data kept for subsurface stresses
       type(response_shelf) :: shelf
-      !> The grid for which a warning has named a larger one
+      !> Grid for which a warning has suggested a larger one
       type(potential_contact) :: advised
-      !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy [1/mm]; 0 for none
+      !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy; 0 for none [1/mm]
       real(wp) :: curvatures(2) = 0.0_wp
-      !> Does the next case go on from its own solution on other elements?
+      !> Does the next case continue from its own solution on other elements?
       logical :: refines = .false.
-      !> The cases that the next one may continue, where they have an accuracy
+      !> Cases that the next one may continue, if they have an accuracy
       type(accuracy_series) :: series
    end type contact_session
 
 contains
 
-   !> Solve one case, or only take note of its input (R = 2, 3)
+   !> Solve one case, or only read its input (R = 2, 3)
    subroutine solve_case(session, spec, log, result, error, folder)
       type(contact_session), intent(inout) :: session
       !> Complete specification
       type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
-      !> Arrays of the right size are reused
+      !> Result; arrays of the right size are reused
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
@@ -74,11 +74,11 @@ contains
       call log%end_case()
    end subroutine solve_case
 
-   !> The same with a folder, between the first and the last word of the log
+   !> Solve one case with a folder, between the beginning and the end of its log
    subroutine solve_in_folder(session, spec, folder, log, result, error)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
-      !> "" for the current folder
+      !> Folder, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
@@ -98,7 +98,7 @@ contains
       if (allocated(error) .or. .not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) then
-         ! what was left half done is no previous time step
+         ! an incomplete solution is no previous time step
          if (error%kind == error_kind%time) call forget(session, result)
          return
       end if
@@ -113,13 +113,13 @@ contains
          return
       end if
       call find_border(session%problem, result)
-      ! given pressures are known everywhere: a grid that holds them all cuts nothing off
+      ! prescribed pressures are known everywhere: contact is not truncated by a grid that contains them all
       if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
       call warn_of_border(spec, session%problem, result, log, advised=session%advised)
       call warn_of_few_elements(result, "DY", log)
       call name_effects(spec, session%problem, result)
       if (allocated(result%errors)) deallocate(result%errors)
-      ! the totals whose errors are estimated next are not those of the stresses of another case
+      ! the totals whose errors are estimated next must not include stresses of another case
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%estimates_errors) then
          if (.not. allocated(session%coarse)) allocate(session%coarse)
@@ -136,12 +136,12 @@ contains
       if (spec%estimates_errors) call estimate_stress_errors(spec, session%coarse%result, result)
    end subroutine solve_in_folder
 
-   !> Depths of a passage add up along rows of elements
+   !> The depth of wear in a passage is a sum along rows of elements: refuse other rolling directions
    subroutine refuse_direction(spec, error)
       type(case_spec), intent(in) :: spec
-      !> Allocated where rolling is not along them
+      !> Allocated if rolling is not along rows
       type(error_type), allocatable, intent(out) :: error
-      !> What counts as along x [rad]
+      !> Maximum angle that is regarded as along x [rad]
       real(wp), parameter :: along_x = 0.01_wp
 
       if (.not. (is_rolling(spec%motion) .and. spec%wear%archard > 0.0_wp)) return
@@ -150,7 +150,7 @@ contains
          & error_kind%input)
    end subroutine refuse_direction
 
-   !> The Hertz solution of the geometry is a result as well, also of a case that is not solved
+   !> Store the Hertz solution of the geometry, which is a result also of a case that is not solved
    subroutine tell_hertz(problem, result)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
@@ -162,7 +162,7 @@ contains
       end if
    end subroutine tell_hertz
 
-   !> The end of a case whose totals are infinite or not a number: it has no results
+   !> Error of a case whose totals are infinite or not a number: it has no results
    subroutine refuse_nonsense(error)
       type(error_type), allocatable, intent(out) :: error
 
@@ -170,12 +170,12 @@ contains
          & "finite, and there are no results", error_kind%internal)
    end subroutine refuse_nonsense
 
-   !> What a solution would refuse, without one
+   !> Perform the checks of a solution, without solving
    subroutine check_case(session, spec, log, result, error, folder)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
-      !> Of no meaning
+      !> Unused after return
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
@@ -189,14 +189,14 @@ contains
       call check_problem(session%problem, error)
    end subroutine check_case
 
-   !> Free what a session holds outside Fortran's memory; call it before the session goes
+   !> Release the memory of a session that is allocated outside Fortran; must be called before the session is destroyed
    subroutine release_session(session)
       type(contact_session), intent(inout) :: session
       call release_workspace(session%workspace)
       if (allocated(session%coarse)) call release_coarse_level(session%coarse)
    end subroutine release_session
 
-   !> Zero tractions and no contact, after a case that could not be linked
+   !> Set zero tractions and no contact, after a case that could not be linked
    subroutine forget(session, result)
       type(contact_session), intent(inout) :: session
       type(patch_result), intent(inout) :: result
@@ -207,7 +207,7 @@ contains
       result%ncon = 0
    end subroutine forget
 
-   !> What the iteration starts from
+   !> Set the initial estimate of the iteration
    subroutine choose_estimate(session, spec)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec

@@ -1,7 +1,7 @@
-!> Estimated errors of the largest stresses below the surface, from the tractions of both levels
+!> Estimated errors of the largest subsurface stresses, from the tractions of both levels
 !>
-!> Stresses are linear in the tractions: what pressures and tangential tractions of the coarser level make of the stresses at the
-!> point of the largest one tells the errors of both, each with its order. Errors of invariants follow from those of the stresses.
+!> Stresses are linear in the tractions: pressures and tangential tractions of the coarser level, applied separately, give the
+!> errors of stresses at the point of the largest one, each with its order. Errors of invariants follow from those of the stresses.
 !> See doc/theory/errors.md.
 module contact_cases_stress_errors
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
@@ -21,45 +21,46 @@ module contact_cases_stress_errors
 
    public :: estimate_stress_errors
 
-   !> Stresses at points less deep than this many sides of a coarse element are those of the steps between elements; chosen
+   !> Minimum depth in sides of a coarse element; stresses at smaller depths are those of the steps between elements; chosen
    real(wp), parameter :: least_depth = 0.5_wp
-   !> Stresses are in proportion to this power of the load of a patch, by Hertz's theory
+   !> Exponent of the load of a patch in its stresses, by Hertz's theory
    real(wp), parameter :: peak_power = 1.0_wp/3.0_wp
-   !> Errors in general, times n^-2 of the stress, n elements across, n^2 as many as are in contact: by pressures, and by tangential
-   !> tractions over the part that they have of the stress; of random contacts of tests/accuracy (seeds 302 and 304)
+   !> General errors, with n^2 elements in contact: factor of n^-2 times the stress, and factor of n^-2 times the stress due to
+   !> tangential tractions; of random contacts of tests/accuracy (seeds 302 and 304)
    real(wp), parameter :: stress_floor = 0.12_wp, friction_floor = 0.2_wp
-   !> The same with an interfacial layer, whose tractions have errors of first order, over these
+   !> Ratio of the errors with an interfacial layer, whose tractions have errors of first order, to these
    real(wp), parameter :: layer_share = 3.0_wp
-   !> What levels tell above the errors in general counts with this power, see contact_patch_level_errors
+   !> Exponent of the ratio of the error by the levels to the general error, see contact_patch_level_errors
    real(wp), parameter :: stress_trust = 0.75_wp
-   !> Part of the difference of the levels in transient rolling, whose order is not clean; of random contacts (seed 301)
+   !> Ratio of the error to the difference of the levels in transient rolling, which has no clean order; of random contacts (seed
+   !> 301)
    real(wp), parameter :: unclean = 0.5_wp
 
    !> Stresses at a point, and their errors by the levels: xx, xy, xz, yy, yz, zz [N/mm2]
    type :: stress_change
-      !> By pressures, and by tangential tractions
+      !> Due to pressures, and due to tangential tractions
       real(wp) :: normal(6) = 0.0_wp, friction(6) = 0.0_wp
-      !> What the levels tell of the errors of these
+      !> Errors of these by the levels
       real(wp) :: by_normal(6) = 0.0_wp, by_friction(6) = 0.0_wp
    end type stress_change
 
 contains
 
-   !> Errors of the largest equivalent stresses at the points of a case; NaN where they lie too near to the surface
+   !> Estimate the errors of the largest equivalent stresses at the points of a case; NaN for points too close to the surface
    subroutine estimate_stress_errors(spec, coarse, result, left)
-      !> Bodies and points
+      !> Case, with its bodies and points
       type(case_spec), intent(in) :: spec
       !> Solution on elements three times as long
       type(patch_result), intent(in) :: coarse
-      !> With stresses; its errors get those of the largest ones
+      !> Result with stresses; errors of the largest ones are added to its errors
       type(patch_result), intent(inout) :: result
       !> Does the patch belong to a wheel on the left side, see subsurface_stresses? Default: no
       logical, intent(in), optional :: left
-      !> By von Mises, and by Tresca
+      !> Maximum by von Mises, and by Tresca
       character(len=*), parameter :: names(2) = [character(len=10) :: "max_mises", "max_tresca"]
       type(total_list) :: list
       real(wp), allocatable :: values(:)
-      ! places of the largest equivalent stresses
+      ! positions of the largest equivalent stresses
       type(stress_change) :: change
       real(wp) :: place(3, 2), largest(2)
       integer :: k, known
@@ -75,7 +76,7 @@ contains
             call find_largest(result, k == 2, place(:, k), largest(k))
             is_seen = largest(k) > 0.0_wp .and. abs(place(3, k)) >= least_depth*max(coarse%grid%dx, coarse%grid%dy)
             if (.not. is_seen) cycle
-            ! both are often largest at the same point
+            ! both maxima are often at the same point
             if (k == 1 .or. any(place(:, k) /= place(:, 1))) &
                & call compare_stresses(spec, coarse, result, mirrored(place(:, k), left), change)
             values(list%place_of(names(k))) = error_of_largest(change, result, &
@@ -86,13 +87,13 @@ contains
       call move_alloc(values, result%errors%value)
    end subroutine estimate_stress_errors
 
-   !> The largest equivalent stress, and its place
+   !> The largest equivalent stress, and its position
    pure subroutine find_largest(result, by_tresca, place, largest)
-      !> With stresses
+      !> Result with stresses
       type(patch_result), intent(in) :: result
-      !> By Tresca, or by von Mises?
+      !> By Tresca? Otherwise by von Mises
       logical, intent(in) :: by_tresca
-      !> [mm], [N/mm2]; negative where there is no point
+      !> Position [mm], and stress [N/mm2]; negative if there is no point
       real(wp), intent(out) :: place(3), largest
       integer :: i, k
       real(wp) :: value
@@ -111,11 +112,11 @@ contains
       end do
    end subroutine find_largest
 
-   !> A point as the solution of a patch has it, which knows the right side of the track only
+   !> A point in the axes of the solution of a patch, which is for the right side of the track
    pure function mirrored(place, left)
-      !> [mm]
+      !> Position [mm]
       real(wp), intent(in) :: place(3)
-      !> Default: no
+      !> Is the patch on the left side? Default: no
       logical, intent(in), optional :: left
       real(wp) :: mirrored(3)
 
@@ -124,11 +125,12 @@ contains
       if (left) mirrored(2) = -place(2)
    end function mirrored
 
-   !> Error of the largest equivalent stress without that of solvers and window [N/mm2]: what the levels tell by pressures and by
-   !> tangential tractions, whose signs differ from point to point, and the error of so many elements in general
+   !> Error of the largest equivalent stress without contributions of solvers and window [N/mm2]: from the differences of the levels
+   !> due to pressures and due to tangential tractions, whose signs differ from point to point, and the general error for this
+   !> number of elements
    real(wp) function error_of_largest(change, result, has_layer, by_tresca) result(e)
       type(stress_change), intent(in) :: change
-      !> With errors
+      !> Result with errors
       type(patch_result), intent(in) :: result
       logical, intent(in) :: has_layer, by_tresca
       real(wp) :: largest, general, friction
@@ -141,19 +143,19 @@ contains
       e = max(trusted(e, general, stress_trust), general, result%errors%traction*friction)
    end function error_of_largest
 
-   !> Stresses at a point, and the parts of their differences to those of the coarser level that are their errors
+   !> Stresses at a point, and their errors from the differences to those of the coarser level
    subroutine compare_stresses(spec, coarse, result, place, change)
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: coarse, result
-      !> [mm]
+      !> Position [mm]
       real(wp), intent(in) :: place(3)
       type(stress_change), intent(out) :: change
-      !> By the coarser level
+      !> Stresses of the coarser level
       real(wp) :: normal(6), friction(6), load
 
       change%normal = stress_of(spec, result, place, 0.0_wp)
       change%friction = stress_of(spec, result, place, 1.0_wp) - change%normal
-      ! a patch of wheel and rail whose total force is given has another load on the coarser level
+      ! a patch of wheel and rail whose total force is prescribed has another load on the coarser level
       load = 1.0_wp
       if (spec%normal == normal_control%force .and. coarse%fn > 0.0_wp) load = (result%fn/coarse%fn)**peak_power
       normal = load*stress_of(spec, coarse, place, 0.0_wp)
@@ -162,21 +164,21 @@ contains
       change%by_friction = share_of_friction(result)*(friction - change%friction)
    end subroutine compare_stresses
 
-   !> Part of the difference of the levels that is the error of the stresses by tangential tractions
+   !> Ratio of the error to the difference of the levels for stresses due to tangential tractions
    pure real(wp) function share_of_friction(result) result(share)
       type(patch_result), intent(in) :: result
 
       share = 1.0_wp/(coarsening**2 - 1.0_wp)
       if (result%motion == motion%steady_rolling .and. result%tangential%order /= 2) share = 1.0_wp/(coarsening - 1.0_wp)
-      ! by the second order the coarser level is of another scheme
+      ! with the second order, the coarser level is solved with another scheme
       if (result%motion == motion%transient_rolling) share = merge(0.0_wp, unclean, result%tangential%order == 2)
    end function share_of_friction
 
-   !> Stresses at a point by the tractions of a level [N/mm2]
+   !> Stresses at a point due to the tractions of a level [N/mm2]
    function stress_of(spec, level, place, friction) result(stress)
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: level
-      !> [mm]
+      !> Position [mm]
       real(wp), intent(in) :: place(3)
       !> Factor of the tangential tractions: 1, or 0 for pressures alone
       real(wp), intent(in) :: friction

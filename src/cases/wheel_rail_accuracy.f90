@@ -1,6 +1,6 @@
-!> A wheel on a rail to an accuracy that was asked for: smaller elements from one solution to the next
+!> A wheel on a rail solved to a prescribed accuracy: smaller elements from one solution to the next
 !>
-!> As contact_cases_accuracy; what changes are the sides of the elements, DX and DS, since windows follow from the geometry.
+!> As contact_cases_accuracy, but the sides of the elements, DX and DS, are chosen, since windows follow from the geometry.
 module contact_cases_wheel_rail_accuracy
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : motion, normal_control
@@ -26,16 +26,16 @@ module contact_cases_wheel_rail_accuracy
 
    public :: solve_wheel_on_rail
 
-   !> Vertical force that the first size of elements is for, where none is prescribed [N]
+   !> Vertical force for the first size of elements if none is prescribed [N]
    real(wp), parameter :: usual_force = 6.0e4_wp
-   !> Relative error of a patch of too few elements for an estimate
+   !> Relative error assumed for a patch of too few elements for an estimate
    real(wp), parameter :: error_of_few = 0.3_wp
-   !> Elements that are smaller by less than this factor bring nothing
+   !> Minimum ratio of old to new sides; smaller reductions are not tried
    real(wp), parameter :: worth = 1.15_wp
 
 contains
 
-   !> Solve one case: as it is, or with the elements that its accuracy needs
+   !> Solve one case: as specified, or with the elements required by its accuracy
    subroutine solve_wheel_on_rail(session, spec, folder, log, result, solved, error)
       type(wheel_rail_session), intent(inout) :: session
       !> Complete specification of a case of module 1
@@ -43,9 +43,9 @@ contains
       !> Folder to which names of profile files are relative, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
-      !> Gets `accuracy` where one was asked for
+      !> Result, with `accuracy` if one is prescribed
       type(wheel_rail_result), intent(inout) :: result
-      !> The case with DX, DS, the order and EPS that its accuracy has chosen; unallocated where none was asked for
+      !> The case with DX, DS, the order and EPS chosen for its accuracy; unallocated if none is prescribed
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       integer :: k
@@ -59,7 +59,7 @@ contains
       if (allocated(error)) return
       call log%defer()
       call refine(session, spec, folder, log, result, solved, error)
-      ! the next case is compared with what was asked for
+      ! the next case is compared with the case as specified
       session%problem%spec%search%dx = spec%wheel_rail%search%dx
       session%problem%spec%search%ds = spec%wheel_rail%search%ds
       if (.not. allocated(error) .and. spec%has_stress) then
@@ -70,18 +70,18 @@ contains
          end do
       end if
       call log%write_deferred()
-      ! solutions on these elements are no estimates for the elements of the next case
+      ! solutions on these elements are no initial estimates for the elements of the next case
       if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
    end subroutine solve_wheel_on_rail
 
-   !> Smaller and smaller elements until the estimate is small enough, or no finer ones can be had
+   !> Reduce the elements until the estimate is small enough, or no smaller ones are possible
    subroutine refine(session, spec, folder, log, result, solved, error)
       type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(wheel_rail_result), intent(inout) :: result
-      !> As it was solved
+      !> The case as it was solved
       type(case_spec), allocatable, intent(out) :: solved
       type(error_type), allocatable, intent(out) :: error
       type(accuracy_report) :: report
@@ -155,9 +155,9 @@ contains
       call tell_report(spec, sides, result, report, solved, log)
    end subroutine refine
 
-   !> Estimated relative error of all patches together, each weighted by its load; negative without contact
+   !> Estimated relative error of all patches together, weighted by their loads; negative without contact
    pure real(wp) function error_of_pair(memory) result(e)
-      !> Patches are solved, with errors
+      !> Solved patches, with errors
       type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: load, part
       integer :: k
@@ -181,18 +181,18 @@ contains
       if (memory%used > 0) order = minval(memory%slot(:memory%used)%result%tangential%order)
    end function order_of
 
-   !> Sides of the next elements, from the patch that bears most
+   !> Sides of the next elements, from the patch with the largest normal force
    pure subroutine next_sides(spec, memory, report, order, sides, next)
-      !> With its limits
+      !> Case, with its limits
       type(case_spec), intent(in) :: spec
       type(wheel_rail_memory), intent(in) :: memory
-      !> Estimate, and what is asked
+      !> Report, with the estimate and the prescribed accuracy
       type(accuracy_report), intent(in) :: report
-      !> Of the error
+      !> Order of the error
       real(wp), intent(in) :: order
-      !> Present ones [mm]
+      !> Present sides [mm]
       real(wp), intent(in) :: sides(2)
-      !> [mm]
+      !> Next sides [mm]
       real(wp), intent(out) :: next(2)
       type(bounding_box) :: box
       real(wp) :: across(2), most, elements
@@ -219,15 +219,15 @@ contains
       end do
    end subroutine next_sides
 
-   !> Tell what was chosen; a warning where the accuracy was not reached
+   !> Report the choices; a warning if the accuracy was not reached
    subroutine tell_report(spec, sides, result, report, solved, log)
-      !> As it was asked for
+      !> The case as specified
       type(case_spec), intent(in) :: spec
-      !> Of the last elements [mm]
+      !> Sides of the last elements [mm]
       real(wp), intent(in) :: sides(2)
       type(wheel_rail_result), intent(inout) :: result
       type(accuracy_report), intent(inout) :: report
-      !> The case with what was chosen
+      !> The case with the choices
       type(case_spec), allocatable, intent(out) :: solved
       type(log_type), intent(inout) :: log
 

@@ -22,12 +22,12 @@ module contact_cases_whole_case
 
    public :: difference_parameter, visit_case
 
-   !> Difference parameters below this value count as zero [-]
+   !> Difference parameters below this value are treated as zero [-]
    real(wp), parameter, public :: quasi_identical = 1.0e-4_wp
 
 contains
 
-   !> Take what the case gives to or from an archive; its choices and parts are known, the rest stays as it is
+   !> Transfer the values given by a case from or to an archive; choices and parts must be set, other values are unchanged
    subroutine visit_case(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout), target :: spec
@@ -37,7 +37,7 @@ contains
       associate (parts => spec%parts)
          if (parts%iteration == part_source%given) then
             call a%open_group("iteration")
-            ! contact problems of their own may give a largest number of elements, which has no meaning for them
+            ! module 3 may give a maximum number of elements, which has no effect there
             if (spec%classical .and. is_classical(spec%solver)) call a%comment("the solver runs with --classical only")
             call visit_own_iteration(a, spec%iteration)
             call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
@@ -88,7 +88,7 @@ contains
       end associate
    end subroutine visit_case
 
-   !> Rolling direction, step and velocity; other motions replace what is stored by fixed values
+   !> Rolling direction, step and velocity; for other motions fixed values replace the stored ones
    subroutine visit_rolling_group(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -109,7 +109,7 @@ contains
    subroutine visit_materials(a, spec, is_wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
-      !> Wheel on rail? Inclinations are those of the profiles then
+      !> Wheel on rail? Then inclinations are those of the profiles
       logical, intent(in) :: is_wheel_rail
 
       if (spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated) then
@@ -131,7 +131,7 @@ contains
       call a%close_group()
    end subroutine visit_materials
 
-   !> Dissimilar bodies need the outer iteration, similar bodies do not
+   !> Set the maximum number of outer iterations: dissimilar bodies need them, similar bodies do not
    subroutine settle_outer_iteration(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -141,7 +141,7 @@ contains
 
       if (spec%motion == motion%none) return
       associate (material => spec%material)
-         ! wrong values have been told already
+         ! invalid values have been reported already
          if (.not. (minval(material%gg) >= 1.0e-5_wp .and. minval([material%fg, material%tc]) >= 0.0_wp)) return
          ak = difference_parameter(material)
          relaxes_apart = .false.
@@ -151,7 +151,7 @@ contains
       given = "MAXOUT = " // integer_text(spec%iteration%maxout)
       if (spec%iteration%maxout >= 2) then
          if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
-         ! where pressures and tractions do not act on each other at all, one pass is all that can be done
+         ! without any coupling of pressures and tractions, one iteration is sufficient
          if (abs(ak) >= coupling_threshold) call a%warn_of_group(given // " is replaced by 1: the bodies are " &
             & // "quasi-identical, AK = " // real_text(ak))
          spec%iteration%maxout = 1
@@ -169,7 +169,7 @@ contains
 
    !> Kalker's difference parameter K of two bodies [-]
    pure real(wp) function difference_parameter(material)
-      !> With both bodies
+      !> Material of both bodies
       type(material_spec), intent(in) :: material
       type(combined_material) :: both
 
@@ -177,7 +177,7 @@ contains
       difference_parameter = both%ak
    end function difference_parameter
 
-   !> Damping, or that there is none
+   !> Damping; cleared if there is none
    subroutine visit_damping_group(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -191,7 +191,7 @@ contains
       end if
    end subroutine visit_damping_group
 
-   !> Potential contact area, undeformed distance and planform, and what is given for each element
+   !> Potential contact area, undeformed distance and planform, and values given for each element
    subroutine visit_grid_and_geometry(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -224,7 +224,7 @@ contains
 
    !> Potential contact area
    !>
-   !> A Hertzian option brings its own geometry, so that IBASE and IPLAN are 1 from there on.
+   !> A Hertzian option brings its own geometry, so that IBASE and IPLAN are 1 from then on.
    subroutine visit_grid_group(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
@@ -246,7 +246,7 @@ contains
       call a%close_group()
    end subroutine visit_grid_group
 
-   !> A new grid; one that brings its own geometry replaces the one that was given
+   !> Read a new grid; if it brings its own geometry, it replaces the given one
    subroutine take_grid(grid, spec)
       type(grid_spec), intent(in) :: grid
       type(case_spec), intent(inout) :: spec
@@ -283,7 +283,7 @@ contains
       call a%close_group()
    end subroutine visit_geometry_group
 
-   !> Number of elements of a grid, 0 when it cannot be used
+   !> Number of elements of a grid, 0 if the grid is invalid
    pure integer function element_count(grid) result(n)
       type(grid_spec), intent(in) :: grid
 
@@ -296,7 +296,7 @@ contains
    subroutine visit_rail_and_track(a, spec, wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
-      !> Of this case
+      !> Specification of wheel and rail of this case
       type(wheel_rail_spec), intent(inout) :: wheel_rail
 
       if (spec%parts%search == part_source%given) then
@@ -334,11 +334,11 @@ contains
 
    !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations
    !>
-   !> Flexible deviations stay until others are given.
+   !> Flexible deviations are kept until others are given.
    subroutine visit_wheelset(a, spec, wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
-      !> Of this case
+      !> Specification of wheel and rail of this case
       type(wheel_rail_spec), intent(inout) :: wheel_rail
 
       associate (parts => spec%parts)
