@@ -16,7 +16,7 @@ import make_matlab
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 WIDTH = 100
-#: Which problems a routine is for; the first two are ends of titles of sections, too
+#: Problems to which a routine applies; the first two are ends of titles of sections, too
 SCOPES = {"basic contact": "c", "wheel and rail": "w", "any": "a", "patch of wheel and rail": "l",
           "patch or whole of wheel and rail": "g", "one patch": "p", "solved": "v"}
 ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change those."
@@ -25,8 +25,8 @@ ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change
 class Argument:
     """One argument: direction in, out or inout, kind int, real or text, and whether it is an array
 
-    lengths has the arguments that tell its length; size the value of the length where that is fixed, "grid" for one value per
-    element, else None; is_table says that it is a result with two lengths, of which the routine makes its own use.
+    lengths has the arguments that contain its length; size is the length if it is fixed, "grid" for one value per element, else
+    None; is_table: is it a result with two lengths, which the routine handles itself?
     """
 
     def __init__(self, text):
@@ -53,13 +53,13 @@ class Routine:
 
     @property
     def shown(self):
-        """The name of a setting or result as messages have it, "" for routines with a Fortran interface of their own"""
+        """Name of a setting or result in messages, "" for routines with a Fortran interface of their own"""
         return next((word for word in self.words if word.lower() == self.name), "")
 
     def kinds(self, title):
-        """A letter for what a routine in a section is for, see SCOPES, then one for each argument: e, p result element and patch,
-        i, r integer and number, n length of an array; I, R, P, T and the place of their length: arrays of integers, numbers and
-        pairs, a text; x a result, X with the place of its length: an array with one length"""
+        """A letter for the problems of the section of a routine, see SCOPES, then one for each argument: e, p result element and
+        patch, i, r integer and number, n length of an array; I, R, P, T and the position of their length: arrays of integers,
+        numbers and pairs, a text; x a result, X with the position of its length: an array with one length"""
         names = [item.name for item in self.arguments]
         lengths = {item.lengths[-1] for item in self.arguments if item.lengths and not item.is_table}
         kinds = next((SCOPES[word] for word in (*self.words, title.split(" of ")[-1]) if word in SCOPES), "s")
@@ -75,7 +75,7 @@ class Routine:
         return kinds
 
     def describe(self, line):
-        """Take an indented line of the table"""
+        """Parse an indented line of the table"""
         argument = re.fullmatch(r"- ([\w, ]+): (.+)", line)
         if argument:
             self.about.append(argument.groups())
@@ -101,7 +101,7 @@ def element_fields():
     fields, letters = {}, {"mm": "L", "N/mm2": "F/L2"}
     for code, name, unit, meaning in re.findall(r'call add\((\d+), "(\w+)", "([^"]*)", "([^"]*)"', text):
         _, texts = fields.setdefault(int(code), (name, []))
-        # shifts, which come behind slip, are in mm in all units
+        # shifts, which follow slip, are in mm in all units
         texts.append(f"{meaning} [{unit if texts else letters.get(unit, unit)}]")
     return [Constant("CNTC_fld_" + name, code, "; ".join(texts)) for code, (name, texts) in sorted(fields.items())]
 
@@ -159,7 +159,7 @@ def wrapped(words, first, indent, ending=""):
 
 
 def description(routine, width):
-    """Lines that tell what a routine does and what its arguments are"""
+    """Lines that describe a routine and its arguments"""
     lines = textwrap.wrap(" ".join(routine.text), width)
     for names, text in routine.about:
         if names:
@@ -214,7 +214,7 @@ def c_constants(constants):
 
 
 def fortran_constants(constants):
-    """Text of caddon_flags.inc: right in free and in fixed source form, with and without preprocessing"""
+    """Text of caddon_flags.inc: valid in free and in fixed source form, with and without preprocessing"""
     lines = ["! Named numbers of the CONTACT library, to be included among declarations.", f"! {ORIGIN}"]
     for title, items in constants:
         lines += ["!", f"! {title}"]
@@ -260,7 +260,7 @@ def version():
 
 
 def python_tables(constants, routines, undocumented):
-    """Text of _signatures.py: what ctypes has to know"""
+    """Text of _signatures.py: the declarations for ctypes"""
     codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
     lines = ['"""Arguments of the routines of the library, its named numbers, and what its results are.', "", ORIGIN, '"""', "",
              f'VERSION = "{version()}"', "",
@@ -288,7 +288,7 @@ def python_tables(constants, routines, undocumented):
 
 
 def c_doors(routines, undocumented):
-    """Text of doors.c: names, numbers of arguments, and what they are"""
+    """Text of doors.c: names, numbers of arguments, and their kinds"""
     lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,",
              f" * and kinds of arguments. {ORIGIN} */", '#include "door.h"', ""]
     for title, routine in [(title, item) for title, items in routines + [("", undocumented)] for item in items]:
@@ -330,7 +330,7 @@ def page(constants, routines):
                     lines.append(text)
                 table = not about
             lines += ["```"] if table else []
-    # stars behind names are no emphasis
+    # asterisks after names are not emphasis
     lines = [re.sub(r"(?<!`)\b(CNTC_[a-z]+_\*|CNTC_\w+)", r"`\1`", line) if line[:2] == "- " else line for line in lines]
     lines += ["", "## Named numbers"]
     for title, items in constants:

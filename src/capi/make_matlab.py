@@ -11,7 +11,7 @@ IDS = {"patch": "result element and contact patch or problem (default 1, 1)",
        "whole": "result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole",
        "pair": "result element of a wheel-rail problem (default 1)"}
 IDEBUG = ("idebug", "1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)")
-#: Functions of matlab/ that belong to no routine, by the title of the section of Contents.m where they stand first
+#: Functions of matlab/ without a routine, by the title of the section of Contents.m in which they are listed first
 FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers",
                              "cntc_closelibrary"], "Settings of both modules": ["cntc_setmaterialproperties"],
            "Settings of basic contact": ["cntc_setinterfaciallayer"],
@@ -20,7 +20,7 @@ FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_manageli
 
 
 class Function:
-    """A function: which arguments of the routine its callers give, and what the others are"""
+    """A function: the arguments of the routine that its callers give, and the values of the others"""
 
     def __init__(self, routine, constants, origin):
         self.routine, self.origin = routine, origin
@@ -125,7 +125,7 @@ class Function:
         return [other for other in self.inputs if other.lengths == item.lengths]
 
     def passed(self, item, fields):
-        """What the routine gets for one of its arguments"""
+        """Value passed to the routine for one of its arguments"""
         if item.name in self.texts:
             return f"numel({outer(self.texts[item.name].name)})"
         if item.name in self.lengths:
@@ -159,7 +159,7 @@ def outer(name):
 
 
 def with_defaults(names, text, defaults):
-    """The text of an argument with what it is when it is left out"""
+    """Description of an argument with its default"""
     shown = [defaults[name][1] for name in names.split(", ") if name in defaults and defaults[name][1] not in ("' '", "[]")]
     return f"{text} (default {', '.join(shown)})" if shown else text
 
@@ -193,7 +193,7 @@ def signatures(routines, origin):
 
 
 def contents(folder, routines, functions):
-    """Text of Contents.m: what stands above the library is written by hand"""
+    """Text of Contents.m: the part above the library is written by hand"""
     with open(os.path.join(folder, "Contents.m"), encoding="utf-8") as file:
         lines = file.read().split("% The library: ")[0].rstrip("\n").split("\n")
     for title, items in routines:
@@ -205,7 +205,7 @@ def contents(folder, routines, functions):
 
 
 def first_line(folder, functions, name):
-    """What a function does, in one line"""
+    """Purpose of a function, in one line"""
     if name in functions:
         text = " ".join(functions[name].routine.text)
     else:
