@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Accuracy that is asked for by callers: the flags, the grid of the result, what was not reached, what is refused"""
+"""A prescribed accuracy in the library: the flags, the grid of the result, accuracies not reached, refused cases"""
 import os
 import sys
 import warnings
@@ -46,7 +46,7 @@ def reached():
 
 
 def allowed():
-    """A simplified method by permission, without estimates of its own; not without"""
+    """A simplified method if allowed, without estimates of its own; otherwise none"""
     with ellipse(0.0, 60) as problem:
         problem.set_creepages(5e-4, 2e-4, 0.0)
         fine = problem.solve()
@@ -70,7 +70,7 @@ def allowed():
 
 
 def missed():
-    """A value that is none, a case that cannot be done, and an accuracy that is out of reach"""
+    """An invalid value, a case that is not possible, and an accuracy that cannot be reached"""
     for value in (0.5, -1e-3, 1e-7, float("nan")):
         try:
             ellipse(value).close()

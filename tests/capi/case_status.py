@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One status of a case: .out, .mat, JSON, HDF5, the page, the library and its Python package tell the same.
+"""One status of a case: .out, .mat, JSON, HDF5, the page, the library and its Python package give the same.
 
 A table of cases for both modules that end in every way; the program computes all of them, the library and the Python
 objects those of module 1 from the same input file, and those of module 3 with the same numbers. Also --strict, the
@@ -121,7 +121,7 @@ def run(*arguments):
 
 
 def hdf5_status(name):
-    """State, what was missed and reason in the HDF5 file, and what the page gets; None without h5py"""
+    """State, unconverged iteration and reason in the HDF5 file, and the data of the page; None without h5py"""
     try:
         import h5py
     except ImportError:
@@ -137,7 +137,7 @@ def hdf5_status(name):
 
 
 def by_program(name, text, state, missed):
-    """What the program tells of a case; returns the reason"""
+    """Messages of the program about a case; returns the reason"""
     with open(name + ".inp", "w") as file:
         file.write(text + "0\n")
     # the default solver misses nothing that the pressures reach, a slow one by name does
@@ -248,7 +248,7 @@ def by_library3(name, state, missed, code, reason):
             close(forces[1], np.prod(cntc.getgriddiscretization(problem.number, 1)) * np.sum(px), 1e-9 * abs(forces[0]),
                   "a missed force is the sum of its tractions")
             close(abs(forces[1]), 10.0, 1e-3, "full sliding")
-            # what was asked for is still asked for
+            # prescribed values are still prescribed
             for _ in range(2):
                 again = cntc.calculate(problem.number, 1, idebug=0)
                 same(again, -28, "the request stays as it was given")
@@ -277,7 +277,7 @@ def by_library1(name, path, state, missed, code, reason):
 
 
 def several():
-    """Counts of several cases, and warnings that are told once"""
+    """Counts of several cases, and warnings that are given once"""
     names = ["solved", "force", "outer"]
     with open("several.inp", "w") as file:
         file.write("".join(text for module, name, text, *_ in TABLE if module == 3 and name in names) + "0\n")
@@ -290,7 +290,8 @@ def several():
 
 
 def buried_end():
-    """An end of the wheel's profile within a guard rail, where no patch is: the library and Python tell it as the program does"""
+    """An end of the wheel's profile within a guard rail, away from all patches: the library and Python report it as the program
+    does"""
     corners = [(-80.0, 40.0), (-79.0, -20.0), (-51.0, -20.0), (-50.0, 30.0), (-38.0, 30.0), (-36.0, 10.0)]
     rail = [(1 - t) * np.array(a) + t * np.array(b) for a, b in zip(corners, corners[1:]) for t in np.linspace(0, 0.95, 20)]
     y = np.arange(-35.0, 35.1, 0.5)

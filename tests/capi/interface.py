@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of the interface, what is made from it, what the library exports, and its sources: all the same.
+"""The table of the interface, the files made from it, the exports of the library, and its sources agree.
 
 usage: interface.py C_COMPILER LIBRARIES
 """
@@ -18,7 +18,7 @@ failures = []
 
 
 def check(condition, what):
-    """Count one claim"""
+    """Count one check"""
     if not condition:
         failures.append(what)
         print(f"FAILED {what}")
@@ -39,7 +39,7 @@ def declared(compiler, header):
 
 
 def exported(library):
-    """Functions that the library shows"""
+    """Functions exported by the library"""
     text = subprocess.run(["nm", "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout
     return {line.split()[-1].split("@")[0] for line in text.splitlines()}
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Derivatives of wheel on rail agree with Richardson-extrapolated differences of solutions, and are refused where there are none.
+"""Derivatives of wheel on rail agree with Richardson-extrapolated differences of solutions, and are refused if not available.
 
-Differences are of solutions to a relative 1e-11, over steps so small that hardly an element changes its state. Each row is judged
-relative to its largest entry, with inputs scaled by what moves a wheel about alike: 1 mm, 1/750 rad, 20 mm/s at 20 m/s.
+Differences are of solutions to a relative 1e-11, over steps so small that hardly an element changes its state. Each row is compared
+relative to its largest entry, with inputs scaled by amounts that move a wheel similarly: 1 mm, 1/750 rad, 20 mm/s at 20 m/s.
 
     jacobian.py --random 400 --seed 2
 
-compares random wheels of 100 N to 200 kN instead, and tells those with deviations above ten times what differences are good for.
+compares random wheels of 100 N to 200 kN instead, and lists those with deviations above ten times the error of the differences.
 """
 import argparse
 import os
@@ -80,7 +80,7 @@ def position(y, side=1, length=1.0, roller=False, **changes):
 
 
 def deviation(pair, at, force_given=True, scale=1.0, length=1.0):
-    """Derivatives, their deviations from differences, and what these are good for: what the two step lengths differ by"""
+    """Derivatives, their deviations from differences, and the error of these: the difference between the two step lengths"""
     unit = np.array([length if name in ("y", "z", "vs", "vy") else 1.0 for name in COLUMNS])
     solve(pair, at, force_given)
     height = solve(pair, at, force_given)[-1]
@@ -195,7 +195,7 @@ def refusals():
 
 
 def random_wheels(count, seed):
-    """Wheels that no one has chosen; those whose differences see an element come into contact decide nothing"""
+    """Random wheels; those whose differences include an element that comes into contact are ignored"""
     profiles = f"{top}/examples/profiles"
     deviate = 0
     for number in range(count):

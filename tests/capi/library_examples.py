@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Run the examples of the library in C, Fortran and Python: one answer in three languages, and the right one.
+"""Run the examples of the library in C, Fortran and Python: the same results in three languages, and the correct ones.
 
 usage: library_examples.py FOLDER_OF_PROGRAMS
 """
@@ -13,7 +13,7 @@ failures = []
 
 
 def check(condition, what):
-    """Count one claim"""
+    """Count one check"""
     if not condition:
         failures.append(what)
         print(f"FAILED {what}")
@@ -36,7 +36,7 @@ def agree(first, second, what):
 
 
 def creep_curve(rows):
-    """Rising to the friction coefficient; a layer makes it rise more slowly"""
+    """Increasing to the friction coefficient; a layer makes it increase more slowly"""
     check(rows[0][1:] == [0.0, 0.0], "no force without creepage")
     for column in (1, 2):
         ratios = [-row[column] for row in rows]

@@ -22,7 +22,7 @@ PROFILES = os.path.join(SOURCE, "examples/profiles")
 
 
 def raises(kind, call, word, what):
-    """Claim that a call raises an error whose text has a word; returns the error"""
+    """Check that a call raises an error whose text has a word; returns the error"""
     try:
         call()
     except kind as error:
@@ -103,7 +103,7 @@ def prescribed_and_transient():
 
 
 def errors():
-    """Wrong settings are told at once, in words, and once"""
+    """Wrong settings are reported at once, in words, and once"""
     with contact.Problem() as problem:
         ball(problem)
         error = raises(contact.ContactError, lambda: problem.set_material(g=82000.0, nu=0.28, model=4), "", "material")
@@ -125,7 +125,7 @@ def errors():
 
 
 def many():
-    """Problems are given back when nobody needs them; more at a time than there is room for are refused"""
+    """Problems are released when they are no longer used; more at a time than the limit are refused"""
     for _ in range(250):
         ball(contact.Problem())
     gc.collect()
@@ -145,7 +145,7 @@ def many():
 
 
 def threads():
-    """Problems in threads of Python have the results that they have one by one"""
+    """Problems in threads of Python have the same results as one after the other"""
     creepages = [0.0002 * k for k in range(1, 25)]
 
     def curve(cases):
@@ -259,7 +259,7 @@ def older_scripts():
 
 
 def documents():
-    """The pieces of Python in the documents run as they stand"""
+    """The code blocks of Python in the documents run as printed"""
     folder = os.getcwd()
     with tempfile.TemporaryDirectory() as scratch:
         # beside the examples; what they write is no part of the sources
@@ -276,7 +276,7 @@ def documents():
 
 
 def warned(call):
-    """What a call gives, and the texts of its warnings"""
+    """The result of a call, and the texts of its warnings"""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         found = call()
@@ -284,7 +284,7 @@ def warned(call):
 
 
 def doubts():
-    """Contact that is cut off, and stresses near the surface between centres, are warned of"""
+    """Truncated contact, and stresses near the surface between centres, give warnings"""
     with contact.Problem() as problem:
         problem.set_material(g=1.0, nu=0.28)
         problem.set_friction(0.3)
@@ -339,7 +339,7 @@ def braked_wheel(pair):
 
 
 def temperatures():
-    """By moving sources unless the established ones are asked for by name; in any units"""
+    """By moving sources unless the established ones are requested by name; in any units"""
     highest = {}
     for units, length in (("mm", 1.0), ("si", 1e-3)):
         for source in (None, "moving", "established"):
@@ -373,7 +373,7 @@ def temperatures():
 
 
 def estimated_errors():
-    """Errors come with results that ask for them, in the units of the caller, and not with others"""
+    """Errors are part of results that request them, in the units of the caller, and not of others"""
     found = {}
     for units, length in (("mm", 1.0), ("si", 1e-3)):
         with contact.Problem(units=units) as problem:
@@ -408,7 +408,7 @@ def rolling_ball(problem, length):
 
 
 def places():
-    """Where the library is looked for when nothing is said: files that are there, then names for the system"""
+    """Search path of the library without a setting: existing files, then names for the system"""
     from contact import _library
     chosen = os.environ.pop("CONTACT_LIBRARY")
     try:
@@ -433,7 +433,7 @@ def places():
 
 
 def output():
-    """Files go where they are wanted"""
+    """Files are written to the requested folder"""
     contact.output_to("results", "run")
     with contact.Problem() as problem:
         problem.set_flags(ic_output=2, ic_matfil=1, if_wrtinp=1)

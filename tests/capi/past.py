@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Forces of a wheel do not depend on the calls before: calls that go on from one another against fresh ones, by order 2.
+"""Forces of a wheel do not depend on previous calls: calls that continue one another against independent ones, by order 2.
 
 Random walks of position, velocities and load, on the tread, at the flange, and with two patches; elements of 1.0 and 0.5 mm. Both
 meet the vertical force within EPS, hence twice of it between them.

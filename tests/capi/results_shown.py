@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Results of the Python package as people look at them: printed, drawn, as data sets of xarray, loaded from three kinds of files.
+"""Results of the Python package for display: printed, plotted, as data sets of xarray, loaded from three kinds of files.
 
 Usage: results_shown.py PROGRAM
 """
@@ -19,7 +19,7 @@ from contact._view import meaning_of
 
 
 def has(module):
-    """Is an optional module there?"""
+    """Is an optional module installed?"""
     try:
         importlib.import_module(module)
     except ImportError:
@@ -29,7 +29,7 @@ def has(module):
 
 
 def raises(kind, call, word):
-    """Claim that a call raises an error whose text has a word"""
+    """Check that a call raises an error whose text has a word"""
     try:
         call()
     except kind as error:
@@ -159,7 +159,7 @@ def drawn(result, stresses, pair):
 
 
 def data_sets(result, stresses, pair):
-    """xarray has the fields with their places, units and flags"""
+    """xarray has the fields with their coordinates, units and flags"""
     if not has("xarray"):
         raises(ImportError, result.to_xarray, "pip install xarray")
         return
@@ -183,7 +183,7 @@ def data_sets(result, stresses, pair):
 
 
 def loaded(program):
-    """The three kinds of files tell the same, up to their figures"""
+    """The three kinds of files contain the same values, up to their figures"""
     for name in ("cattaneo", "manchester"):
         with open(os.path.join(SOURCE, "examples", name + ".inp"), encoding="utf-8") as file:
             text = file.read()

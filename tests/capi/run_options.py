@@ -82,7 +82,7 @@ def prepare():
 def total(name, quantity):
     with open(name + ".jsonl") as file:
         patch = json.loads(file.readline())["patches"][0]
-    # what is not there acts by default
+    # missing options have their default effect
     return patch["solver"].get(quantity) if quantity.startswith("tangential_") else patch["totals"][quantity]["value"]
 
 

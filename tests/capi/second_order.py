@@ -175,7 +175,8 @@ def random_contacts():
 
 
 def mirrored():
-    """Rolling the other way is the mirror image; where an element hardly slips its direction is left to the iteration"""
+    """Rolling in the opposite direction is the mirror image; at almost no slip, the direction of an element depends on the
+    iteration"""
     creep = (4e-4, -3e-4, 5e-4)
     one = hertz(24, (0.3, 0.2), creep, 2, eps=1e-10)
     other = hertz(24, (-0.3, 0.2), (-creep[0], creep[1], -creep[2]), 2, eps=1e-10, direction=np.pi)
@@ -213,7 +214,7 @@ def admissible():
 
 
 def turning_round():
-    """Rollers of aluminium and steel that nearly slide: slip turns round between two elements, tractions stay along x"""
+    """Rollers of aluminium and steel close to full sliding: slip reverses between two elements, tractions remain along x"""
     for n in (38, 75, 150):
         for place in (0.0, 0.3, 0.6):
             dx = 0.2016 / n

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the code of all rooms can write to and all threads share: only what is listed here, with its owner.
+"""Writable data of all modules that all threads share: only those listed here, with their owner.
 
 usage: statics.py NM FILE_WITH_NAMES_OF_OBJECTS
 """
@@ -58,7 +58,7 @@ def statics(nm, files):
 
 
 def main():
-    """Compare what is there with what is known"""
+    """Compare the data found with the list"""
     nm, names = sys.argv[1:]
     if not shutil.which(nm):
         print("skipped: there is no nm to look into object files")

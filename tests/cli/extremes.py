@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Contact problems with numbers from one end of the bounds to the other: no NaN in a result, no hang, no crash.
+"""Contact problems with numbers at and between both ends of their bounds: no NaN in a result, no hang, no crash.
 
 usage: extremes.py [COUNT [SEED]]    default 150 cases, seed 1
 The environment tells CONTACT_PROGRAM; CONTACT_JOBS is the number of processes.
 
-Right is what ends in time, with results that are all numbers or with an error in words. An infinite residual of a case that
-says that it did not converge is no result.
+A case passes if it ends in time, with results that are all finite numbers or with an error message. An infinite residual of a case
+with the status "not converged" is not a result.
 """
 import concurrent.futures
 import json
@@ -19,8 +19,8 @@ import tempfile
 from collections import Counter
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
-#: Cases that once trapped in a debug build: distances so large that nothing can be added to them, steps of 1e10 elements,
-#: strips that slide wholly, no slip velocity to compare with, a scale of nothing for the residual
+#: Cases that once trapped in a debug build: distances so large that additions to them are lost in round-off, steps of 1e10
+#: elements, strips in full sliding, no slip velocity as a reference, a zero scale of the residual
 KNOWN = (100016, 100028, 100029, 100181, 200048, 200052, 200177, 300020)
 PATIENCE = 10.0 * float(os.environ.get("CONTACT_SLOWER", "1"))
 BAD = re.compile(r"(?<![A-Za-z'\"/.-])[-+]?(NaN|Infinity|Inf)(?![a-z'\"])")
@@ -36,7 +36,7 @@ class Draw:
         return self.random.choice(choices)
 
     def size(self, lowest, highest, usual):
-        """A positive number: an end, anything between on a logarithmic scale, or a usual one"""
+        """A positive number: a bound, a value between them on a logarithmic scale, or a usual one"""
         between = 10 ** self.random.uniform(math.log10(lowest), math.log10(highest))
         return self.one_of(lowest, highest, between, between, usual, usual)
 
@@ -90,7 +90,7 @@ def case(seed):
 
 
 def not_finite(value):
-    """Is there a number that is none in a record of JSON? Residuals do not count"""
+    """Is there a NaN or an infinity in a record of JSON? Residuals are ignored"""
     if isinstance(value, dict):
         return any(not_finite(entry) for name, entry in value.items() if "residual" not in name)
     if isinstance(value, list):
@@ -99,7 +99,7 @@ def not_finite(value):
 
 
 def run(seed):
-    """What one case ends with, and whether that is right"""
+    """The status of one case, and whether it passes"""
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "x.inp"), "w") as file:
             file.write(case(seed))

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Every number of the examples replaced by nonsense: no NaN in a result, no hang, no crash.
+"""Every number of the examples replaced by an invalid or extreme one: no NaN in a result, no hang, no crash.
 
 usage: mutations.py [COUNT [SEED]]    COUNT random mutations (default 250, seed 13); "all" for every one, which takes minutes
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE; CONTACT_JOBS is the number of processes.
 
-A mutation takes one number of an example, of its first case or cases, or of a profile, and replaces it. Right is what
-ends in time, either with an error in words or with results that are all numbers.
+A mutation takes one number of an example, of its first case or cases, or of a profile, and replaces it. It passes if the run ends
+in time, either with an error message or with results that are all finite numbers.
 """
 import concurrent.futures
 import os
@@ -19,23 +19,23 @@ import tempfile
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 EXAMPLES = os.path.join(SOURCE, "examples")
-#: What takes the place of a number
+#: Replacements of a number
 NONSENSE = ("nan", "inf", "-inf", "1e300", "-1e300", "1e20", "-1e20", "1e9", "0", "-1", "1e-300", "1e-9", "word", "180",
             "99999999999")
-#: Seconds that a run may take
+#: Maximum time of a run [s]
 PATIENCE = 5.0 * float(os.environ.get("CONTACT_SLOWER", "1"))
 #: Examples whose first case is small
 SMALL = ("approximate", "bentall", "carter2d", "catt_to_cart", "cattaneo", "falling_friction", "layer_element", "layer_traction",
          "manchester", "roller_rig", "simplified", "single_wheel", "sliding_temperature", "spence35", "subsurface", "visc_rollers",
          "wheel_on_rail", "conformal_wheel")
 NUMBER = re.compile(r"(?<![\w.'/])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?(?=[\s,dr]|$)")
-#: A row of the picture of the contact area, in which a star stands for adhesion
+#: A row of the picture of the contact area, in which a star denotes adhesion
 PICTURE = re.compile(r"\s*\d+\s+[.*a-zA-Z|]+\s*$")
 BAD = re.compile(r"(?<![\w'\"/.-])[-+]?(?:nan|infinity|inf)(?![\w'\"])|\*{5,}", re.IGNORECASE)
 
 
 def first_cases(text):
-    """The text up to the second module line with a case behind it, on coarser grids nothing else: examples begin small"""
+    """The text up to the second module line that follows a case, with coarser grids; examples begin with small cases"""
     lines, modules = text.split("\n"), 0
     for k, line in enumerate(lines):
         if re.match(r"\s*[13](\s+\d+)*\s+MODULE", line) or re.match(r"\s*[13]\s+%", line):
@@ -46,7 +46,7 @@ def first_cases(text):
 
 
 def numbers(text):
-    """Places of the numbers that are read: the leading ones of each line, outside of comments"""
+    """Positions of the numbers that are read: the leading ones of each line, outside of comments"""
     found, start = [], 0
     for line in text.split("\n"):
         body = line.split("%")[0]
@@ -59,7 +59,7 @@ def numbers(text):
 
 
 def mutations():
-    """All of them: example, file that is changed, place, replacement"""
+    """All mutations: example, file that is changed, position, replacement"""
     every = []
     for example in SMALL:
         with open(os.path.join(EXAMPLES, example + ".inp")) as file:
@@ -73,7 +73,7 @@ def mutations():
 
 
 def run(mutation):
-    """What is wrong with one mutation, "" when nothing is"""
+    """Failure of one mutation, "" if there is none"""
     example, profile, text, (first, last), value = mutation
     changed = text[:first] + value + text[last:]
     with tempfile.TemporaryDirectory() as folder:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""One number of a profile is wrong, or two rows are exchanged: told or refused, and never at the cost of much more time.
+"""One number of a profile is wrong, or two rows are exchanged: reported or refused, without a large increase of the run time.
 
 usage: profile_mutations.py [COUNT [SEED]]    COUNT random mutations (default 16, seed 5) beside those that were found once
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 
-Examples run with one row of one profile changed, with and without smoothing. Right is what takes less than ten times the
-processor time of the sound profile and, where the point has left the curve by more than 2 mm, ends in an error that names the
-file and the line or in a warning that names the file. A point that is ten times as far out once cost two hundred times the time.
+Examples run with one row of one profile changed, with and without smoothing. A run passes if it takes less than ten times the
+processor time of the correct profile and, if the point is more than 2 mm off the curve, ends in an error with the name of the file
+and the line or in a warning with the name of the file. A point that is ten times as far out once took two hundred times the time.
 """
 import math
 import os
@@ -21,18 +21,18 @@ import tempfile
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 EXAMPLES = os.path.join(SOURCE, "examples")
-#: Processor time that a wrong number may cost, relative to the sound profile, and what the start of a program takes [s]
+#: Maximum processor time with a wrong number, relative to the correct profile, and time to start a program [s]
 MOST_TIMES, START = 10.0, 0.3
-#: A run is ended after this much processor time [s]
+#: Maximum processor time of a run [s]
 PATIENCE = 30 * max(1, math.ceil(float(os.environ.get("CONTACT_SLOWER", "1"))))
-#: Distance from the curve that must not pass in silence [mm]
+#: Distance from the curve that must be reported [mm]
 GROSS = 2.0
 PROFILES = {"single_wheel": ("groove.txt", "roller.txt"), "manchester": ("60E1.prr", "S1002.prw"),
             "roller_rig": ("60E1.prr", "S1002.prw"), "wheel_flat": ("60E1.prr", "flat/slice_12.prw"),
             "rolling_steps": ("60E1.prr", "S1002.prw"), "conformal_wheel": ("60E1.prr", "S1002.prw"),
             "wheel_on_rail": ("60E1.prr", "S1002.prw")}
 ROW = re.compile(r"^\s*(-?[\d.]+(?:[eE][-+]?\d+)?)\s+(-?[\d.]+(?:[eE][-+]?\d+)?)\s*$")
-#: Smoothing: SMOOTH, and ISMOOTH where it is not 0
+#: Smoothing: SMOOTH, and ISMOOTH unless it is 0
 SMOOTHING = ((0.0, 0), (0.0, 0), (0.5, 0), (2.0, 0), (0.5, 1), (3.0, 1), (0.0, 2), (3.0, 2))
 #: Found by random mutations: example, profile, line, column, factor, smoothing. They took 12 to 200 times the time
 FOUND = (("single_wheel", "groove.txt", 208, 0, 10.0, (0.0, 0)), ("single_wheel", "groove.txt", 211, 0, 10.0, (0.0, 1)),
@@ -66,7 +66,7 @@ def smoothed(text, profile, smoothing):
 
 
 def random_change(draw, lines):
-    """Lines with one number changed or two rows exchanged, how the change reads, and how far the point is from the curve"""
+    """Lines with one number changed or two rows exchanged, description of the change, and distance of the point from the curve"""
     rows = rows_of(lines)
     changed, k = list(lines), draw.choice(rows)
     if draw.random() < 0.2:
@@ -79,7 +79,7 @@ def random_change(draw, lines):
 
 
 def change(lines, k, column, factor, shift=0.0):
-    """One number multiplied, or moved where there is no factor"""
+    """One number multiplied, or shifted if there is no factor"""
     changed, point = list(lines), values(lines[k])
     point[column] = point[column] * factor if factor is not None else point[column] + shift
     changed[k] = f" {point[0]:.9g} {point[1]:.9g}"
@@ -88,7 +88,7 @@ def change(lines, k, column, factor, shift=0.0):
 
 
 def run(text, profile=None, lines=None):
-    """Processor time [s], exit status and what was said"""
+    """Processor time [s], exit status and messages"""
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(folder, "profiles"))
         if profile:
@@ -109,7 +109,7 @@ def run(text, profile=None, lines=None):
 
 
 def judge(sound, text, profile, changed, distance):
-    """What is wrong, "" when nothing is"""
+    """Description of the failure, "" if there is none"""
     seconds, status, said = run(text, profile, changed)
     if status not in (0, 1):
         return f"ends with {status} after {seconds:.1f} s: {said[-200:]}"

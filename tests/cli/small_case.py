@@ -1,4 +1,4 @@
-"""Cases of a ball on a plane for tests that look at runs and not at results"""
+"""Cases of a ball on a plane for tests of runs, not of results"""
 CASE = """3
 203100
 0022020
@@ -20,5 +20,5 @@ def case(n=20, g=0, limits="999 100 30 1 1e-5", fn=100):
 
 
 def endless(n=80):
-    """ConvexGS with a tolerance below rounding: a million sweeps on any machine"""
+    """ConvexGS with a tolerance below round-off: a million sweeps on any machine"""
     return case(n, g=2, limits="999999 100 30 1 1e-20\n0.9 1.0 0 0.5", fn=2000)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An accuracy that is asked for: what is chosen, what is said of it, what it costs, where it ends, what is refused
+"""A prescribed accuracy: choices, reports, cost, limits, refused cases
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -27,12 +27,13 @@ WINDOWS = ("1 IPOTCN\n20 20 -3.6 -6 0.36 0.6 MX MY XL YL DX DY", "2 IPOTCN\n20 2
 
 class Accuracy(Runs):
     def solve(self, name, text, *options):
-        """The report, and the record of the first case with plain values"""
+        """The report, and the record of the first case as a plain dictionary"""
         report, record = self.run_first(name, text, *options)
         return report, plain(record)
 
     def test_reached(self):
-        """The error against a grid of 160 x 160 is below what was asked for; the grid, not that of the file, is told"""
+        """The error against a grid of 160 x 160 is below the prescribed accuracy; the chosen grid is reported, not that of the
+        file"""
         _, fine = self.solve("fine.inp", rolling().replace("14 14", "160 160"), "--order", "2")
         fine = fine["patches"][0]["totals"]
         before = 0
@@ -53,7 +54,8 @@ class Accuracy(Runs):
                 self.assertIn("_error", "".join(patch["errors"]))
 
     def test_slip_that_turns_round(self):
-        """Rollers of aluminium and steel that nearly slide: FX comes from where slip turns round, which one element decides
+        """Rollers of aluminium and steel close to full sliding: FX depends on where slip reverses, which a single element
+        determines
 
         The limit is that of 2400 and 4800 elements, at three places of the grid each, within 3e-5.
         """
@@ -86,7 +88,7 @@ class Accuracy(Runs):
                 self.assertGreater(patch["errors"]["fx_error"] / force, 0.3 * error)
 
     def test_friction_that_follows_temperature(self):
-        """Established temperatures count the heat of an element twice: an error of order 1/2, and forces follow them
+        """Established temperatures count the heat of an element twice: the error has order 1/2, and forces depend on temperatures
 
         The limit is that of moving sources: 0.91866, and 223.4 degC of sliding without it, within 1e-4 and 0.1.
         """
@@ -149,7 +151,8 @@ class Accuracy(Runs):
         self.assertLess(abs(results[0][0] * results[0][2] - 7.2), 1e-7)
 
     def test_wheel(self):
-        """A wheel on a rail: DX and DS follow, the estimate is met, and the forces are those of a finer one"""
+        """A wheel on a rail: DX and DS are chosen, the estimate meets the accuracy, and the forces agree with those of a finer
+        grid"""
         _, fine = self.solve("f.toml", wheel_text(WHEEL, 4, SOURCE / "examples" / "profiles"), "--order", "2")
         text = wheel_text(WHEEL, 0.5, SOURCE / "examples" / "profiles").replace("output_level = 0", "output_level = 2")
         words, record = self.solve("w.toml", text, "--accuracy", "1e-3")
@@ -162,7 +165,7 @@ class Accuracy(Runs):
         self.assertIn("OF THE FORCES, REACHED\n", words)
 
     def test_limits(self):
-        """Where limits end the search the best result stands there, with its error and the reason"""
+        """If limits end the search, the best result is written, with its error and the reason"""
         for option in ("--limit-elements=1000", "--limit-memory=1.5"):
             words, record = self.solve("a.inp", rolling(), "--accuracy", "1e-5", option)
             told = record["patches"][0]["accuracy"]
@@ -201,8 +204,8 @@ class Accuracy(Runs):
         return [r["patches"][0] for r in (plain(json.loads(line)) for line in lines) if r.get("patches")]
 
     def test_series(self):
-        """Shifts that continue one another: what the last one needs, those before it get; the result is that of the same cases
-        on the chosen elements, and as exact as asked against finer ones"""
+        """Shifts that continue one another: previous ones are solved on the grid required by the last; the result is that of the
+        same cases on the chosen elements, and as accurate as prescribed against finer ones"""
         c = contact(random.Random(4), "shifts")
         fine = self.solve_all("fine.toml", text_of(c, 120, (0.3, 0.1)))[-1]["totals"]
         for first, last in ((1e-2, 1e-2), (5e-2, 1e-3)):
@@ -220,12 +223,12 @@ class Accuracy(Runs):
                     text = re.sub(rf"^{name} = .*$", f"{name} = {told[-1][name]!r}", text, flags=re.MULTILINE)
                 again = self.solve_all("b.toml", text)[-1]["totals"]
                 self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * told[-1]["eps"] * bound)
-        # a load that falls leaves contact behind, which the coarse level has to hold
+        # a decreasing load leaves former contact outside, which the coarse level has to contain
         c["changes"] = {step: {"fn": c["fn"] / 2**step} for step in range(1, c["steps"])}
         for n in (20, 31):
             for patch in self.solve_all("d.toml", text_of(c, n, (0.2, 0.4)), "--errors"):
                 self.assertIn("fx_error", patch["errors"], patch["errors"].get("reason"))
-        # a step that is repeated goes on from the case before the one that it repeats
+        # a repeated step continues from the case before the one that it repeats
         head, *cases = text_of(c, 30, (0.2, 0.4)).split("[[case]]")[1:]
         twice = [*cases[:2], cases[1].replace("continue_all", "repeat_step"), cases[2]]
         once, again = (self.solve_all("c.toml", "[[case]]" + "[[case]]".join([head, *rest]), "--accuracy", "1e-3")[-1]["totals"]
@@ -233,8 +236,8 @@ class Accuracy(Runs):
         self.assertLess(max(abs(once[n] - again[n]) for n in ("fx", "fy")), 3e-4 * once["mu_scal"] * once["fn"])
 
     def test_steps(self):
-        """Steps of transient rolling of a given length: as exact as asked against finer elements, those of the same cases on the
-        chosen elements; what is out of reach is told with the error that was reached"""
+        """Steps of transient rolling of a prescribed length: as accurate as prescribed against finer elements, equal to the same
+        cases on the chosen elements; an accuracy that cannot be reached is reported with the error that was reached"""
         c = contact(random.Random(1), "transient")
         c["changes"] = {2: {"cksi": -c["creep"][0]}}
         fine = self.solve_all("fine.toml", text_of(c, 160, (0.3, 0.1)))
@@ -256,7 +259,7 @@ class Accuracy(Runs):
         self.assertIn("elements are not allowed", told["reason"])
 
     def test_series_refused(self):
-        """Cases that cannot go on with the elements of those before"""
+        """Cases that cannot continue on the elements of previous cases"""
         c = contact(random.Random(4), "shifts")
         text = text_of(c, 30, (0.2, 0.4))
         without = text.replace("[case.iteration]\n", "[case.iteration]\naccuracy = 0\n")
@@ -281,7 +284,7 @@ class Accuracy(Runs):
         self.assertEqual([r["patches"][0]["accuracy"]["asked"] for r in records if r["patches"]], [1e-2] * 3)
 
     def test_readable_format(self):
-        """The accuracy stands in the file, is kept from case to case, ends with 0, and is told of by conversion"""
+        """The accuracy is written in the file, is kept from case to case, ends with 0, and is reported by conversion"""
         (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
         self.run_program("convert", "a.inp")
         (self.folder / "a.inp").unlink()
@@ -298,7 +301,7 @@ class Accuracy(Runs):
             self.assertIn("accuracy must be a number from 1e-6 to 0.1", self.run_program("3", "d.toml", status=1))
 
     def test_allowed(self):
-        """Simplified methods by permission only: what was chosen, or why none, in the report, JSON, the readable format, explain"""
+        """Simplified methods if allowed: the choice, or the reason for none, in the report, JSON, the readable format, explain"""
         no_spin = rolling().replace("3e-4", "0.0") if "3e-4" in rolling() else rolling().replace("0.0003", "0.0")
         allow = ("--accuracy=0.06", "--allow", "approximate")
         full = self.solve("f.inp", no_spin, "--accuracy", "1e-3")[1]["patches"][0]
@@ -331,7 +334,7 @@ class Accuracy(Runs):
         self.assertIn('allow must be "approximate" or "nothing"', self.run_program("2", "t.toml", status=1))
 
     def test_next_case(self):
-        """A case that keeps the grid of one with an accuracy has the grid of the file, and asks for none where it says so"""
+        """A case that keeps the grid of one with an accuracy has the grid of the file, and requests no accuracy if it says so"""
         words, _ = self.solve("a.inp", rolling() + rolling(), "--accuracy", "1e-2")
         self.assertEqual(len(re.findall("ACCURACY ASKED FOR", words)), 2)
 

@@ -58,7 +58,7 @@ class Cli(unittest.TestCase):
                               **given)
 
     def fails(self, run, *texts):
-        """The run ended with an error, in order, that tells these texts on the standard error stream"""
+        """The run ended with an error, with these texts in order on the standard error stream"""
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
         for text in texts:
             self.assertIn(text, run.stderr)
@@ -202,7 +202,7 @@ class Runs(Cli):
                           " Case     2, result element   7"])
 
     def test_many_result_elements(self):
-        """More than the table of sessions holds at first, each with its own memory"""
+        """More problems than the initial size of the table of sessions, each with its own memory"""
         loads = [100 + 10*element for element in range(1, 21)]
         first = "".join(case(module="3 %d" % k, third="0000101", fn=load) for k, load in enumerate(loads, 1))
         again = "".join("3 %d\n200100\n100000\n0100101\n%d 0 0 0\n" % (k, load) for k, load in enumerate(loads, 1))
@@ -307,7 +307,7 @@ class Failures(Cli):
         self.assertNotIn("TOTAL FORCES", self.read("ball.out"))
 
     def test_wheel_rail(self):
-        """Cases of wheel-rail contact: missing profiles, wrong values, effects that are not built"""
+        """Cases of wheel-rail contact: missing profiles, wrong values, effects that are not implemented"""
         first = """1
             1203100
             0022033

@@ -1,4 +1,4 @@
-"""Every file of results says whether it is complete, and how many cases were planned."""
+"""Every file of results shows if it is complete, and how many cases were planned."""
 import json
 import os
 import re
@@ -38,7 +38,8 @@ class Complete(unittest.TestCase):
         self.folder = scratch.name
 
     def run_input(self, text, *options):
-        """Exit status, and what all files tell: last line of JSON, attributes of HDF5, end of .out, remark of the collection"""
+        """Exit status, and completeness by all files: last line of JSON, attributes of HDF5, end of .out, remark of the
+        collection"""
         with open(os.path.join(self.folder, "x.inp"), "w") as file:
             file.write(text)
         done = subprocess.run([PROGRAM, "--quiet", "--json", "--hdf5", "--vtk", *options, "2", "x"], cwd=self.folder, timeout=60,
@@ -93,7 +94,7 @@ class Complete(unittest.TestCase):
         self.assertNotIn("Not complete", out)
 
     def test_surfaces_that_could_not_be_written(self):
-        # a folder stands where the second surface would; the run itself ends at a wrong value, and is resumed
+        # a folder has the name of the second surface; the run itself ends at a wrong value, and is resumed
         os.mkdir(os.path.join(self.folder, "x.0002.vts"))
         code, run, _, remark = self.run_input(text_of(9, 10, 11))
         self.assertEqual((code, run["complete"]), (1, True))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A confined run: files below the folder of the experiment only, ordinary ones, and limits of what the run may take.
+"""A confined run: regular files below the folder of the experiment only, and limits of its resources.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE, and by INJECT_NO_OPENAT2 that the system has no openat2
 (tests/faults/inject.c).
@@ -16,7 +16,7 @@ SOURCE = pathlib.Path(os.environ["CONTACT_SOURCE"])
 EXAMPLES = SOURCE / "examples"
 
 PROFILES = ("60E1.prr", "S1002.prw")
-#: Can the system not tell where links lead? Then a confined run follows none
+#: Can the system not resolve links safely? Then a confined run follows none
 NO_LINKS = "INJECT_NO_OPENAT2" in os.environ
 OUTSIDE, BEHIND_LINK = "not below the folder", "there is a symbolic link in its name"
 BALL = """3
@@ -62,7 +62,7 @@ class Confined(unittest.TestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
 
     def refused(self, why, text):
-        """Refused by a check and by a run, and without --confine for no such reason"""
+        """Refused by a check and by a run; without --confine not refused for this reason"""
         self.write(text)
         for mode in ("3", "2"):
             for place, words in ((self.folder, ["a"]), (self.folder.parent, ["inside/a"]),
@@ -105,7 +105,7 @@ class Confined(unittest.TestCase):
             (self.folder / "profiles" / name).unlink()
             os.mkfifo(self.folder / "profiles" / name)
         self.refused("not a regular file", self.rail)
-        self.assertEqual(self.run_program("3", "a")[0], 1)   # and nobody waits for it otherwise
+        self.assertEqual(self.run_program("3", "a")[0], 1)   # and no process waits for it otherwise
         self.refused("not below the folder", ball(coefficients="'/dev/zero'"))
         self.refused("not below the folder", ball(coefficients="'/proc/self/environ'"))
 
@@ -119,7 +119,7 @@ class Confined(unittest.TestCase):
     def test_coefficients_outside(self):
         self.refused("not below the folder", ball(coefficients="'../outside/secret.txt'"))
         self.refused("No such file", ball(coefficients="'missing.txt'"))
-        # without --confine the message of what is read has at most a line of it, cut
+        # without --confine the message contains at most one line of what is read, truncated
         (self.folder / "long.txt").write_text("x" * 5000 + "\n")
         self.write(ball(coefficients="'long.txt'"))
         status, _, err = self.run_program("2", "a")

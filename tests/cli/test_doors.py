@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The doors of the program: modules and result elements keep their own values, numbers have bounds, nothing is ignored silently.
+"""Inputs of the program: modules and result elements keep their own values, numbers have bounds, nothing is ignored silently.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -123,7 +123,7 @@ class StoredValues(Doors):
                          ("1 7", [NEW1.format(**{**PLAIN1, "gg": "70000", "friction": "0.15 0.15"}), KEPT1])])
 
     def test_first_case_of_a_module(self):
-        """A first case of one module has nothing to keep from the other"""
+        """A first case of one module has no values of the other to keep"""
         run, _out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "1\n" + KEPT1 + "0\n")
         self.assertEqual(run.returncode, 1)
         self.assertIn("first case", run.stderr)
@@ -135,7 +135,7 @@ class StoredValues(Doors):
 
 
 class Refusals(Doors):
-    """What was taken silently"""
+    """Inputs that were once accepted silently"""
 
     def refused(self, text, *words, modes=("2", "3")):
         for mode in modes:
@@ -148,7 +148,7 @@ class Refusals(Doors):
         return "3\n" + NEW3.format(**{**PLAIN3, **changes}) + "0\n"
 
     def test_numbers_beyond_their_bounds(self):
-        """The bound, the unit and the reason stand at the place in the file"""
+        """Bound, unit and reason are reported with the position in the file"""
         for changes, words in (({"gg": "1e-30"}, "x.inp:9:11: GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: "),
                                ({"pen": "1e300"}, "x.inp:6:1: FN = 1e300 is above its upper bound"),
                                ({"side": "1e300"}, "DX = 1e300 is above its upper bound"),
@@ -184,7 +184,7 @@ class Refusals(Doors):
         self.assertEqual(self.run_text(text.replace("'60E1.prr' 0 1 0\n", line))[0].returncode, 0)
 
     def test_first_case_keeps_nothing(self):
-        """Digits that keep values which no case has given"""
+        """Digits that keep values which no previous case has given"""
         for digits, word in (({"vldcmze": "0021020"}, "C = 1"), ({"vldcmze": "0020020"}, "C = 0"),
                              ({"vldcmze": "0022010"}, "Z = 1"), ({"vldcmze": "0022021"}, "E = 1"), ({"third": "1000201"}, "H = 1"),
                              ({"vldcmze": "0122020"}, "L = 1"), ({"vldcmze": "0012020"}, "D = 1"), ({"pbtnfs": "203101"}, "S = 1")):
@@ -204,7 +204,7 @@ class Refusals(Doors):
         self.refused(text, "none.txt:3:")
 
     def test_signs_of_forces(self):
-        """A force relative to friction is taken or not whatever way it points, alone or with the other one"""
+        """A force relative to friction is accepted or refused independently of its direction, alone or with the other one"""
         def told(fx, fy, f):
             text = self.case3(pbtnfs=f"2031{f}0").replace("9 0.002 0 0", f"9 {fx} {fy} 0")
             run, _, _ = self.run_text(text, "3")
@@ -221,7 +221,7 @@ class Refusals(Doors):
         self.assertEqual(verdicts, {0, 1})
 
     def test_words_of_digits_with_a_sign(self):
-        """Each of the three words, at its place, in both modules"""
+        """Each of the three words, at its position, in both modules"""
         for module, case in (("3", NEW3.format(**PLAIN3)), ("1", NEW1.format(**PLAIN1))):
             lines = case.split("\n")
             for k in range(3):
@@ -237,7 +237,7 @@ class Refusals(Doors):
         self.refused(text, "99800 by 279 elements with 1 matrices needs too many coefficients; accepted are 5e8")
 
     def test_solvers(self):
-        """G chooses the solver of steady rolling in both modules with --classical, and is noted without; G = 1 keeps it"""
+        """G selects the solver of steady rolling in both modules with --classical, and is reported without; G = 1 keeps it"""
         chosen = ((0, "", "Newton-Krylov"), (2, "\n0.9 1 0 0.5", "ConvexGS"), (3, "\n0.9 1 0 0.5", "SteadyGS"),
                   (4, "\n0 0.5", "Newton-Krylov"),
                   (5, "\n1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", "GDsteady"))
@@ -260,7 +260,7 @@ class Refusals(Doors):
                 self.assertEqual(out.count(f"Newton-Krylov instead of {solver};"), 2*(solver != "Newton-Krylov"), (module, digit))
 
     def test_backslashes_in_names_of_profiles(self):
-        """Names as they are written elsewhere, with folders, from the root on and from here"""
+        """Names in various notations, with folders, absolute and relative"""
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         os.mkdir(os.path.join(self.folder, "sub"))
         for name in (os.path.join(PROFILES, "60E1.prr"), "./60E1.prr", "sub/../60E1.prr"):
@@ -270,7 +270,7 @@ class Refusals(Doors):
                 self.assertEqual(records[0]["status"], "solved")
 
     def test_lists_of_another_grid(self):
-        """One value per element stays with the elements it was given for, whatever changes and in either direction"""
+        """One value per element remains with the elements for which it was given, when the window changes in either direction"""
         def window(mx=6, my=5, x=-0.85, y=-1.0, dx=0.3, dy=0.4):
             # by the centre of the first element, which stays where sizes change
             return f"{mx} {my} {x - 0.5*dx:.6g} {y - 0.5*dy:.6g} {dx} {dy}"
@@ -299,7 +299,7 @@ class Refusals(Doors):
         self.refused(text.format("0 5"), "OUTPUT_S = 5 is outside its range 0 to 4")
 
     def test_window_that_leaves_the_contact(self):
-        """Tractions that act on must be in the new window; with P = 2 they do not act on"""
+        """Tractions that are continued must be in the new window; with P = 2 they are not continued"""
         text = self.case3(pbtnfs="201100", rolling="").replace("1000\n\n", "1000\n").replace("\n\n", "\n")[:-2]
         moved = NEW3.format(**{**PLAIN3, "pbtnfs": "{p}01100", "rolling": "", "mx": "10"}).replace("\n\n", "\n")
         # the right half of the first window
@@ -313,7 +313,8 @@ class Refusals(Doors):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_distances_that_nothing_can_be_added_to(self):
-        """An approach that vanishes beside distances of 1e9 mm once gave NaN: the load is carried, and the next case is sound"""
+        """An approach that vanishes compared to distances of 1e9 mm once gave NaN: the load is carried, and the next case is
+        correct"""
         viscous = ("203120\n0022120\n0000301\n50 50 20 5 1e-5\n1e-15 0.5 -0.6 -0.0001\n1e-06 1e-06\n0 0.00129981 1e-09\n"
                    "0.5 0.5 1.34976e+14 82000\n1 1 494063 75.379\n1\n1 11 -0.155375 -0.642326 0.310751 0.116787\n1 1\n"
                    "0.645908 0 1e-12 1.40772e-05 0 -1e+09\n")
@@ -328,7 +329,7 @@ class Refusals(Doors):
 
 
 class Words(Doors):
-    """What is told where something was replaced or is missing"""
+    """Reports of values that were replaced or are missing"""
 
     def test_text_below_the_end(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n\n% a comment\n")
@@ -352,7 +353,7 @@ class Words(Doors):
         self.assertIn("No results were asked for", run.stdout)
 
     def test_largest_number_of_elements(self):
-        """Elements that are doubled for NPOT_MAX are told; a number that is replaced too"""
+        """Elements that are doubled for NPOT_MAX are reported; a replaced number too"""
         text = "1\n" + NEW1.format(**{**PLAIN1, "iteration": "200 100 30 1 1e-5 200", "side": "0.1"}) + "0\n"
         run, out, _ = self.run_text(text)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -363,7 +364,7 @@ class Words(Doors):
         self.assertNotIn("NPOT_MAX", out)
 
     def test_step_of_hertzian_rolling(self):
-        """DX of a Hertzian grid is not known beforehand: a DQ that differs is no reason for a warning"""
+        """DX of a Hertzian grid is not known beforehand: a different DQ gives no warning"""
         hertz = ("203100\n022020\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.5 1000\n0.28 0.28 200 200\n-1\n"
                  "15 15 0.01 0.01 1.2\n")
         _, out, _ = self.run_text("3\n" + hertz + "0\n")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a user must be told of a result: contact that is cut off, stresses between centres, which temperatures these are.
+"""Warnings about a result: truncated contact, stresses between element centres, the kind of temperatures.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -76,7 +76,7 @@ class Border(Program):
         return told, patches
 
     def enough(self, grid, text):
-        """The grid that the warning names, or None"""
+        """The grid recommended by the warning, or None"""
         found = re.search(r"MX = (\d+), MY = (\d+), XL = (\S+), YL = (\S+) would be enough", text)
         return f"1\n{' '.join(found.groups())} {' '.join(grid.split()[-2:])}" if found else None
 
@@ -94,7 +94,7 @@ class Border(Program):
             self.assertEqual(told, [], better)
             self.assertEqual(patches[0]["totals"]["border_elements"], 0)
             self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.02*hertz_pressure())
-            # as the contact it lies around the origin, within the elements that one on a coarse grid has
+            # like the contact it lies around the origin, within the elements that one on a coarse grid has
             first = [float(word) for word in better.split()[3:5]]
             for low, number, side in zip(first, better.split()[1:3], grid.split()[4:]):
                 high = low + int(number)*float(side)
@@ -110,7 +110,7 @@ class Border(Program):
             self.assertEqual(patches[0]["border"]["reached"], f"the border of the potential contact ({', '.join(sides)})")
             better = self.enough("44 44 0 0 0.1 0.1", told[0])
             self.assertEqual(self.alarms(ball(better))[0], [], better)
-            # the window that was asked for and the contact of radius 1.72, with some elements beside it
+            # the prescribed window and the contact of radius 1.72, with some elements beside it
             columns, rows, x, y = better.split()[1:5]
             ends = [float(x), float(y), float(x) + 0.1*int(columns), float(y) + 0.1*int(rows)]
             for side, name in enumerate(("x low", "y low", "x high", "y high")):
@@ -122,7 +122,7 @@ class Border(Program):
                     self.assertAlmostEqual(ends[side], window, delta=1e-6, msg=better)
 
     def test_a_larger_grid_is_named_once(self):
-        """Later cases on the same grid say the same words, so that they count as one warning"""
+        """Later cases on the same grid give the same message, so that they count as one warning"""
         later = "3\n203100\n0100000\n0001201\n999 100 30 1 1e-6\n{load} 0.001 0 0\n"
         told, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1") + later.format(load=9.0) + later.format(load=8.0))
         self.assertEqual(["would be enough" in text for text in told], [True, False, False])
@@ -136,7 +136,7 @@ class Border(Program):
         self.assertEqual(self.alarms(ball(better, shape="1 1\n0.5 0 0 0 0 0", load=2500.0))[0], [], better)
 
     def test_contact_that_turns_up_elsewhere(self):
-        """A turned ellipse in a window that is too narrow along x: free at y low as long as contact is cut off"""
+        """A rotated ellipse in a window that is too narrow along x: free at the lower y while contact is truncated"""
         shape = "1 1\n0.027938643635698302 0.016483396011992665 0.012128411607624984 -0.0011796052442192857 0.0006041789909451606 0"
         grid = "13 21 -0.02872227688322342 -0.11779670523792407 0.002920291453715877 0.007174467852392599"
         told, patches = self.alarms(ball("1\n" + grid, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))
@@ -176,7 +176,7 @@ class Border(Program):
         for grid, shape, load in (("1\n40 1 -2 -5 0.1 10", cylinder, FORCE), ("1\n40 20 -2 -1 0.1 0.1", cylinder, 2.0),
                                   ("1\n20 20 -1 -1 0.1 0.1", punch, FORCE)):
             self.assertEqual(self.alarms(ball(grid, shape=shape, load=load))[0], [], grid)
-        # the cylinder that is cut off along x
+        # the cylinder that is truncated along x
         self.assertIn("(x low, x high)", self.alarms(ball("1\n10 20 -0.5 -1 0.1 0.1", shape=cylinder))[0][0])
 
     def test_no_alarm_in_the_examples(self):
@@ -221,7 +221,8 @@ class Border(Program):
             self.assertGreater(patches[0]["border"]["pressure"]["value"], 1500.0)
 
     def test_ends_ahead_of_the_axle(self):
-        """Under yaw contact on the flank lies beside the axle, and the end of the profile is not where it is below the axle"""
+        """Under yaw, contact on the flank is ahead of or behind the axle, and the end of the profile is not where it is below
+        the axle"""
         for location, y, yaw in (("2", 7.0, 0.05), ("2", 7.0, -0.05), ("5", 7.0, 0.05), ("5", 8.0, 0.08)):
             text = self.first_case_on_a_short_profile("S1002.prw", lambda y: y >= -36.0, False, location)
             _, patches = self.alarms(text.replace("0.0 0.0 60000. 0.0 0.0 0.0", f"0.0 {y} 60000. 0.0 {yaw} 0.0"))
@@ -245,7 +246,7 @@ class Border(Program):
 
 
 class EndsAheadOfTheAxle(Program):
-    """The edge at which the wheel's profile ends touches a guard rail where a yawed wheel comes near it, far from all patches"""
+    """The edge at which the wheel's profile ends touches a guard rail where a yawed wheel approaches it, far from all patches"""
     RADIUS, ROLLER, SIDE = 460.0, 500.0, 750.0
     TOP, WALL = -20.0, ((-51.0, -20.0), (-50.0, 30.0))  # of the guard rail [mm]
 
@@ -280,7 +281,7 @@ class EndsAheadOfTheAxle(Program):
 """
 
     def depth(self, end, yaw, height, roller):
-        """Largest depth of the wheel's edge below wall and top of the guard rail, and its x: by points on the circle"""
+        """Maximum depth of the wheel's edge below wall and top of the guard rail, and its x: by points on the circle"""
         (y0, z0), (y1, z1) = self.WALL
         best = (0.0, 0.0)
         radius = self.RADIUS - end**2/20000.0
@@ -328,7 +329,7 @@ class EndsAheadOfTheAxle(Program):
 
 
 class TwoPlacesAlongTheTrack(Program):
-    """A dip of the rail: the wheel stands on both of its sides, at the same lateral position"""
+    """A dip of the rail: the wheel is supported on both of its sides, at the same lateral position"""
 
     def dip(self, location, z):
         first, slices = self.first_case(location), []
@@ -362,7 +363,7 @@ class TwoPlacesAlongTheTrack(Program):
         self.assertAlmostEqual(float(found.group(2)), second["ycp_tr"]["value"], delta=2.0)
 
     def test_flank_far_from_the_axle(self):
-        """At 0.1 rad of yaw the flange touches 90 mm from the point below the axle: every search goes as far"""
+        """At 0.1 rad of yaw the flange touches 90 mm from the point below the axle: every search reaches as far"""
         found = {}
         for location in ("2", "5"):
             text = self.first_case(location).replace("0.0 0.0 60000. 0.0 0.0 0.0", "0.0 5.0 60000. 0.0 0.1 0.0")
@@ -399,7 +400,7 @@ class FewElements(Program):
                 continue
             self.assertIn(f"contact is {wide} elements wide at most", told[0])
             self.assertEqual([patches[0]["coarse"]["along_x"], patches[0]["coarse"]["along_y"]], [int(wide[0])]*2)
-            # what is recommended is enough
+            # the recommended size is sufficient
             better = float(re.search(r"DX = (\S+),", told[0]).group(1))
             n = math.ceil(5.0/better)
             told, patches = self.told(ball(f"1\n{n} {n} {-0.5*n*better} {-0.5*n*better} {better} {better}", dx=better))
@@ -499,15 +500,15 @@ class Temperatures(Program):
             self.assertIn("surface temperatures (established)", patch["effects"])
 
     def test_refinement(self):
-        """Half the step: an error of the order of the root of the step, or hardly any"""
+        """Half the step: an error of the order of the root of the step, or almost none"""
         rough, fine = (self.highest(mx=mx, dx=dx)[0] for mx, dx in ((40, 0.4), (160, 0.1)))
         exact = self.highest("--heat", "moving-source", mx=160, dx=0.1)[0]
         self.assertAlmostEqual((rough/exact - 1.0)/(fine/exact - 1.0), 2.0, delta=0.15)
         self.assertAlmostEqual(self.highest("--heat", "moving-source", mx=40, dx=0.4)[0]/exact, 1.0, delta=3e-3)
 
     def test_fields_are_those_of_the_named_source(self):
-        """Temperatures of every element from slip and tractions in the HDF5 file, by the exact integral of heat that is
-        constant on elements over the elements upstream"""
+        """Temperatures of every element from slip and tractions in the HDF5 file, by the exact integral over the elements
+        upstream of heat that is constant on each element"""
         try:
             import h5py
             import numpy as np

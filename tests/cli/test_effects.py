@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""EFFECTS names what acts and nothing else: every effect with and without, and what was missed stands in the same line.
+"""EFFECTS names the effects that act and no others: every effect with and without, and what did not converge in the same line.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -17,14 +17,14 @@ STEEL, HEAT = "0.28 0.28 82000 82000", "20 450 0.05 7.85e-6"
 
 def case(digits="203100", laws="0022020", output="0001201", motion="100 0.002 0 0", friction="0.3 0.3", more="",
          rolling="0 0.1 1000", heat="", rows="", last="", limits="999 100 30 1 1e-5", kernel="", material=STEEL):
-    """Digits M, C and so on are those of the words; lines that are empty are left out"""
+    """Digits M, C and so on are those of the words; empty lines are omitted"""
     lines = ["3", digits, laws, output, limits, motion, friction, rolling, kernel, material, more, heat, "1",
              "20 20 -1 -1 0.1 0.1", "1 1", "0.01 0 0.01 0 0 0", rows, last, "0"]
     return "\n".join(line for line in lines if line) + "\n"
 
 
 PLAIN = "elastic half-spaces, Coulomb friction in steady rolling"
-# what is asked for, and the whole text
+# the request, and the whole text
 TABLE = {
     "plain": (case(), PLAIN),
     "frictionless": (case(digits="200100", rolling=""), "elastic half-spaces"),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""contact --hdf5: one file with everything, read by h5py and by Octave; whole after a violent end.
+"""contact --hdf5: one file with all results, read by h5py and by Octave; readable after the program was killed.
 
 Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -24,7 +24,7 @@ except ImportError as reason:
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 EXAMPLES = os.path.join(SOURCE, "examples")
-# Keys and groups that are not among the inputs of a case: they tell which problem it belongs to, or points below the surface
+# Keys and groups that are not among the inputs of a case: they define the problem to which it belongs, or subsurface points
 ELSEWHERE = ("module", "result_element", "contact_patch", "stress_output", "stress_points")
 
 FIRST = """3
@@ -50,7 +50,7 @@ NEXT = """3
 
 
 def series(path, cases):
-    """Creepages from 0 in steps; everything else stays"""
+    """Creepages from 0 in steps; all other values are constant"""
     with open(path, "w") as file:
         file.writelines((FIRST if k == 0 else NEXT).format(creep=-1e-5 * k) for k in range(cases))
         file.write("0\n")
@@ -103,7 +103,7 @@ class Hdf5(unittest.TestCase):
                 self.assertAlmostEqual(group["totals/fn"][()], 2000.0, delta=0.1)
                 self.assertEqual(file["patches/cksi"][case - 1], file["case_%04d/inputs/kinematics/cksi" % case][()])
             self.assertEqual(file["patches/fx"].attrs["units"], b"N")
-            # what does not change is stored once
+            # data that do not change are stored once
             first, last = file["case_0001"], file["case_0004"]
             for same in ("inputs/material", "patch_1/fields/pn", "patch_1/grid", "patch_1/solver"):
                 self.assertEqual(h5py.h5o.get_info(first[same].id).addr, h5py.h5o.get_info(last[same].id).addr, same)
@@ -111,7 +111,7 @@ class Hdf5(unittest.TestCase):
                                 h5py.h5o.get_info(last["patch_1/fields/px"].id).addr)
 
     def test_file_describes_itself(self):
-        """Units, names, dimension scales and flags of everything; where the results come from"""
+        """Units, names, dimension scales and flags of all data; origin of the results"""
         for name in ("manchester", "conformal_wheel", "subsurface"):
             file = self.run_example(name)
             self.assertEqual(file.attrs["Conventions"], b"CF-1.11")
@@ -252,7 +252,8 @@ class Hdf5(unittest.TestCase):
             self.assertGreater(found, 0)
 
     def test_inputs_by_names_of_the_readable_format(self):
-        """What the first case of an example gives in its .toml is found under the same names, values of all sets in one list"""
+        """The values that the first case of an example gives in its .toml are found under the same names, values of all sets in
+        one list"""
         compared = 0
         shutil.copytree(os.path.join(EXAMPLES, "profiles"), self.path("profiles"))
         for path in sorted(os.listdir(EXAMPLES)):
@@ -278,7 +279,7 @@ class Hdf5(unittest.TestCase):
         self.assertGreater(compared, 600)
 
     def test_keys_that_input_files_have_no_place_for(self):
-        """Accuracy and permission are told where they are requested; order and source always, by the words of the format"""
+        """Accuracy and permission are stored if they are requested; order and source always, by the words of the format"""
         with open(os.path.join(EXAMPLES, "cattaneo.toml"), encoding="utf-8") as file:
             first = "\n[[case]]".join(file.read().split("\n[[case]]")[:2])
         requested = first.replace("[case.iteration]\n", '[case.iteration]\naccuracy = 0.05\nallow = "approximate"\n')
@@ -313,9 +314,9 @@ class Hdf5(unittest.TestCase):
         return 1
 
     def test_inputs_of_each_case(self):
-        """Groups that two cases have in common are written once: each case still has the inputs it has in a file of its own"""
+        """Groups shared by two cases are written once: each case still has the inputs it has in a file of its own"""
         texts = [FIRST.format(creep=-1e-5)]
-        # one number after the other is another one, then all are as in the first case
+        # one number after the other differs, then all are as in the first case
         for old, new in (("2000 -0.000010000 0 0", "2100 -0.000010000 0 0"), ("2000 -0.000010000 0 0", "2000 -0.000020000 0 0"),
                          ("0.3 0.3", "0.31 0.31"), ("0.28 0.28 82000 82000", "0.28 0.28 82000 81000"),
                          ("0.28 0.28 82000 82000", "0.29 0.28 82000 82000"), ("13 11 -1.3", "15 11 -1.3"),
@@ -363,7 +364,7 @@ class Hdf5(unittest.TestCase):
             if os.path.exists(self.path("long.h5")):
                 os.remove(self.path("long.h5"))
             run = subprocess.Popen([PROGRAM, "--quiet", "--hdf5", "2", "long"], cwd=self.folder, stdin=subprocess.DEVNULL)
-            # under its name the file is one that can be opened
+            # the file of the final name can be opened
             patience = time.monotonic() + 60
             while not os.path.exists(self.path("long.h5")) and time.monotonic() < patience:
                 time.sleep(0.01)

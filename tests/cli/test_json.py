@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""contact --json: every case a line that any JSON reader takes, with the values of the .out file.
+"""contact --json: every case is a line of valid JSON, with the values of the .out file.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -35,7 +35,7 @@ def refuse(constant):
 
 
 def read(text):
-    """The cases; the last line tells that there are no more"""
+    """The cases; the last line marks the end"""
     *cases, end = [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
     assert end["case"] == 0 and end["patches"] == [] and end["run"]["cases_finished"] <= end["run"]["cases_planned"], end
     assert all(case["cases_planned"] == end["run"]["cases_planned"] for case in cases)
@@ -43,7 +43,7 @@ def read(text):
 
 
 def faults(value, schema, place="line"):
-    """What a value has that a schema does not allow; the words of JSON Schema that ours uses"""
+    """Violations of a schema by a value; supports the keywords of JSON Schema used in ours"""
     if schema is False:
         return [place + " must not be there"]
     if "anyOf" in schema:
@@ -90,7 +90,7 @@ class Json(unittest.TestCase):
         self.assertTrue(any("border" in patch for line in lines for patch in line["patches"]), "contact at the border is tried")
         for line in lines:
             self.assertEqual(faults(line, schema), [])
-        # it tells what is wrong
+        # a violation is described
         for change, word in ((lambda line: line.pop("status"), "lacks status"), (lambda line: line.update(fn=1), "has fn"),
                              (lambda line: line["patches"][0]["totals"]["fn"].update(unit="kN"), "unit is 'kN'"),
                              (lambda line: line.update(solved=1), "not of type boolean"),
@@ -121,7 +121,7 @@ class Json(unittest.TestCase):
             return read(file.read()), out_file.read(os.path.join(self.folder, name + ".out"))
 
     def agrees(self, total, printed, unit):
-        """A total has this unit and the printed value, to the figures that are printed"""
+        """A total has this unit and the printed value, to the printed figures"""
         self.assertEqual(total["unit"], unit)
         self.assertAlmostEqual(total["value"], printed, delta=2e-4*abs(printed) + 1e-9)
 
@@ -161,7 +161,7 @@ class Json(unittest.TestCase):
         self.assertEqual(sides, {"left", "right"})
 
     def test_moments_name_their_origins(self):
-        """In steps MN of .out is about the origin of the elements, mz about the contact reference; both are told"""
+        """In steps, MN of .out is about the origin of the elements, mz about the contact reference; both are written"""
         lines, printed = self.run_example("rolling_steps")
         told = 0
         for line in lines:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Limits of time, memory and elements; estimates before a case; hopeless cases that end soon.
+"""Limits of time, memory and elements; estimates before a case; early end of cases without prospect.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -60,7 +60,7 @@ class Limits(unittest.TestCase):
         self.assertIn("1 solved, 1 not converged, 0 refused", done.stdout)
 
     def test_time_inside_a_search_for_forces(self):
-        """The search ends with the solution that ran out of time, and says so"""
+        """The search ends with the solution that ran out of time, and reports it"""
         for digits, forces in (("203110", "2000 0.5 0 0"), ("203120", "2000 0.5 0.2 0")):
             text = endless(80).replace("203100", digits).replace("2000 0.001 0 0", forces)
             _, lines = self.run_program(text + case(10) + "0\n", "--limit-time", "0.5")
@@ -75,7 +75,7 @@ class Limits(unittest.TestCase):
         self.assertEqual({line["iteration"] for line in lines}, {"time"})
 
     def test_a_case_after_one_without_result(self):
-        # it has no previous time step: neither the tractions of the case that ran out of time, nor those it continued
+        # there is no previous time step: neither the tractions of the case that ran out of time, nor those it continued
         def shift(text, link):
             return text.replace("203100", link + "01100").replace("0 0.05 1000\n", "").replace(" 0.001 0 0", " 2e-5 0 0")
 
@@ -84,7 +84,7 @@ class Limits(unittest.TestCase):
         self.assertEqual([line.get("iteration") for line in lines[:3]], [None, "time", None])
         first, third = (lines[k]["patches"][0]["totals"]["fx"]["value"] for k in (0, 2))
         self.assertAlmostEqual(third, first, delta=1e-4*abs(first))
-        # a case that did continue the first one would feel it
+        # a case that continues the first one would differ
         _, lines = self.run_program(whole + shift(case(40), "0") + "0\n")
         second = lines[1]["patches"][0]["totals"]["fx"]["value"]
         self.assertGreater(abs(second - first), 0.01*abs(first))
@@ -105,7 +105,7 @@ class Limits(unittest.TestCase):
         self.assertIn("1960000 elements", told[2])
 
     def test_estimate_of_a_large_case(self):
-        """Told in front of a case that is long or needs much memory; either is enough. The limit ends it at once"""
+        """A warning before a case that is long or needs much memory; either is sufficient. The limit ends it at once"""
         stresses = case(20).replace("203100", "203103", 1).rstrip("\n") + "\n0 0\n9\n200 200 100\n" + "".join(
             " ".join(f"{0.01*k:.2f}" for k in range(1, n + 1)) + "\n" for n in (200, 200, 100)) + "0\n"
         slow = case(400, g=2, limits="999 100 30 1 1e-5\n0.9 1.0 0 0.5")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rules of grids, each from both sides: cases that continue another one, strips, rows of friction.
+"""Rules of grids, accepted and refused: cases that continue another one, strips, rows of friction.
 
 The environment tells CONTACT_PROGRAM.
 """
@@ -60,7 +60,7 @@ class Runs(unittest.TestCase):
 
 
 class Linked(Runs):
-    """P = 0: the previous tractions count, so the elements must be those of the previous case"""
+    """P = 0: the previous tractions are used, so the elements must be those of the previous case"""
 
     def second(self, grid, p=0, i=1):
         cases, out = self.run_text(FIRST.format(shift=-0.0002, grid="20 22 -2.0 -3.3 0.2 0.3")
@@ -84,7 +84,7 @@ class Linked(Runs):
         # between them
         for x, y in ((-2.1, -3.3), (-1.9, -3.3), (-2.0, -3.45), (-2.0, -3.15)):
             self.assertIsNone(self.second(f"20 22 {x} {y} 0.2 0.3")[0], f"{x} {y}")
-        # contact that is left out
+        # contact that is outside
         for x, y in ((-0.6, -3.3), (-3.4, -3.3), (-2.0, -0.9), (-2.0, -5.7)):
             self.assertIsNone(self.second(f"20 22 {x} {y} 0.2 0.3")[0], f"{x} {y}")
 
@@ -117,7 +117,7 @@ class Strips(Runs):
 
 
 class Friction(Runs):
-    """Friction that varies from row to row stands in the .out file row by row"""
+    """Friction that varies from row to row is printed in the .out file row by row"""
 
     def test_rows_of_the_table(self):
         values = [0.11, 0.22, 0.33, 0.24, 0.15]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No effect asked for, no cost: which files a run makes with and without the options for other programs.
+"""Effects that are not requested cost nothing: files made by a run with and without the options for other programs.
 
 System calls are counted where strace is installed. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -14,7 +14,7 @@ PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 STRACE = shutil.which("strace")
 OPTIONS = ("--hdf5", "--json", "--vtk")
-# Case, and what is repeated of it
+# Case, and the part of it that is repeated
 CASE = "3\n203100\n{words}2000 {creep:.9f} 0 0\n{rest}"
 REST = "0.3 0.3\n0 0.2 1000\n0.28 0.28 82000 82000\n1\n13 11 -1.3 -1.1 0.2 0.2\n1 1\n0.01 0 0.01 0 0 0\n"
 
@@ -64,7 +64,7 @@ class NoExports(unittest.TestCase):
             for name in self.results():
                 if name.endswith((".mat", ".out")):
                     with open(os.path.join(self.folder, name)) as file:
-                        # the table of times at the end of the .out file is another in each run
+                        # the table of times at the end of the .out file differs between runs
                         found[name] = re.split(r"\n.*[Tt]ime", file.read())[0] if name.endswith(".out") else file.read()
             return found
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The order of the discretisation: --order, the key of the readable format, what the report says, what is left at order 1
+"""The order of the discretisation: --order, the key of the readable format, the report, cases that remain at order 1
 
 The environment tells CONTACT_PROGRAM.
 """
@@ -15,7 +15,7 @@ import unittest
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 
 
-#: Kinds that the second order is not made for: reason, and the choices that make them
+#: Cases for which the second order is not suited: reason, and the choices that make them
 RELAXATION = "1 1 0 0.5 OMEGAH OMEGAS INISLP OMGSLP"
 OTHERS = (("shift", "order 2 is for rolling", {"motion": 1}),
           ("long_step", "order 2 has steps of one element along x", {"motion": 2}),
@@ -61,7 +61,7 @@ class Runs(unittest.TestCase):
 
 class Order(Runs):
     def solve(self, name, text, *options):
-        """Words on the solver in the report, and the record of the first patch"""
+        """Text on the solver in the report, and the record of the first patch"""
         report, record = self.run_first(name, text, *options)
         return re.search(r"SOLVER: (.*?); RESIDUAL", report).group(1), record["patches"][0]
 
@@ -82,7 +82,7 @@ class Order(Runs):
         self.assertTrue(1e-3 < change < 3e-2, change)
 
     def test_left_at_order_1(self):
-        """What the second order is not made for is solved as before, and the report says why"""
+        """Cases for which the second order is not suited are solved as before, and the report gives the reason"""
         for name, reason, choice in OTHERS:
             with self.subTest(name):
                 text = rolling(**choice)
@@ -94,7 +94,7 @@ class Order(Runs):
                 self.assertEqual(one["totals"], two["totals"])
 
     def test_readable_format(self):
-        """The order stands in the file, is kept from case to case, and goes along with conversion as far as it can"""
+        """The order is written in the file, is kept from case to case, and is kept by conversion as far as possible"""
         (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
         _, one = self.solve("a.inp", "")
         self.run_program("convert", "a.inp")
@@ -117,7 +117,7 @@ class Order(Runs):
         self.assertIn("--order 2", said)
 
     def test_usual_order_of_the_readable_format(self):
-        """2 where nobody says anything and it is made for the case, otherwise 1 without an error; converted files say 1"""
+        """2 if not prescribed and the case is suited, otherwise 1 without an error; converted files have 1"""
         for name, reason, choice in (("plain", "", {}), *OTHERS):
             with self.subTest(name):
                 options = ["--classical"] if name == "gauss" else []
@@ -134,7 +134,8 @@ class Order(Runs):
                 self.assertEqual(usual["totals"] == one["totals"], name != "plain")
 
     def test_centre_of_sliding_within_an_element(self):
-        """The mean slip over that element vanishes, and its turn does not jump there: neighbours have nearly the same forces"""
+        """The mean slip over that element vanishes, and its direction does not jump there: neighbours have nearly the same
+        forces"""
         case = """[[case]]
 module = "contact"
 motion = "steady_rolling"
@@ -155,9 +156,9 @@ iteration = { order = 2 }
         self.assertLess(max(forces) - min(forces), 5e-4)
 
     def roll(self, order, n, offset, *options, distance=6.6, chi=0.0, motion=2):
-        """Relative FX and FY, and MZ over the bound, behind a quarter, a half and all of a distance in steps of one element
+        """Relative FX and FY, and MZ over the bound, after a quarter, a half and all of a distance in steps of one element
 
-        Estimated errors where the options ask for them, in their place.
+        Estimated errors instead if the options request them.
         """
         half = (3.3, 5.5)
         dx, dy = (2 * side / n for side in half)
@@ -179,7 +180,8 @@ iteration = { order = 2 }
         return [found[round(steps * share) - 1] for share in (0.25, 0.5, 1.0)]
 
     def test_transient_rolling(self):
-        """From no tractions on: errors at the same distances fall with the square of the size of elements, in both directions"""
+        """Starting without tractions: errors at the same distances decrease with the square of the size of elements, in both
+        directions"""
         limit = {}
         for chi in 0.0, 180.0:
             fine, half = (self.roll(2, n, 0.3, chi=chi) for n in (80, 40))
@@ -196,7 +198,7 @@ iteration = { order = 2 }
                 self.assertTrue(0.3 < estimated / error[2, n] < 5.0, (n, estimated, error))
 
     def test_energy_next_to_the_border(self):
-        """What the virial tells of the elastic energy needs no elements around the contact"""
+        """The elastic energy by the virial needs no elements around the contact"""
         errors = []
         for n in 14, 18:
             text = rolling().replace("14 14 3 5 1.2", f"{n} {n} 3 5 {1.2 * n / 14!r}")
@@ -204,7 +206,8 @@ iteration = { order = 2 }
         self.assertAlmostEqual(errors[0] / errors[1], 1.0, delta=1e-3)
 
     def test_slip_that_turns(self):
-        """Estimates see that slip turns from element to element, around a pole in the contact and without one"""
+        """Estimates detect that the direction of slip turns from element to element, around a pole in the contact and without
+        one"""
         scales = {"fx": 9000.0, "fy": 9000.0, "mz": 9000.0 * 15**0.5}
 
         def solve(creep, n):
@@ -220,7 +223,7 @@ iteration = { order = 2 }
                 self.assertTrue(1.0 < told / true < 6.0, (creep, n, told, true))
 
     def test_transient_rolling_becomes_steady(self):
-        """Ten contact lengths behind the start nothing is left of it but turns of slip that were set from another start"""
+        """After ten contact lengths no effect of the start remains, except directions of slip that were set from another start"""
         for order, bound in (1, 1e-5), (2, 2e-4):
             rolled = self.roll(order, 12, 0.2, distance=66.0)[-1]
             steady = self.roll(order, 12, 0.2, motion=3)[-1]
@@ -228,7 +231,8 @@ iteration = { order = 2 }
             self.assertLess(away, bound, (order, rolled, steady))
 
     def test_unlike_bodies_converge(self):
-        """Passes between pressures and tractions end at a small tolerance, and are as many as with the first order"""
+        """Outer iterations between pressures and tractions converge to a small tolerance, in the number needed by the first
+        order"""
         passes = {}
         for order in "1", "2":
             _, found = self.solve("unlike.inp", rolling(stiffer=4.0, eps="1e-8", maxout=15), "--order", order)

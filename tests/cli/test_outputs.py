@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the files of results say, against what it is made of: bounds of tractions, times, names of files that fail.
+"""Values in the files of results against their sources: bounds of tractions, times, names of files that cannot be written.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -56,7 +56,7 @@ class Outputs(unittest.TestCase):
         return [dict(zip(names, map(float, line.split()))) for line in lines[13:]]
 
     def test_bound_of_an_interfacial_layer(self):
-        """Tractions stop at friction or at the yield limit, whichever is less; both occur"""
+        """Tractions are limited by friction or by the yield limit, whichever is less; both occur"""
         for limit, slope in ((60.0, 0.0), (60.0, 3000.0)):
             self.run_text(LAYER.format(load=2000, limit=limit, slope=slope).replace("0001501", "0011501"))
             rows = [row for row in self.elements() if row["IGS"] > 0]
@@ -108,7 +108,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(found, sum(row["IGS"] > 0 for row in elements.values()))
 
     def test_rigid_slip_of_forces(self):
-        """With forces prescribed, the rigid slip is that of the creepages that were found"""
+        """With prescribed forces, the rigid slip is that of the computed creepages"""
         for digits, motion in (("203110", "0.4 0.0003 0.0001"), ("203120", "0.4 -0.3 0.0001"), ("202120", "0.4 -0.3 0.0001"),
                                ("203120", "-0.2 0.5 -0.0003")):
             text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("203100", digits).replace("-0.002 0.0003 0.0001", motion)
@@ -174,7 +174,7 @@ class Outputs(unittest.TestCase):
             self.assertEqual([line.rstrip() for line in shown], expected, (mx, my))
 
     def test_times(self):
-        """The table of times: parts within the whole, the whole within what was waited for"""
+        """The table of times: parts are within the whole, the whole is within the elapsed time"""
         text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("16 18 -2.0 -2.25 0.25 0.25",
                                                                       "160 180 -2.0 -2.25 0.025 0.025")
         started = time.monotonic()
@@ -199,7 +199,7 @@ class Outputs(unittest.TestCase):
         self.assertIn("writing the .subs file", self.run.stderr)
 
     def test_each_kind_of_file_is_named(self):
-        """A folder stands in the place of a file: the name, and what was being done"""
+        """A folder has the name of a file: the error gives the name, and the operation"""
         text = LAYER.format(load=2000, limit=0.0, slope=0.0).replace("0001501", "0011501")
         for name, options in (("x.0001.mat", ()), ("x.out", ()), ("x.jsonl", ("--json",)), ("x.h5", ("--hdf5",))):
             place = os.path.join(self.folder, name)
@@ -230,7 +230,7 @@ class Outputs(unittest.TestCase):
                 self.assertIn("established", run.stderr)
 
     def test_a_page_is_whole_or_not_there(self):
-        """What stands in the place of a page stays until the new page is complete"""
+        """A file with the name of a page is kept until the new page is complete"""
         sys.path.insert(0, os.path.join(SOURCE, "python"))
         try:
             from contact.report import page
@@ -255,7 +255,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual([name for name in os.listdir(self.folder) if name.endswith(".tmp")], [])
 
     def test_control_characters_are_not_echoed(self):
-        """A message about a word has no control characters of it"""
+        """A message about a word contains none of its control characters"""
         for word in ("\x01\x02bad", "b\x1b[31mad", "bad\x7f"):
             self.run_text(LAYER.format(load=2000, limit=0.0, slope=0.0).replace("999 100", word + " 100"))
             self.assertEqual(self.run.returncode, 1)

@@ -35,7 +35,7 @@ GROOVE = dict(rail="groove.txt", wheel="roller.txt", mirror_z=-1, back="0 0 460"
 CONSTANT = dict(v=0, friction="0.4 0.4")
 BY_ANGLE = dict(v=1, friction="2\n-90d 0.1 0.1\n90d 0.5 0.5")
 
-ODD_REFERENCE = (1, 3, 5)  # places of values that change their signs: Y_CP(R), DELT_CP(R), Y_CP(W)
+ODD_REFERENCE = (1, 3, 5)  # indices of values that change their signs: Y_CP(R), DELT_CP(R), Y_CP(W)
 
 
 def rows(path):

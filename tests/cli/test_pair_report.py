@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The report of wheel and rail: every number below its name is that of the input or of the JSON record, on both sides of the track.
+"""The report of wheel and rail: every number below its name is that of the input or of the JSON record, on both sides.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -35,7 +35,7 @@ CASE = """1
 """
 PLAIN = dict(p=2, t=3, n=1, f=0, v=0, d=2, a=0, o=4, friction="0.35 0.35", dqrel=1, springs="", z=60000)
 BY_ANGLE = dict(v=1, friction="2\n-90d 0.1 0.1\n90d 0.5 0.5")
-# Numbers of the input by the names that the report gives them; what changes its sign on the left
+# Numbers of the input by their names in the report, with those that change their sign on the left
 GIVEN = {"POISS(R)": 0.28, "POISS(W)": 0.31, "GG(R)": 82000, "GG(W)": 79000, "EPS": 1e-6, "DX": 0.9, "DS": 0.7,
          "A_SEP": math.pi / 2, "D_SEP": 8, "D_COMB": 4, "GAUGHT": -1, "RAILZ0": 0.3, "CANT": 0.025, "MIRRORY": 0, "MIRRORZ": 0,
          "ISMOOTH": 0, "LAMBDA": 0, "DZRAIL": 0.1, "VZRAIL": 2.2, "S_WS": 100, "PITCH_WS": 0.05, "VX_WS": 20000, "VZ_WS": 3,
@@ -63,7 +63,7 @@ def value(entry):
 
 
 def rows_of(text):
-    """Pairs of names and numbers: a line of names, and the line of as many numbers below"""
+    """Pairs of names and numbers: a line of names, and the line with the same number of values below"""
     lines = text.split("\n")
     for line, below in zip(lines, lines[1:]):
         names, words = line.split(), below.split()
@@ -80,7 +80,7 @@ class PairReport(unittest.TestCase):
         self.folder = scratch.name
 
     def run_both(self, *steps, roller=False, options=()):
-        """Cases one after the other, on the right and on the left: reports and records"""
+        """Cases in turn, on the right and on the left: reports and records"""
         sides = []
         for c1, s in ((5, ""), (4, "-")) if roller else ((1, ""), (0, "-")):
             text = "".join(CASE.format(c1=c1, s=s, folder=PROFILES, **{**PLAIN, **step}).replace("2033", "2035") for step in steps)
@@ -99,7 +99,7 @@ class PairReport(unittest.TestCase):
         return sides
 
     def compare(self, steps):
-        """All numbers of the reports; names that must be there; both sides are mirror images"""
+        """All numbers of the reports; required names; both sides are mirror images"""
         sides = self.run_both(*steps)
         names = set()
         for left, (reports, records) in enumerate(sides):
@@ -176,7 +176,7 @@ class PairReport(unittest.TestCase):
             self.assertEqual([right[1], right[2], right[3]], [-left[1], left[2], -left[3]])
 
     def test_steps_and_springs(self):
-        """Two steps of transient rolling, whose reference of spin leaves the origin; the rail on springs"""
+        """Two steps of transient rolling, whose reference of spin moves off the origin; the rail on springs"""
         for extra in (dict(t=2), dict(t=1)):
             _names, sides = self.compare([dict(PLAIN, **extra), dict(PLAIN, p=0, **extra)])
             for reports, records in sides:
@@ -196,7 +196,7 @@ class PairReport(unittest.TestCase):
             self.assertTrue(any(origins), origins)
 
     def test_rail_on_springs(self):
-        """Springs and what preloads them stand in the report as given; the springs carry what the wheel presses"""
+        """Springs and their preloads are printed in the report as given; the springs carry the force of the wheel"""
         springs = dict(KY_RAIL=20000, FY_RAIL=300, KZ_RAIL=50000, FZ_RAIL=-400)
         names, sides = self.compare([dict(PLAIN, f=3, springs="20000 {s}300 50000 -400\n")])
         self.assertLessEqual({"DY_DEFL", "DZ_DEFL"}, names)
@@ -232,7 +232,7 @@ class PairReport(unittest.TestCase):
                         self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-4*abs(expected) + 1e-7, msg=(d, name))
 
     def test_digits_of_the_curvature(self):
-        """As many decimals as fit four digits"""
+        """Number of decimals for four figures"""
         for curvature, text in (("2.5e-4", "2.500E-04"), ("1e-6", "1.000E-06"), ("0", "0.000"), ("9.99996e-5", "1.000E-04"),
                                 ("0.125", "0.1250")):
             for track, numbers in (("-1 {s}752.0 0.3 0.025 ", "    -1.000    752.0000      0.3000      0.0250"),
@@ -248,7 +248,7 @@ class PairReport(unittest.TestCase):
                 self.assertEqual(line, numbers + text.rjust(12))
 
     def test_roller(self):
-        """A roller turns in place of a track: its names, its numbers, and the other side as a mirror image"""
+        """A roller instead of a track: its names, its numbers, and the other side as a mirror image"""
         track = CASE.replace("0.3 0.025 {s}1e-6\n", "0.3 500\n").replace("20000 {s}17 3", "40 {s}17 3")
         track = track.replace("100 {s}6.5", "1.5 {s}6.5")
         with unittest.mock.patch(__name__ + ".CASE", track):
@@ -275,7 +275,7 @@ class PairReport(unittest.TestCase):
                 self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-7*abs(expected) + 1e-12, msg=name)
 
     def test_places_of_the_bodies(self):
-        """Rail and wheel in the track, in the HDF5 file and in the head of the .mat file: what was given, and what turns with it"""
+        """Rail and wheel in the track, in the HDF5 file and in the head of the .mat file: given values, and computed rotations"""
         try:
             import h5py
         except ImportError:
@@ -307,7 +307,7 @@ class PairReport(unittest.TestCase):
             self.assertAlmostEqual(found[1][name], found[0][name]*(-1 if name in odd else 1), delta=1e-6, msg=name)
 
     def test_standing_wheel(self):
-        """Nothing moves: a rolling velocity of 0 is no reason for anything that is not a number"""
+        """No motion: a rolling velocity of 0 gives no NaN"""
         standing = CASE.replace("20000 {s}17 3 {s}0.0017 {s}0.0021 -43.5", "0 0 0 0 0 0").replace(
             "{s}1.1 2.2 {s}0.0013", "0 0 0").replace("1.1 {s}1.2 1.3 {s}0.014 {s}0.015 0.16", "0 0 0 0 0 0")
         for d in (2, 3, 4):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What is wrong in an input is told with its line, its column and its name: every number of all examples.
+"""Errors of an input are reported with line, column and name: every number of all examples.
 
-The comments of the examples name the numbers in front of them. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The comments of the examples name the numbers before them. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import glob
 import os
@@ -16,7 +16,7 @@ NUMBER = r"[-+]?\d[\w.+-]*|[-+]?\.\d+"
 WHOLE = set("""MODULE P B T N F S L D C M Z E H G I A O W R M2 C1 V X MAXGS MAXIN MAXNR MAXOUT NPOT_MAX IPOTCN MX MY IBASE IPLAN NN
     NX NY NZ ISUBS MATFIL MATFIL_S OUTPUT OUTPUT_S NVF MIRRORY MIRRORZ ISMOOTH INISLP KDOWFB IF_METH VARIANT IXL IXINC IXH IYL IYINC
     IYH""".split())
-# Numbers that have a longer name in messages; with "|" what the same place means in two forms of a line
+# Numbers that have a longer name in messages; with "|" the two meanings of a position in two forms of a line
 LONGER = {"POISS": "POISS1 POISS2", "GG": "GG1 GG2", "GAUGSQ": "GAUGSQ|RAILY0 RAILY0",
           "RAILY0": "GAUGSQ|RAILY0 GAUGSQ", "GAUGWD": "GAUGWD|RAILZ0 RAILZ0", "RAILZ0": "GAUGWD|RAILZ0 GAUGWD",
           "DX": "VS", "DY": "DYRAIL VY", "DZ": "DZRAIL VZ", "DROLL": "VROLL",
@@ -24,7 +24,7 @@ LONGER = {"POISS": "POISS1 POISS2", "GG": "GG1 GG2", "GAUGSQ": "GAUGSQ|RAILY0 RA
 
 
 def lines_with_names(path):
-    """Lines of an input, and for each the places and names of its numbers"""
+    """Lines of an input, and for each the positions and names of its numbers"""
     with open(path, encoding="utf-8") as file:
         for line in file.read().split("\n"):
             row = re.match(r"((?:\s*(?:%s)(?=\s))+)\s*%%?\s*([A-Z].*)$" % NUMBER, line)
@@ -36,7 +36,7 @@ def lines_with_names(path):
 
 
 def is_named(told, name):
-    """Is it the number that the comment names?"""
+    """Is it the number named by the comment?"""
     return (told in (name.replace("B1", "B(1)"), *LONGER.get(name, "").split()) or told.startswith(name)
             or (len(name) > 1 and name in told))
 
@@ -57,7 +57,7 @@ class Places(unittest.TestCase):
         return run.stderr
 
     def test_numbers_beyond_their_bounds(self):
-        """All real numbers of an example are out of bounds: each is told at its place"""
+        """All real numbers of an example are out of bounds: each is reported at its position"""
         found = 0
         for path in sorted(glob.glob(os.path.join(EXAMPLES, "*.inp"))):
             for wrong, word in (("1e300", "above"), ("-1e299", "below")):

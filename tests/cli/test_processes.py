@@ -20,7 +20,7 @@ from small_case import case, endless
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["CONTACT_SOURCE"])
-#: Sanitizers take address space without limit and stacks of any size (tests/support/sanitize.sh sets this)
+#: Sanitizers use unlimited address space and large stacks (tests/support/sanitize.sh sets this)
 IS_INSTRUMENTED = "CONTACT_SLOWER" in os.environ
 
 
@@ -151,7 +151,7 @@ class Locks(Scratch):
         other = self.start("--output-dir", "out", "2", "a")
         self.wait_for(lambda: (self.folder / "out" / "a.out").exists())
         other.kill()
-        # a killed run locks nobody out, and its lock and its unfinished files go with the next one
+        # a killed run locks out no other, and its lock and its unfinished files are removed by the next one
         first.kill()
         first.wait()
         self.assertTrue((self.folder / "a.lock").exists())
@@ -251,7 +251,7 @@ class Surroundings(Scratch):
         self.assertEqual(self.run_program("--json=-", "2", "a", preexec_fn=close(1))[0], 1)
 
     def test_command_lines(self):
-        """Words of a hostile command line, exit status, and a part of what is said"""
+        """Words of an invalid command line, exit status, and a part of the message"""
         folder = self.folder
         for name in ("b c", "-dash", "ünïcode", "..", "new\nline", "x" * 200, "a;b", "$(touch pwned)", "%n%s"):
             shutil.copy(folder / "a.inp", folder / (name + ".inp"))
@@ -291,7 +291,7 @@ class Surroundings(Scratch):
 
 @unittest.skipIf(IS_INSTRUMENTED, "sanitizers need stack")
 class SmallStack(Scratch):
-    """Nothing that grows with the input is on a stack"""
+    """No array that grows with the input is on a stack"""
 
     def run_on(self, stack, *arguments):
         def limit():
@@ -320,7 +320,7 @@ class SmallStack(Scratch):
             self.assertEqual((status, err), (0, ""), name)
 
     def test_frames_of_options(self):
-        """What an option adds to the way of a case fits three quarters of the smallest stack of a thread that is usual, 128 kB"""
+        """The stack used by an option on the way of a case fits three quarters of the smallest usual stack of a thread, 128 kB"""
         shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
         for name in ("cattaneo", "wheel_on_rail"):
             shutil.copy(SOURCE / "examples" / (name + ".inp"), self.folder)

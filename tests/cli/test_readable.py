@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The readable format: both ways between the formats, results, complaints with places, explain
+"""The readable format: conversion in both directions, results, error messages with positions, explain
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -22,13 +22,13 @@ REST = ('[case.kinematics]\nfn = 1000\ncksi = 0.001\n[case.friction]\nfstat = 0.
 
 
 def figures(path):
-    """A report without what differs from run to run: times, names, warnings about the input, and the digit R of its echo"""
+    """A report without lines that differ between runs: times, names, warnings about the input, and the digit R of its echo"""
     return [re.sub(r"RETURN \d", "RETURN", line) for line in path.read_text(errors="replace").split("\n")
             if not re.search(r"^\||Input: WARNING|CONTACT|suffix|seconds| ended |There are|started", line)]
 
 
 def words(text):
-    """An explanation without places and warnings"""
+    """An explanation without positions and warnings"""
     return re.sub(r"line \d+|\.inp|\.toml|.*Input: WARNING.*\n", "", text)
 
 
@@ -80,7 +80,7 @@ class Readable(unittest.TestCase):
                 self.assertEqual(figures((self.folder / other).with_suffix(".out")), right, other)
 
     def test_converted_into_another_folder(self):
-        """Names of files are relative to an input; who converts it into another folder is told, where there are any"""
+        """Names of files are relative to an input; conversion into another folder warns, if there are any"""
         (self.folder / "other").mkdir()
         for name, told in (("wheel_on_rail", True), ("cattaneo", False)):
             said = self.run_program("convert", "--output-dir", str(self.folder / "other"), str(EXAMPLES / (name + ".inp")))
@@ -95,7 +95,7 @@ class Readable(unittest.TestCase):
         self.assertEqual({round(float(force)) for force in forces}, {1000})
 
     def test_errors_of_some_cases(self):
-        """errors = true holds from its case on, as --errors does for all; conversion keeps it as far as it can"""
+        """errors = true applies from its case on, as --errors does to all; conversion keeps it as far as possible"""
         case = "[[case]]\n{}[case.kinematics]\ncksi = 0.002\n"
         text = HEAD + REST + case.format("errors = true\n") + case.format("") + case.format("errors = false\n")
         self.assertEqual(self.check(text)[0], 0)
@@ -150,7 +150,7 @@ class Readable(unittest.TestCase):
         self.assertIn('motion = "steady_rolling", not motion = "shift"', errors)
 
     def test_choices_in_messages_of_a_computation(self):
-        """Words for those who write words, digits for those who write digits"""
+        """Messages use words for inputs with words, digits for inputs with digits"""
         oblique = HEAD.replace("shift", "steady_rolling") + REST + '[case.rolling]\nchi = "90 deg"\ndq = 0.1\nveloc = 1000\n'
         self.assertIn('motion = "steady_rolling" with ConvexGS (iteration.solver = "convex_gs")', self.complaints(oblique))
         status, _, errors = self.run_program("convert", "a.toml")
@@ -192,7 +192,7 @@ class Readable(unittest.TestCase):
         highest = {name: re.findall(r'"max_temp1":[^,]*', text) for name, text in highest.items()}
         self.assertTrue(highest["moving"])
         self.assertNotEqual(highest["moving"], highest["established"])
-        # the command line stands above the file
+        # the command line has precedence over the file
         self.assertEqual(self.run_program("2", "moving", "--quiet", "--json", "--heat", "established")[0], 0)
         self.assertEqual(re.findall(r'"max_temp1":[^,]*', (self.folder / "moving.jsonl").read_text()), highest["established"])
         status, _, errors = self.run_program("convert", "moving.toml")

@@ -173,7 +173,7 @@ class Relations(unittest.TestCase):
         self.assertLessEqual(set(KINDS) - {"contact_area"}, seen)
 
     def test_configurations_differ(self):
-        """No two of them have the same forces: each does what it is there for"""
+        """No two of them have the same forces: each has an effect"""
         cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
         found = self.solve(cases)
         for k, name in enumerate(CONFIGURATIONS):
@@ -188,7 +188,7 @@ class Relations(unittest.TestCase):
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
 
     def test_without_contact(self):
-        """Nothing touches, or nothing is pressed: no forces by any solver, whatever is prescribed, and no doubt about it"""
+        """No contact, or no pressure: no forces by any solver, whatever is prescribed, and no warning"""
         cases = []
         for values in CONFIGURATIONS.values():
             case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values)

@@ -75,7 +75,7 @@ class Slices(unittest.TestCase):
         self.cylinder()
         self.slices("rail.slcs", range(-200, 201, 40), lambda u: [0.25*k for k in range(-160, 161)], self.ridge)
         for location in (2, 5):
-            # elements of 1 mm: the search looks every 0.3 mm, and looked every 2.4 mm
+            # elements of 1 mm: the search has points every 0.3 mm, and had them every 2.4 mm
             result, _warnings = self.solve(location, fz=20.0)
             patches = result["patches"]
             self.assertEqual(len(patches), 1, "D = %d" % location)
@@ -87,7 +87,7 @@ class Slices(unittest.TestCase):
         def height(u, y):
             return y*y/200.0 - 0.85*math.exp(-((u - 26.0)/1.0)**2)*math.exp(-((y - 1.0)/4.0)**2)
 
-        # the bump, 26 mm ahead, is 0.1 mm higher than the wheel there; it has no part in points every 4 mm
+        # the bump, 26 mm ahead, is 0.1 mm higher than the wheel there; points every 4 mm miss it
         positions = [-100, -60, -30, 0] + [0.5*k for k in range(30, 75)] + [50, 80, 120, 160]
         self.slices("rail.slcs", positions, lambda u: [0.5*k for k in range(-40, 41)], height)
         for location in (2, 5):
@@ -111,7 +111,7 @@ class Slices(unittest.TestCase):
             said = [line for line in warnings if "overlap by" in line]
             self.assertEqual(len(said), 1, "D = %d: %s" % (location, warnings))
             self.assertAlmostEqual(float(said[0].split("overlap by ")[1].split()[0]), depth, delta=0.1*depth)
-        # nothing is told of a rail without the ramp
+        # no warning for a rail without the ramp
         self.slices("rail.slcs", range(-300, 301, 10), lambda u: [float(k) for k in range(-30, 31)], lambda u, y: 0.0)
         _result, warnings = self.solve(2)
         self.assertFalse([line for line in warnings if "overlap" in line])

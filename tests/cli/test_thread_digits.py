@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Results on large grids are the same to the last digit whatever the number of threads is.
+"""Results on large grids are identical to the last digit for all numbers of threads.
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -19,7 +19,7 @@ LARGE = 212
 
 
 def totals(text, threads):
-    """What the line of a case says, without its time"""
+    """The line of a case, without its time"""
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
             file.write(text)

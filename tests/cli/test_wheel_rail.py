@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Wheel on rail: creepages against the velocities of two rigid bodies, and what is said of forces that cannot be met.
+"""Wheel on rail: creepages against the velocities of two rigid bodies, and messages about forces that cannot be met.
 
-Velocities come from finite differences of places at two moments, in the coordinates of the track on both of its sides:
+Velocities come from finite differences of positions at two times, in the coordinates of the track on both of its sides:
 this file shares no formula with the program. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
@@ -109,7 +109,7 @@ def small(rates, t):
 
 
 class Wheel:
-    """A wheelset with one wheel in the coordinates of the track: where its material points are at a time"""
+    """A wheelset with one wheel in the coordinates of the track: positions of its material points at a time"""
 
     def __init__(self, side, y, z, roll, yaw, velocity, rates, flexible, flexible_rates):
         self.mirror = 1 if side in (1, 5) else -1
@@ -123,7 +123,7 @@ class Wheel:
         return [d + f + r*t for d, f, r in zip(design, self.flexible[:3], self.flexible_rates[:3])]
 
     def velocity_of(self, point, flexible_only=False):
-        """By a central difference of the places of the material point that is here at time 0"""
+        """By a central difference of the positions of the material point that is here at time 0"""
         dt = 1e-7
         origin = [0.0, self.y, self.z - NOMRADW]
         in_set = turned_back(self.axes, minus(point, origin))
@@ -223,7 +223,7 @@ class Forces(Case):
             self.assertNotIn("friction cannot do more", out)
 
     def test_beyond_friction(self):
-        """What friction cannot give is told, on both sides"""
+        """A force above the friction bound is reported, on both sides"""
         results, out = self.solve(self.case(force=1, vpitch=19000.0), self.case(force=1, vpitch=-19000.0))
         self.assertEqual(len(re.findall("Warning:.*friction cannot do more", out)), 2)
         for sign, case in zip((1, -1), results):
@@ -231,7 +231,7 @@ class Forces(Case):
             self.assertAlmostEqual(case["totals"]["fx_ws"]["value"], sign*18000.0, delta=100.0)
 
     def test_light_loads_on_coarse_elements(self):
-        """The force of a contact that is smaller than the mesh of the gap rises continuously from the first touch"""
+        """The force of a contact smaller than the mesh of the gap increases continuously from the first touch"""
         forces = (0.2, 0.7, 1.5, 3.0, 7.0, 15.0, 40.0, 150.0)
         for location, tang in ((2, 3), (2, 1), (4, 3), (5, 2), (3, 0)):
             for y in (0.0, 6.3):
@@ -246,7 +246,7 @@ class Forces(Case):
 
 
     def test_a_force_is_met_within_eps_or_that_is_told(self):
-        """At EPS = 1e-12 round-off decides: what is printed of the difference is what the results tell"""
+        """At EPS = 1e-12 round-off decides: the printed difference is that of the results"""
         forces = [round(1500.0*1.31**k) for k in range(14)]
         cases = [self.case(y=y, fz=fz, yaw=0.004 if y > 5 else 0.0, vpitch=-43.4).replace("1e-5", "1e-12").replace(
             " 0.5 0.5 1 90d", " 1.5 1.5 1 90d") for y in (0.0, 2.0, 6.3) for fz in forces]
@@ -319,7 +319,7 @@ class Statements(Case):
         self.assertEqual([case["converged"] for case in results], [True, False, False, True])
 
     def test_damping(self):
-        """M2 = 2: the damping forces of module 1 stand in .out, with the sign of the side"""
+        """M2 = 2: the damping forces of module 1 are printed in .out, with the sign of the side"""
         lateral = []
         for side, mirror in ((1, 1), (0, -1)):
             cases = [self.case(side=side, y=3.0*mirror, vy=20.0*mirror, tang=tang, damping=damping, physics=physics)
@@ -339,7 +339,7 @@ class Statements(Case):
         self.assertAlmostEqual(lateral[0], -lateral[1], delta=1e-3*abs(lateral[0]))
 
     def test_steps_of_a_layer_that_yields(self):
-        """One element per step, whatever DQREL says, and then that is told; other layers take any step"""
+        """One element per step, whatever the value of DQREL, with a message; other layers accept any step"""
         told = "DQREL is set to 1"
         results = {}
         for limit in (35, 0):
@@ -378,7 +378,7 @@ def halfspace_table(path, mx, my, dx, dy, nu=0.28, matrices=1):
 
 
 class Tables(Case):
-    """Coefficients of half-spaces that stand in a file give what half-spaces give"""
+    """Coefficients of half-spaces from a file give the results of half-spaces"""
 
     @classmethod
     def setUpClass(cls):
@@ -390,7 +390,7 @@ class Tables(Case):
         cls.stored.cleanup()
 
     def pair(self, table=None, solver="10 1e-8", search="90d 8 4", cant=0.025, fz=20000.0, **values):
-        """The case with half-spaces, or with a file in place of them"""
+        """The case with half-spaces, or with a file instead"""
         text = self.case(fz=fz, **values).replace(" 999 100 30 1 1e-5", " 999 100 30 " + solver).replace("90d 8 4", search)
         text = text.replace(" 14 0 1435 0.025", " 14 0 1435 %g" % cant)
         if table is None:
@@ -422,7 +422,7 @@ class Tables(Case):
         self.check(2, y=5.5, search="0.2 2 1", cant=0.05, fz=60000.0)
 
     def refused(self, *phrases, **values):
-        """Both where cases are solved and where they are only checked"""
+        """Both in cases that are solved and in cases that are only checked"""
         for mode in ("2", "3"):
             with open(os.path.join(self.folder, "x.inp"), "w") as file:
                 file.write(self.pair("half.txt", **values) + "\n 0 MODULE\n")
@@ -443,7 +443,7 @@ class Tables(Case):
         self.refused("half.txt:1:", "NMATRIX = 3 cannot be used", "no fixed place", "one matrix")
 
     def test_sizes(self):
-        """Small files are told, elements that NPOT_MAX enlarges are refused"""
+        """Small files give a warning, elements that NPOT_MAX enlarges are refused"""
         path = os.path.join(self.folder, "half.txt")
         halfspace_table(path, 12, 10, 0.5, 0.5)
         _, out = self.solve(self.pair("half.txt"))

@@ -30,7 +30,7 @@ def group(members, required=(), meaning=""):
 
 
 def members(name, prefixes=("",)):
-    """What a procedure of case_record tells, and which of it always"""
+    """The values written by a procedure of case_record, and which of them always"""
     found, always, open_groups, conditional = {}, [], 0, False
     for line in procedure("output/case_record.f90", name):
         open_groups += line.startswith("call record%open_group") - line.startswith("call record%close_group")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of doc/user that say what the sources say are current
+"""The tables of doc/user that repeat the sources are current
 
 Usage: manual_tables.py [--write]. Made from the description of the groups (src/cases), the table of bounds, the digits and their
 words are

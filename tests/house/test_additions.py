@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What one more of something costs: each addition of tests/house/additions is planted in a copy of the sources
+"""Cost of an addition: each addition of tests/house/additions is applied to a copy of the sources
 
 Usage: test_additions.py [--build FOLDER]
 
@@ -49,7 +49,7 @@ def steps_of(recipe, text):
 
 
 def plant(top, edits):
-    """Put texts before or behind the lines that hold their anchors; complaints about anchors that are not there once"""
+    """Insert texts before or after the lines that contain their anchors; complaints about anchors that do not occur exactly once"""
     complaints = []
     for file, side, anchor, text in edits:
         path = top / file
@@ -77,7 +77,7 @@ def where_named(top, pattern):
 
 
 def judge(module, top, recipes):
-    """Complaints about one addition; it is planted on the way"""
+    """Complaints about one addition, which is applied in the process"""
     named = where_named(top, module.SIBLING)
     complaints = plant(top, module.EDITS)
     changed = {file for file, *_ in module.EDITS}

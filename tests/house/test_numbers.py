@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Numbers that tune a method have a name, with a comment that says where they come from.
+"""Numbers that tune a method have a name, with a comment that gives their origin.
 
 In the rooms of the physics no executable line holds a real number of its own: whole numbers up to 100 and simple fractions
 are coefficients of formulas, 180 and 1000 units. A parameter that has a value of its own stands below or beside a comment.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What packages say of the program is so: options in the man page and in the completion, and the version in all recipes"""
+"""Packages describe the program correctly: options in the man page and in the completion, and the version in all recipes"""
 import os
 import pathlib
 import re
@@ -12,7 +12,7 @@ FOLDER = TOP / "src/packaging"
 
 
 def complaints(options):
-    """What the completion of bash does not offer"""
+    """Options missing in the completion of bash"""
     bash = shutil.which("bash")
     if not bash:
         return []

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What must not come back into src, and into the top folder: one rule a line, each with its reason."""
+"""Patterns that must not return to src, and to the top folder: one rule a line, each with its reason."""
 import os
 import pathlib
 import re
@@ -60,7 +60,7 @@ def offences(lines, room="base"):
 
 
 def unknown_choices(text, keys, words):
-    """Choices that messages name, and that nobody could turn into digits"""
+    """Choices in messages that cannot be converted to digits"""
     joined = re.sub(r"&\n\s*&", "", text)
     for key, named in TOLD_CHOICE.findall(joined):
         for word in re.findall(r'""(\w+)""', named):

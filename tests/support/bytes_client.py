@@ -45,7 +45,7 @@ def hash_of(array):
 
 
 def run(name):
-    """contact_run_with: its code and message; the files are looked at by bytes.py"""
+    """contact_run_with: its code and message; the files are compared by bytes.py"""
     library = ctypes.CDLL(os.environ["CONTACT_LIBRARY"])
     message = ctypes.create_string_buffer(4000)
     code = library.contact_run_with(name.encode(), 2, b".", 1, 1 + 2 + 4, message, len(message))
@@ -53,7 +53,7 @@ def run(name):
 
 
 def getters(cntc):
-    """Functions that only look, with what they need besides the numbers of element and problem"""
+    """Functions that only read, with their arguments besides the numbers of element and problem"""
     further = {"getflags": [list(cntc.CNTC.values())[1:31]], "getfielddata": None, "getparameters": None, "getprofilevalues": None,
                "getcalculationtime": None, "getsensitivities": [4, 4]}
     for name, function in vars(cntc).items():
@@ -77,7 +77,7 @@ def ask(cntc, ire, icp):
 
 
 def read(name):
-    """The first case of an input file by cntc_readinpfile, and what can be asked afterwards"""
+    """The first case of an input file by cntc_readinpfile, and the values that can be read afterwards"""
     from contact import cntc
     from contact._library import case_status, last_error
     cntc.initlibrary(outdir=".", expnam="library", idebug=0)
@@ -97,7 +97,7 @@ def read(name):
 
 
 def calls(script, arguments):
-    """Note down every call that a script makes"""
+    """Record every call of a script"""
     import contact
     from contact import _library, cntc
     assert contact, "the package"
