@@ -1,8 +1,8 @@
-!> How the undeformed distance in the elements of a flat patch changes with the position of the wheelset
+!> Derivatives of the undeformed distance in the elements of a flat patch with respect to the position of the wheelset
 !>
-!> Above a point of the plane either surface rises as far as its motion along its normal, seen from the plane that moves too,
-!> asks for: for a body that is displaced by v, and a plane by u, the height along the normal k of the plane changes by
-!> (v - u).n/(k.n), n the normal of the surface. This is the exact derivative of the distance, and needs no differences.
+!> The height of a surface above a point of the plane changes with the motions of the body and of the plane along the normal of the
+!> surface: for a body displaced by v and a plane displaced by u, the height along the normal k of the plane changes by (v -
+!> u).n/(k.n), with n the normal of the surface. This is the exact derivative of the distance, without differences.
 module contact_wheelrail_distance_motion
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -25,11 +25,11 @@ contains
    subroutine differentiate_distance(problem, geometry, slot, motions, distance, approach)
       !> Profiles
       type(wheel_rail_problem), intent(in) :: problem
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_geometry), intent(in) :: geometry
       !> Solved patch
       type(patch_slot), intent(in) :: slot
-      !> Motions of its reference, one per coordinate
+      !> Motions of the reference of the patch, one per coordinate
       type(reference_motion), intent(in) :: motions(:)
       !> Change of the undeformed distance [mm per unit], shape (mx, my, coordinates), 0 outside contact
       real(wp), contiguous, intent(inout) :: distance(:, :, :)
@@ -68,7 +68,7 @@ contains
                do k = 1, coordinate%count
                   rise(k) = rising(point, normal, displacement_at(placement, k, point), motions(k))
                end do
-               ! the distance is that of the rail's surface less that of the wheel's
+               ! the distance is the height of the rail's surface minus that of the wheel's
                rail = start(2) + h(ix, iy) - slot%problem%pen
                point = plane%to_parent([x, s, rail])
                if (rolls) then
@@ -81,13 +81,13 @@ contains
                end do
             end do
          end do
-         ! the approach is the largest overlap
+         ! the approach is the maximum overlap
          approach = -distance(lowest(1), lowest(2), :)
       end associate
 
    contains
 
-      !> Change of the height of a surface over the plane
+      !> Derivative of the height of a surface over the plane
       pure real(wp) function rising(point, normal, v, motion)
          !> Point of the surface in the track [mm], its normal, and its displacement [mm per unit]
          real(wp), intent(in) :: point(3), normal(3), v(3)
@@ -112,9 +112,9 @@ contains
    !> Normal of the wheel's surface in its own axes, not of unit length
    pure subroutine wheel_normal(wheel, radius, point, place, normal)
       type(profile_curve), intent(in) :: wheel
-      !> At the origin of the profile [mm]
+      !> Radius at the origin of the profile [mm]
       real(wp), intent(in) :: radius
-      !> Of the surface, in the wheel's axes [mm], and its place on the profile [mm]
+      !> Point of the surface in the wheel's axes [mm], and its arc length on the profile [mm]
       real(wp), intent(in) :: point(3), place
       real(wp), intent(out) :: normal(3)
       real(wp) :: y, z, y_s, z_s, r
@@ -126,11 +126,11 @@ contains
 
    !> Normal of a roller's surface in the track, not of unit length
    function roller_normal(rail, radius, point) result(normal)
-      !> Its profile in the track
+      !> Profile of the roller in the track
       type(profile_curve), intent(in) :: rail
       !> Nominal radius [mm]
       real(wp), intent(in) :: radius
-      !> Of the surface [mm]
+      !> Point of the surface [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: normal(3)
       real(wp) :: y, z, y_s, z_s, rho

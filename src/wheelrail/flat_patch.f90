@@ -1,9 +1,9 @@
 !> Grid and undeformed distance of a flat contact patch
 !>
-!> The plane goes through the contact reference on the rail and is rolled by the contact angle:
-!> coordinates x along the track, s in the plane, n into the rail. The undeformed distance is the
-!> difference of the two surfaces along n. Wheel points are found directly, by Newton's method for
-!> place on the profile and height above the plane, so that the distance is as smooth as the profiles.
+!> The plane passes through the contact reference on the rail and is rolled by the contact angle. Coordinates: x along the track, s
+!> in the plane, n into the rail. The undeformed distance is the difference of the two surfaces along n. Points of the wheel are
+!> computed directly, by Newton's method for the position on the profile and the height above the plane, so that the distance is as
+!> smooth as the profiles.
 module contact_wheelrail_flat_patch
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
@@ -21,16 +21,16 @@ module contact_wheelrail_flat_patch
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter, public :: nothing_there = 999.0_wp
 
-   !> What is kept from one distance to the next, so that no memory is requested for it; its contents do not matter
+   !> Workspace kept from one distance to the next, so that no memory is allocated; its contents are not used
    type :: distance_scratch
-      !> See `start_places`; the first n are set
+      !> Arc lengths from `start_places`; the first n are set
       real(wp), allocatable :: places(:)
       integer :: n = 0
       type(profile_section), private :: section
       type(wheel_rows), private :: rows
    end type distance_scratch
 
-   !> Places that there is room for at first: one stretch, and its reference
+   !> Initial size of `places`: for one stretch, and its reference
    integer, parameter :: few_places = 4
 
 contains
@@ -39,7 +39,7 @@ contains
    function patch_frame(rail, placement, region) result(plane)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Region whose weighted centre becomes the contact reference
       type(contact_region), intent(in) :: region
@@ -64,9 +64,9 @@ contains
       type(contact_region), intent(in) :: region
       !> Contact reference and its axes
       type(frame), intent(in) :: plane
-      !> Place of the contact reference relative to the centre of an element [mm]
+      !> Position of the contact reference relative to the centre of an element [mm]
       real(wp), intent(in) :: reference(2)
-      !> Elements are doubled in size until there are fewer than this
+      !> Maximum number of elements; elements are doubled in size until there are fewer
       integer, intent(in) :: max_elements
       !> Elements in coordinates of the patch
       type(potential_contact), intent(out) :: grid
@@ -76,13 +76,13 @@ contains
       x = region%box%x - plane%origin(1)
       s = rail%s_at(region%box%y) - rail%s_at(plane%origin(2))
       if (s(1) > s(2)) s = s([2, 1])
-      ! beyond the ends of the profile the surface is taken to go on straight
+      ! beyond its ends the profile is extended by straight lines
       s(1) = min(s(1), region%box%y(1) - plane%origin(2))
       s(2) = max(s(2), region%box%y(2) - plane%origin(2))
       dx = sides(1)
       ds = sides(2)
       do doubling = 1, 40
-         ! the reference as seen from the centre of its element, which may be many elements from the origin
+         ! the reference relative to the centre of its element, which may be many elements from the origin
          lead = reference - anint(reference/[dx, ds])*[dx, ds]
          ix = [floor((x(1) + lead(1))/dx) - 1, ceiling((x(2) + lead(1))/dx) + 1]
          iy = [floor((s(1) + lead(2))/ds) - 1, ceiling((s(2) + lead(2))/ds) + 1]
@@ -99,14 +99,14 @@ contains
       grid%yl = (iy(1) - 0.5_wp)*ds - lead(2)
    end subroutine patch_grid
 
-   !> Arc lengths on the rail from which the section of a patch is followed [mm]: at its reference and in each of the stretches
-   !> that it was joined of
+   !> Arc lengths on the rail from which the section of a patch is followed [mm]: at its reference and in each of the stretches that
+   !> were joined in it
    pure subroutine start_places(rail, region, scratch)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
-      !> Region with the stretches it was joined of
+      !> Region with its joined stretches
       type(contact_region), intent(in) :: region
-      !> Gets the places
+      !> Workspace; `places` is set
       type(distance_scratch), intent(inout) :: scratch
       integer :: k
 
@@ -126,22 +126,22 @@ contains
       end if
    end subroutine start_places
 
-   !> From the distance of the undeformed bodies to h, whose minimum is zero, and the approach
+   !> Shift the distance of the undeformed bodies to h, whose minimum is zero, and compute the approach
    !>
-   !> Where the gap falls by more than surfaces do from one row to the next, the line along n has met another part of the
-   !> rail or wheel, such as a guard rail. This and what lies beyond, seen from the reference, is taken to be missing.
+   !> If the gap decreases from one row to the next by more than possible for one surface, the line along n has met another part of
+   !> the rail or wheel, such as a guard rail. This part and what lies beyond it, as seen from the reference, is treated as missing.
    pure subroutine settle_distance(grid, joined, h, approach, strangers)
       !> Size of the grid
       type(potential_contact), intent(in) :: grid
-      !> Was the region joined of several? Then what lies between them may be of any shape, and nothing is left out
+      !> Was the region joined from several? Then any shape is possible between them, and nothing is left out
       logical, intent(in) :: joined
       !> Distance [mm], negative for interpenetration, on entry; shape (mx, my)
       real(wp), intent(inout) :: h(:, :)
-      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      !> Maximum interpenetration along n [mm]; negative if the bodies do not touch
       real(wp), intent(out) :: approach
-      !> Elements that are left out though the bodies would overlap there
+      !> Number of elements that are left out although the bodies would overlap there
       integer, intent(out) :: strangers
-      !> Largest fall of the gap from row to row: in mm, and relative to the distance of rows
+      !> Maximum decrease of the gap from row to row: in mm, and relative to the distance of rows
       real(wp), parameter :: largest_fall = 1.0_wp, steepest_fall = 10.0_wp
       integer :: ix, iy, step, centre, known
       logical :: beyond
@@ -169,11 +169,11 @@ contains
       h = h + approach
    end subroutine settle_distance
 
-   !> Are both bodies there in all elements, and does the gap fall by less than a limit from each row to the next?
+   !> Do both bodies exist in all elements, and does the gap change by less than a limit from each row to the next?
    pure logical function falls_slowly(h, limit)
       !> See `settle_distance`
       real(wp), intent(in) :: h(:, :)
-      !> [mm]
+      !> Limit [mm]
       real(wp), intent(in) :: limit
       integer :: ix, iy, others
 
@@ -197,19 +197,19 @@ contains
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
-      !> With the places of `start_places`, from which the section of the rail is followed
+      !> Workspace with the arc lengths of `start_places`, from which the section of the rail is followed
       type(distance_scratch), intent(inout) :: scratch
       !> Centres of the elements
       type(potential_contact), intent(in) :: grid
-      !> Shape (mx, my)
+      !> Distance [mm], shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> See `settle_distance`
       real(wp), intent(out) :: approach
-      !> Elements that are left out, as for `settle_distance`
+      !> Number of elements that are left out, see `settle_distance`
       integer, intent(out) :: strangers
       type(frame) :: seen
       real(wp) :: s, n_rail
@@ -224,7 +224,7 @@ contains
          call scratch%section%follow(rail, plane%origin(2:3), plane%roll(), scratch%places(:scratch%n), &
             & [grid%yl - grid%dy, grid%yl + (grid%my + 1)*grid%dy])
       end if
-      ! the plane seen from the wheel
+      ! the plane in the axes of the wheel
       seen = placement%wheel%seen_from_here(plane)
       call scratch%rows%begin([grid%x(1), grid%x(grid%mx)], grid%mx, [wheel%s_at(seen%origin(2)), 0.0_wp])
       do iy = 1, grid%my
@@ -247,15 +247,15 @@ contains
       call settle_distance(grid, scratch%n > 2, h, approach, strangers)
    end subroutine undeformed_distance
 
-   !> Height of a roller's surface over the plane: fixed point of n = distance to the surface below the track point
+   !> Height of a roller's surface over the plane: root of the distance to the surface below the track point at n
    subroutine roller_height(plane, rail, radius, x, s, n)
       type(frame), intent(in) :: plane
       type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: radius, x, s
-      !> Unchanged where there is no surface
+      !> Height [mm], unchanged if there is no surface
       real(wp), intent(inout) :: n
       real(wp) :: point(3), rho, z, trial, correction, slope, facing
-      !> Corrections below this part of the radius are rounding; Newton's method takes three to five steps to it
+      !> Corrections below this fraction of the radius are round-off; Newton's method takes three to five steps
       real(wp), parameter :: on_surface = 1.0e-12_wp
       integer, parameter :: max_steps = 30
       integer :: step
@@ -267,13 +267,13 @@ contains
          rho = radius - rail%height(point(2))
          if (abs(point(1)) >= rho) return
          z = radius - sqrt(rho**2 - point(1)**2)
-         ! the surface lies below the trial point by z - point(3); its slope across the track turns the way along n
+         ! the surface is z - point(3) below the trial point; its slope across the track changes the distance along n
          slope = tan(rail%inclination(rail%s_at(point(2))))
          facing = plane%axes(3, 3) - slope*plane%axes(2, 3)
          correction = (z - point(3))/facing
          trial = trial + correction
          if (abs(correction) < on_surface*radius) then
-            ! a surface that turns its back on the plane is not the one in contact
+            ! a surface that faces away from the plane is not the one in contact
             if (facing > 0.0_wp) n = trial
             return
          end if

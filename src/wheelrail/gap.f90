@@ -1,9 +1,9 @@
 !> The vertical gap between wheel and rail along the contact locus
 !>
-!> A rail (or roller) that is prismatic along the track touches a wheel only where the wheel's surface
-!> is level along the track. These points, one for each lateral position, are the contact locus. In
-!> vertical view the gap there is g(y) = z_rail(y) - z_wheel(y), z down, negative for interpenetration;
-!> a wheel that sinks by dz loses that gap everywhere, so that one gap curve serves all heights.
+!> A rail (or roller) that is prismatic along the track touches a wheel only at points where the wheel's surface is level along the
+!> track. These points, one for each lateral position, are the contact locus. In vertical view the gap there is g(y) = z_rail(y) -
+!> z_wheel(y), z down, negative for interpenetration; if the wheel is lowered by dz the gap decreases by dz everywhere, so that one
+!> gap curve serves all heights.
 module contact_wheelrail_gap
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -30,21 +30,21 @@ module contact_wheelrail_gap
       !> 1/(2 r): curvature of wheel and roller along the track [1/mm]
       real(wp) :: kappa = 0.0_wp
       !> Gap over an even mesh along the track as well, shape (x_table, y), as far as it is within `depth` of the smallest one.
-      !> Weights of regions come from it; where it is unallocated from `gap` and `kappa`
+      !> Weights of regions are computed from it; if it is unallocated, from `gap` and `kappa`
       real(wp), allocatable :: x_table(:), table(:, :)
-      !> The same table where regions do not come from it: what they leave out is found there
+      !> The same table if weights are not computed from it: used to find contact outside the regions
       real(wp), allocatable :: unweighed(:, :)
-      !> The smallest gap beyond the reach of the search along the track [mm], if it may close, and its place x, y [mm]
+      !> The smallest gap beyond the reach of the search along the track [mm], if it may close, and its position x, y [mm]
       real(wp) :: far = no_surface, far_place(2) = 0.0_wp
-      !> Penetration that the mesh serves [mm]
+      !> Penetration for which the mesh is suited [mm]
       real(wp) :: depth = huge(1.0_wp)
-      !> The mesh point of another curve whose surroundings this one shows on a finer mesh; 0: it shows all of the rail
+      !> Index of the mesh point of another curve whose surroundings this curve resolves on a finer mesh; 0: the whole rail
       integer :: shows = 0
-      !> Is the rail there at a mesh point?
+      !> Does the rail exist at a mesh point?
       logical, allocatable, private :: on_rail(:)
       !> Lateral positions in the track of the nodes of the wheel's profile [mm]
       real(wp), allocatable, private :: lateral(:)
-      !> Estimates that stand for the gap where it is far from the smallest one, while `is_surveyed`
+      !> Estimates used instead of the gap at points where it is far from the smallest one, if `is_surveyed`
       type(gap_survey), private :: survey
       logical, private :: is_surveyed = .false.
    end type gap_curve
@@ -53,17 +53,17 @@ module contact_wheelrail_gap
    real(wp), parameter :: mesh_share = 0.3_wp
    !> Smallest mesh width [mm]
    real(wp), parameter :: min_mesh = 1.0e-3_wp
-   !> A smallest gap by the parabola through three mesh points is right when the gap there differs by less than this part
-   !> of what the gap rises by to the next points; parabolas of resolved contacts are right to 0.2 %
+   !> The minimum of the parabola through three mesh points is accurate if the gap there differs by less than this fraction of the
+   !> increase of the gap to the next points; parabolas of resolved contacts are accurate to 0.2 %
    real(wp), parameter :: right_share = 0.01_wp
-   !> A closer look shows so many mesh points to either side, with so many times as many points
+   !> A finer mesh extends over `shown` mesh points to either side, and has `finer` times as many points
    integer, parameter :: shown = 6, finer = 8
-   !> Points of a closer look at most
+   !> Maximum number of points of a finer mesh
    integer, parameter, public :: most_finer = 2*shown*finer + 1
-   !> It is taken at gaps that are larger than the smallest one by less than this [mm]: deeper contacts are not narrow
+   !> Finer meshes are used for gaps that exceed the smallest one by less than this: deeper contacts are not narrow [mm]
    real(wp), parameter :: looked_at = 1.0_wp
 
-   !> Of the mesh width, so that no point is lost between two pieces
+   !> Tolerance relative to the mesh width, so that no point is lost between two pieces
    real(wp), parameter :: tiny_part = 1.0e-9_wp
 
 contains
@@ -72,33 +72,33 @@ contains
    function rail_in_track(rail, placement) result(curve)
       !> Profile in the rail's own coordinates
       type(profile_curve), intent(in) :: rail
-      !> Where the rail's origin is in the track, and how it is turned
+      !> Position of the rail's origin in the track, and its rotation
       type(wheel_rail_placement), intent(in) :: placement
       type(profile_curve) :: curve
       real(wp) :: angle, origin(2)
 
       angle = placement%rail%roll()
-      ! the origin of the track in rail coordinates
+      ! origin of the track in rail coordinates
       origin = [-cos(angle)*placement%rail%origin(2) - sin(angle)*placement%rail%origin(3), &
          & sin(angle)*placement%rail%origin(2) - cos(angle)*placement%rail%origin(3)]
       curve = rail%seen_from(origin, -angle)
    end function rail_in_track
 
-   !> Gap between a rail and a wheel in their present places
+   !> Gap between a rail and a wheel at their present positions
    subroutine measure_gap(rail, wheel, placement, ds, gap, closer, keeps_rail, reach)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
-      !> Gets mesh and gap; its arrays are kept when they have the right size
+      !> Mesh and gap; its arrays are kept if they have the right size
       type(gap_curve), intent(inout) :: gap
-      !> Where the mesh is too coarse for a smallest gap: its surroundings on finer meshes
+      !> If the mesh is too coarse for a smallest gap: its surroundings on finer meshes
       type(gap_curve), allocatable, intent(inout), optional :: closer(:)
-      !> Are rail and elements those that `gap` was measured for last? Default no
+      !> Are rail and elements the same as in the previous call with `gap`? Default no
       logical, intent(in), optional :: keeps_rail
       !> Gaps that exceed the smallest one by more than this are estimates [mm]; default none, and none on a roller
       real(wp), intent(in), optional :: reach
@@ -131,14 +131,14 @@ contains
       if (present(closer)) call look_closer(rail, wheel, placement, gap, closer)
    end subroutine measure_gap
 
-   !> Where the parabola through three mesh points misses the gap, show the surroundings on a finer mesh
+   !> Compute the surroundings on a finer mesh if the parabola through three mesh points is not accurate
    subroutine look_closer(rail, wheel, placement, gap, closer)
       !> As in `measure_gap`
       type(profile_curve), intent(in) :: rail, wheel
       type(wheel_rail_placement), intent(in) :: placement
-      !> Measured; gets lateral positions of all nodes where a finer mesh is needed
+      !> Measured gap; lateral positions of all nodes are added if a finer mesh is needed
       type(gap_curve), intent(inout) :: gap
-      !> Meshes of the last gap on entry: their arrays are kept
+      !> On entry meshes of the previous gap, whose arrays are kept
       type(gap_curve), allocatable, intent(inout) :: closer(:)
       type(gap_curve), allocatable :: fewer(:)
       real(wp) :: y, lowest, smallest
@@ -173,9 +173,9 @@ contains
       !> As in `measure_gap`
       type(profile_curve), intent(in) :: rail, wheel
       type(wheel_rail_placement), intent(in) :: placement
-      !> Measured
+      !> Measured gap
       type(gap_curve), intent(in) :: gap
-      !> In the track [mm]
+      !> Lateral position in the track [mm]
       real(wp), intent(in) :: y
       real(wp) :: point(3), s, z
       integer :: k
@@ -197,12 +197,12 @@ contains
 
    !> Lateral positions at even distances, and the rail there
    subroutine lay_mesh(rail, start, dy, n, gap)
-      !> In track coordinates
+      !> Profile in track coordinates
       type(profile_curve), intent(in) :: rail
-      !> The first lateral position, their distance [mm] and number
+      !> First lateral position, distance [mm] and number of the positions
       real(wp), intent(in) :: start, dy
       integer, intent(in) :: n
-      !> Gets the mesh, heights and inclinations; its arrays are kept when they have the right size
+      !> Mesh, heights and inclinations; its arrays are kept if they have the right size
       type(gap_curve), intent(inout) :: gap
       real(wp) :: s
       integer :: i
@@ -234,7 +234,7 @@ contains
       type(wheel_rail_placement), intent(in) :: placement
       !> Lateral positions in the track of the nodes of the wheel's profile [mm]
       real(wp), intent(in) :: lateral(:)
-      !> Has the mesh, see `lay_mesh`; gets the gap and its place
+      !> With the mesh, see `lay_mesh`; gap and longitudinal positions are set
       type(gap_curve), intent(inout) :: gap
       real(wp) :: start
       integer :: i, k
@@ -257,18 +257,19 @@ contains
             if (gap%is_surveyed) then
                if (.not. gap%survey%needs_piece(k)) cycle
             end if
-            ! the surface faces the rail where places run with falling y
+            ! the surface faces the rail if y decreases along the profile
             if (lateral(k) > lateral(k + 1)) call add_piece(k, lateral(k:k + 1))
          end do
       end associate
 
    contains
 
-      !> A piece of the wheel's profile; where the locus of a rough profile folds, the lowest piece counts
+      !> Gap at the mesh points below a piece of the wheel's profile; if the locus of a rough profile folds, the lowest piece is
+      !> used
       subroutine add_piece(piece, lateral)
-         !> Its number
+         !> Number of the piece
          integer, intent(in) :: piece
-         !> Falling lateral positions of its ends [mm]
+         !> Decreasing lateral positions of its ends [mm]
          real(wp), intent(in) :: lateral(2)
          real(wp) :: point(3), vertical
          integer :: i
@@ -288,9 +289,9 @@ contains
       end subroutine add_piece
    end subroutine fill_gap
 
-   !> Smallest gap of a row of points, between them by a parabola
+   !> Smallest gap of a row of points, interpolated by a parabola
    pure subroutine smallest_in_row(x, g, place, lowest)
-      !> Rising positions along the row, and gaps there [mm]
+      !> Increasing positions along the row, and gaps there [mm]
       real(wp), intent(in) :: x(:), g(:)
       !> Position and value of the smallest gap [mm]
       real(wp), intent(out) :: place, lowest
@@ -309,15 +310,15 @@ contains
       lowest = lowest - 0.5_wp*bend*shift**2
    end subroutine smallest_in_row
 
-   !> Lateral positions in the track of the locus at the ends of pieces that a survey needs; estimates at the others [mm]
+   !> Lateral positions in the track of the locus at the ends of pieces that a survey needs; estimates for the others [mm]
    subroutine some_lateral_positions(wheel, placement, rail, survey, lateral)
       !> As in `lateral_positions`
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
       type(profile_curve), intent(in) :: rail
-      !> Of this wheel in this place
+      !> Survey of this wheel in this position
       type(gap_survey), intent(in) :: survey
-      !> One per node
+      !> One position per node [mm]
       real(wp), intent(out) :: lateral(:)
       real(wp) :: point(3), place
       integer :: i, n
@@ -334,17 +335,17 @@ contains
 
    !> Lateral positions in the track of the locus at the nodes of the wheel's profile [mm]
    !>
-   !> Those of pieces that do not come near the rail are only estimated.
+   !> Positions of pieces far from the rail are estimates.
    subroutine lateral_positions(wheel, placement, rail, range, lateral)
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_in_piece`
       type(profile_curve), intent(in) :: rail
-      !> What is near [mm]
+      !> Range regarded as near [mm]
       real(wp), intent(in) :: range(2)
-      !> One per node
+      !> One position per node [mm]
       real(wp), intent(out) :: lateral(:)
-      !> The locus is at most this part of the radius above the lowest point of its circle
+      !> Maximum distance of the locus above the lowest point of its circle, relative to the radius
       real(wp), parameter :: highest = 0.2_wp
       real(wp) :: point(3)
       integer :: i, n, last, here, next
@@ -368,7 +369,7 @@ contains
       !> Estimate the lateral position at a node
       subroutine estimate(node, side)
          integer, intent(in) :: node
-         !> The node is beside what is near: -1 below, 1 above; 0: near
+         !> Position of the node relative to the range: -1 below, 1 above; 0: within
          integer, intent(out) :: side
          real(wp) :: margin, y, z, slope
 
@@ -383,7 +384,7 @@ contains
          if (lateral(node) - margin > range(2)) side = 1
       end subroutine estimate
 
-      !> Place of a node in its piece: at the beginning, but for the last one [mm]
+      !> Distance of a node from the beginning of its piece: 0, except for the last node [mm]
       pure real(wp) function start_of(node)
          integer, intent(in) :: node
 

@@ -1,7 +1,8 @@
-!> Where the gap between a wheel and a rail may be small, from estimates
+!> Estimates of the gap between a wheel and a rail, to find where it may be small
 !>
-!> A search for the height of a wheel needs the gap where the bodies come near each other. Elsewhere an estimate is enough: the
-!> contact locus at the nodes of the wheel's profile by one step of its iteration, and straight lines between the nodes.
+!> A search for the height of a wheel needs the exact gap where the bodies are close to each other. Elsewhere an estimate is
+!> sufficient: the contact locus at the nodes of the wheel's profile by one step of its iteration, and straight lines between the
+!> nodes.
 module contact_wheelrail_gap_survey
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -15,18 +16,18 @@ module contact_wheelrail_gap_survey
    type :: gap_survey
       !> Locus at the nodes, coordinates x, y, z in the track [mm], shape (3, nodes)
       real(wp), allocatable :: node(:, :)
-      !> Gap at the mesh points and the longitudinal position of the locus there [mm], shape (n)
+      !> Gap at the mesh points, and longitudinal position of the locus there [mm], shape (n)
       real(wp), allocatable :: gap(:), x(:)
-      !> Least gap that the estimate allows for [mm], shape (n)
+      !> Lower bound of the gap by the estimate [mm], shape (n)
       real(wp), allocatable, private :: least(:)
-      !> First and last piece of the wheel's profile above a mesh point, first > last where there is none; shape (2, n)
+      !> First and last piece of the wheel's profile above a mesh point, first > last if there is none; shape (2, n)
       integer, allocatable, private :: pieces(:, :)
-      !> Is the gap to be found exactly? Shape (n)
+      !> Must the gap be computed exactly? Shape (n)
       logical, allocatable :: is_near(:)
-      !> Are both ends of a piece of the wheel's profile to be found exactly? Shape (nodes)
+      !> Must both ends of a piece of the wheel's profile be computed exactly? Shape (nodes)
       logical, allocatable :: needs_piece(:)
    contains
-      !> Make the estimates
+      !> Compute the estimates
       procedure :: look
       procedure, private :: make_room
       procedure, private :: estimate_nodes
@@ -34,30 +35,30 @@ module contact_wheelrail_gap_survey
       procedure, private :: mark
    end type gap_survey
 
-   !> The locus is at most this part of the radius away from the lowest point of the wheel
+   !> Maximum distance of the locus from the lowest point of the wheel, relative to the radius
    real(wp), parameter, public :: furthest = 0.5_wp
-   !> Slopes across of a profile that is steeper count as this one [-]
+   !> Upper bound of dy/ds along the profile, used instead of larger values if the profile is steeper [-]
    real(wp), parameter, public :: steepest = -1.0e-6_wp
-   !> Error of an estimate at a node without yaw angle at most [mm]
+   !> Maximum error of an estimate at a node without yaw angle [mm]
    real(wp), parameter :: node_error = 0.01_wp
 
 contains
 
-   !> Estimate the gap over a mesh, and mark where it has to be found exactly
+   !> Estimate the gap over a mesh, and mark the points at which it must be computed exactly
    pure subroutine look(self, wheel, placement, y, z, on_rail, no_surface, reach, looked_at)
       class(gap_survey), intent(inout) :: self
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are, on a track
+      !> Position of the bodies, on a track
       type(wheel_rail_placement), intent(in) :: placement
       !> Mesh over the rail at even distances and heights of the rail, in the track [mm]
       real(wp), intent(in) :: y(:), z(:)
-      !> Is the rail there at a mesh point?
+      !> Does the rail exist at a mesh point?
       logical, intent(in) :: on_rail(:)
-      !> Gap where there is none [mm]
+      !> Value of the gap where rail or wheel is missing [mm]
       real(wp), intent(in) :: no_surface
-      !> Gaps that exceed the smallest one by less than this are found exactly, and those around a minimum that exceeds it by less
-      !> than that [mm]
+      !> Gaps that exceed the smallest one by less than `reach` are computed exactly, and those around a minimum that exceeds it by
+      !> less than `looked_at` [mm]
       real(wp), intent(in) :: reach, looked_at
 
       call self%make_room(size(wheel%y%s), size(y))
@@ -66,7 +67,7 @@ contains
       call self%mark(reach, looked_at, no_surface)
    end subroutine look
 
-   !> Arrays of the right size
+   !> Allocate arrays of the right size
    pure subroutine make_room(self, nodes, n)
       class(gap_survey), intent(inout) :: self
       !> Numbers of nodes and of mesh points
@@ -114,9 +115,9 @@ contains
       end associate
    end subroutine estimate_nodes
 
-   !> Gaps between the nodes on straight lines
+   !> Gaps between the nodes, by straight lines
    !>
-   !> A piece deviates from its chord by its largest second derivative times the square of its length over 8 at most.
+   !> A piece deviates from its chord by at most its largest second derivative times the square of its length over 8.
    pure subroutine estimate_gaps(self, wheel, placement, y, z, on_rail, no_surface)
       class(gap_survey), intent(inout) :: self
       type(profile_curve), intent(in) :: wheel
@@ -135,12 +136,12 @@ contains
       self%pieces(2, :) = 0
       if (size(y) < 2) return
       per_step = 1.0_wp/(y(2) - y(1))
-      ! the second step of the iteration for the locus is smaller than the first one by the square of the yaw angle
+      ! the second step of the iteration for the locus is smaller than the first one by a factor of the square of the yaw angle
       by_yaw = node_error + furthest*placement%wheel_radius*abs(placement%wheel%axes(2, 1))**3
       do k = 1, size(wheel%y%s) - 1
          associate (a => self%node(:, k), b => self%node(:, k + 1), h => wheel%y%s(k + 1) - wheel%y%s(k), &
             & cy => wheel%y%c(2:3, k), cz => wheel%z%c(2:3, k))
-            ! the surface faces the rail where places run with falling y
+            ! the surface faces the rail if y decreases along the profile
             if (.not. a(2) > b(2)) cycle
             if (a(2) < y(1) .or. b(2) > y(size(y))) cycle
             t = (b(3) - a(3))/(b(2) - a(2))
@@ -183,12 +184,12 @@ contains
          if (.not. self%gap(i) < no_surface) cycle
          is_minimum = self%gap(i) < lowest + looked_at
          if (is_minimum) is_minimum = self%gap(i) <= min(self%gap(max(1, i - 1)), self%gap(min(n, i + 1)))
-         ! the neighbours tell where the gap vanishes between mesh points
+         ! the neighbours determine where the gap vanishes between mesh points
          if (self%least(i) <= most .or. is_minimum) self%is_near(max(1, i - 1):min(n, i + 1)) = .true.
       end do
       self%needs_piece = .false.
       do i = 1, n
-         ! exact ends of pieces may lie beside a mesh point where the estimates do not
+         ! exact ends of pieces may be on the other side of a mesh point than the estimates
          if (self%is_near(i)) self%needs_piece(max(1, self%pieces(1, i) - 1):min(size(self%needs_piece), &
             & self%pieces(2, i) + 1)) = .true.
       end do

@@ -1,4 +1,4 @@
-!> Where the bodies are at a height of the wheelset, and the gap between them
+!> Positions of the bodies at a height of the wheelset, and the gap between them
 module contact_wheelrail_geometry
    use contact_base_choices, only : contact_location, motion
    use contact_base_kinds, only : wp
@@ -18,68 +18,69 @@ module contact_wheelrail_geometry
 
    public :: learned_share, wheel_rail_geometry, place, measure, rail_at, lattice_x, box_on_lattice
 
-   !> Force of friction relative to the normal force that a tangential solution has found, and where
+   !> Force of friction relative to the normal force from a tangential solution, and the position of its patch
    type :: learned_share
       !> Lateral position [mm] and contact angle [rad]
       real(wp) :: y = 0.0_wp, alpha = 0.0_wp
       real(wp) :: share(3) = 0.0_wp
-      !> Does a patch of the present trial continue the one that this was learned from?
+      !> Is it used by a patch of the present trial that continues the patch of the solution?
       logical :: is_taken = .false.
    contains
-      !> How far another patch is from here, relative to what counts as the same place
+      !> Distance to another patch, relative to the limits for the same patch
       procedure :: distance_to
    end type learned_share
 
-   !> Where the bodies are and what the search for contact found: what the patches of a trial share
+   !> Positions of the bodies and results of the search for contact: data shared by the patches of a trial
    type :: wheel_rail_geometry
-      !> Shares 1...shares are known. They serve all trials until the next tangential solution; a patch of a trial that
-      !> continues none of those they were learned from is solved with friction, and what is found there is learned
+      !> Ratios 1...shares are known. They are used in all trials until the next tangential solution; a patch of a trial that
+      !> continues none of their patches is solved with friction, and its ratio is added
       integer :: shares = 0
       type(learned_share) :: learned(max_patches)
       type(gap_curve) :: gap
-      !> Surroundings of smallest gaps that need a finer mesh
+      !> Surroundings of smallest gaps, on finer meshes
       type(gap_curve), allocatable :: closer(:)
-      !> The rail at the wheelset
+      !> The rail at the position of the wheelset
       type(profile_curve) :: rail_in_track
-      !> Sections of bodies that vary; used when `searches_table` or with curved reference surfaces
+      !> Sections of bodies that vary along or around; used if `searches_table` or with curved reference surfaces
       type(wheel_rail_bodies) :: bodies
       logical :: searches_table = .false.
       type(wheel_rail_placement) :: placement
-      !> Height at which the gap was measured, and that of first touch [mm]
+      !> Height at which the gap was measured, and height of first touch [mm]
       real(wp) :: gap_height = 0.0_wp, touch = 0.0_wp
-      !> Regions of contact are those of this height at least [mm]; see `balance_forces`
+      !> Minimum height for which regions of contact are computed [mm]; see `balance_forces`
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
-      !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
+      !> Penetration for the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
-      !> Gaps that exceed the smallest one by less than this are found exactly in a loop [mm]; it grows with the penetration
+      !> In a loop, gaps that exceed the smallest one by less than this are computed exactly [mm]; increased with the penetration
       real(wp) :: reach = 0.2_wp
-      !> Do trials of the height follow each other as in a loop over time, and does the first one follow the last case?
+      !> Are trials of the height consecutive as in a loop over time, and does the first one continue the last case?
       logical :: follows = .false., follows_last = .false.
-      !> Does the search for the height begin where the last one ended, too? Otherwise only pressures do
+      !> Does the search for the height start at the result of the last one as well? Otherwise only pressures do
       logical :: follows_height = .false.
-      !> Part of EPS that the pressures of the present trial are solved to
+      !> Tolerance of the pressures in the present trial, as a fraction of EPS
       real(wp) :: pressure_eps = 1.0_wp
-      !> The same for tangential tractions
+      !> Tolerance of the tangential tractions in the present trial, as a fraction of EPS
       real(wp) :: traction_eps = 1.0_wp
-      !> Sides of elements in the present trial over those that are asked for
+      !> Ratio of the sides of elements in the present trial to the prescribed ones
       integer :: coarser = 1
-      !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
+      !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or those of the present trial
       real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
-      !> Top of the canted rail and its gauge point [mm], and what they were found for: cant [rad], height of the gauge point [mm]
+      !> Top of the canted rail and its gauge point [mm], and the inputs of their computation: cant [rad], height of the gauge point
+      !> [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
       real(wp) :: gauged_cant = 0.0_wp, gauged_height = 0.0_wp
-      !> The profile of the rail in the last case, and what `rail_in_track` and the mesh of `gap` were made for: its place, and
-      !> size of elements [mm], 0 where they are of no use
+      !> Profile of the rail in the last case, and the inputs of `rail_in_track` and of the mesh of `gap`: position, and size of
+      !> elements [mm], 0 if they cannot be reused
       type(profile_curve) :: known
       type(frame) :: known_place
       real(wp) :: known_ds = 0.0_wp
-      !> Where the tractions of the previous time step are
+      !> Positions of the tractions of the previous time step
       type(carried_step) :: before
       !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]
       real(wp) :: travel = 0.0_wp, profile_origin = 0.0_wp
    end type wheel_rail_geometry
 
-   !> A ratio is taken over by patches within this distance [mm] and angle [rad]
+   !> Limits of distance [mm] and angle [rad] within which a ratio is used by a patch
    real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
 
 contains
@@ -92,11 +93,11 @@ contains
       distance = hypot((self%y - y)/same_place, (self%alpha - alpha)/same_angle)
    end function distance_to
 
-   !> Put the wheelset at a height
+   !> Place the wheelset at a height
    subroutine place(problem, geometry, z, dz)
-      !> Profiles, and how the bodies stand in the track
+      !> Profiles, and positions of the bodies in the track
       type(wheel_rail_problem), intent(in) :: problem
-      !> Gets the placement; its deflection and pitch rate are those of the trial
+      !> On return with the placement; deflection and pitch rate are those of the trial
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Height of the wheelset above a rail without vertical deflection [mm], z down
       real(wp), intent(in) :: z
@@ -110,11 +111,11 @@ contains
          & geometry%placement)
    end subroutine place
 
-   !> Gap between the bodies, and the height of first touch
+   !> Measure the gap between the bodies, and the height of first touch
    subroutine measure(problem, geometry, z, depth)
       !> Profiles, and the size of elements
       type(wheel_rail_problem), intent(in) :: problem
-      !> Placed; gets the gap, its height and the height of first touch
+      !> With the placement; gap, its height and the height of first touch are set
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Height of the wheelset [mm]
       real(wp), intent(in) :: z
@@ -129,7 +130,7 @@ contains
       end associate
       if (.not. keeps_rail) geometry%rail_in_track = rail_at(problem, geometry%placement, 0.0_wp)
       geometry%known_ds = 0.0_wp
-      ! the length along a prismatic rail is counted from its origin; sections of a variable one have other ends each
+      ! the arc length along a prismatic rail starts at its origin; sections of a variable rail have different ends
       geometry%profile_origin = 0.0_wp
       if (allocated(problem%rail_surface)) geometry%profile_origin = geometry%rail_in_track%s_at(geometry%placement%rail%origin(2))
       geometry%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
@@ -163,13 +164,13 @@ contains
       geometry%touch = z + smallest_gap(geometry%gap, geometry%closer)
    end subroutine measure
 
-   !> The rail's profile in track coordinates at a place along it; a variable one goes on as at its first and last slice
+   !> Profile of the rail in track coordinates at a position along it; beyond its first and last slice a variable rail is constant
    function rail_at(problem, placement, x) result(curve)
       !> Profile or surface of the rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Where the rail's origin is in the track, and how it is turned
+      !> Position of the rail's origin in the track, and its rotation
       type(wheel_rail_placement), intent(in) :: placement
-      !> From the wheelset on [mm]
+      !> Position along the track relative to the wheelset [mm]
       real(wp), intent(in) :: x
       type(profile_curve) :: curve
       type(surface_cut) :: section
@@ -186,11 +187,11 @@ contains
 
    !> Position along the track, relative to the origin of the lattice [mm]
    pure real(wp) function lattice_x(problem, geometry, x)
-      !> Does the lattice follow the rail or the wheelset?
+      !> Problem; does the lattice follow the rail or the wheelset?
       type(wheel_rail_problem), intent(in) :: problem
-      !> Travel of the wheelset
+      !> With the travel of the wheelset
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> In the track [mm]
+      !> Position in the track [mm]
       real(wp), intent(in) :: x
 
       lattice_x = x
@@ -199,9 +200,9 @@ contains
 
    !> Bounds of a region on the lattice
    function box_on_lattice(problem, geometry, region) result(box)
-      !> Does the lattice follow the rail or the wheelset?
+      !> Problem; does the lattice follow the rail or the wheelset?
       type(wheel_rail_problem), intent(in) :: problem
-      !> Travel of the wheelset, and the rail in the track
+      !> With the travel of the wheelset, and the rail in the track
       type(wheel_rail_geometry), intent(in) :: geometry
       !> Region of interpenetration
       type(contact_region), intent(in) :: region

@@ -1,4 +1,4 @@
-!> The contact locus: where the surface of a round wheel is level along the track, or as steep as a roller
+!> The contact locus: points at which the surface of a round wheel is level along the track, or has the slope of a roller
 module contact_wheelrail_locus
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
@@ -9,31 +9,32 @@ module contact_wheelrail_locus
 
    public :: locus_at, locus_in_piece, locus_point, roller_drop
 
-   !> Heights above the axle of a roller are at least this part of its radius: points beside it would have none
+   !> Lower bound of heights above the axle of a roller, relative to its radius: points beside the roller would have none
    real(wp), parameter :: lowest_on_roller = 0.01_wp
 
 contains
 
-   !> Point of the locus at a place of the wheel's profile, in track coordinates [mm]
+   !> Point of the locus at a position on the wheel's profile, in track coordinates [mm]
    !>
-   !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
-   !> roller fall alike along it. See doc/theory/wheel_rail.md.
+   !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller, wheel and roller have the
+   !> same slope along it. See doc/theory/wheel_rail.md.
    function locus_in_piece(wheel, placement, piece, place, rail) result(point)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Piece of the profile
       integer, intent(in) :: piece
-      !> Place in the piece, from its beginning [mm]
+      !> Position in the piece, from its beginning [mm]
       real(wp), intent(in) :: place
-      !> The profile of a roller in track coordinates; not looked at on a track
+      !> Profile of a roller in track coordinates; not used on a track
       type(profile_curve), intent(in) :: rail
       real(wp) :: point(3)
       real(wp) :: radius, lean, x, y, z, across, before, fall, drop
       logical :: on_roller
       integer :: step
-      !> Of a step, relative to the radius; every step is smaller than the one before by the square of the yaw angle
+      !> Tolerance of a step, relative to the radius; every step is smaller than the previous one by a factor of the square of the
+      !> yaw angle
       real(wp), parameter :: tolerance = 1.0e-13_wp
 
       on_roller = placement%roller_radius > 0.0_wp
@@ -51,11 +52,11 @@ contains
                point = placement%wheel%to_parent([x, y, drop - placement%wheel_radius])
                fall = roller_slope(placement, point(1), rail%height(point(2)))
             end if
-            ! the normal (x, -lean, depth) in the track has no part along (1, 0, fall)
+            ! the normal (x, -lean, depth) in the track has no component along (1, 0, fall)
             x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*drop)/(axes(1, 1) + fall*axes(3, 1))
             if (on_roller) x = before + (x - before)/(1.0_wp + drop/axle_depth(point))
             x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
-            ! the depth does not matter to a wheel that stands upright on a track
+            ! the depth has no effect if a wheel is upright on a track
             if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
             if (abs(x - before) <= tolerance*placement%wheel_radius) exit
          end do
@@ -64,7 +65,7 @@ contains
 
    contains
 
-      !> Depth below the axle of the point of this circle at a place along it [mm]
+      !> Depth below the axle of the point of this circle at a position along it [mm]
       pure real(wp) function depth(x)
          real(wp), intent(in) :: x
          depth = sqrt(radius**2 - x**2)
@@ -77,13 +78,13 @@ contains
       end function axle_depth
    end function locus_in_piece
 
-   !> The same at any place of the profile
+   !> The same for an arc length on the profile
    function locus_point(wheel, placement, s, rail) result(point)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
-      !> Place on the profile [mm]
+      !> Arc length on the profile [mm]
       real(wp), intent(in) :: s
       !> As for `locus_in_piece`
       type(profile_curve), intent(in) :: rail
@@ -95,10 +96,10 @@ contains
       point = locus_in_piece(wheel, placement, piece, place, rail)
    end function locus_point
 
-   !> Slope of a roller's surface along the track: dz/dx at a distance from its top
+   !> Slope of a roller's surface along the track, dz/dx, at a distance from its top
    pure real(wp) function roller_slope(placement, x, z) result(slope)
       type(wheel_rail_placement), intent(in) :: placement
-      !> Longitudinal position and height of its profile there [mm]
+      !> Longitudinal position, and height of its profile there [mm]
       real(wp), intent(in) :: x, z
       real(wp) :: rho
 
@@ -106,11 +107,11 @@ contains
       slope = x/sqrt(max(tiny(rho), rho**2 - x**2))
    end function roller_slope
 
-   !> How much lower a roller is at a distance from its top [mm]; 0 on a track
+   !> Vertical distance of a roller's surface below its top at a longitudinal position [mm]; 0 on a track
    pure real(wp) function roller_drop(placement, x, z) result(drop)
       !> Radius of the roller, 0 for a track, and its top
       type(wheel_rail_placement), intent(in) :: placement
-      !> Longitudinal position and height of its profile there [mm]
+      !> Longitudinal position, and height of its profile there [mm]
       real(wp), intent(in) :: x, z
       real(wp) :: rho
 
@@ -124,7 +125,7 @@ contains
    function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Where the bodies are
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_in_piece`
       type(profile_curve), intent(in) :: rail
@@ -148,7 +149,7 @@ contains
       if (abs(fb) < abs(fa)) s = b
       do step = 1, 60
          if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
-         ! the end of a piece belongs to the next one
+         ! the end of a piece is part of the next one
          here = piece
          if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
          point = locus_in_piece(wheel, placement, here, s - wheel%y%s(here), rail)

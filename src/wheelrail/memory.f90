@@ -1,4 +1,4 @@
-!> What a pair remembers from trial to trial and from case to case, and its sums over the patches
+!> Data that a pair keeps from trial to trial and from case to case, and its sums over the patches
 module contact_wheelrail_memory
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -21,15 +21,15 @@ module contact_wheelrail_memory
 
    public :: patch_slot, wheel_rail_memory, release_wheel_rail, total_force, vertical_force, vertical_slope
 
-   !> One patch with its memory
+   !> One patch with its data
    type :: patch_slot
       type(patch_problem) :: problem
       type(patch_state) :: state
       type(patch_workspace) :: workspace
-      !> That of trials on coarser elements; unallocated before there are any
+      !> Workspace of trials on coarser elements; unallocated before there are any
       type(patch_workspace), allocatable :: coarse_workspace
       type(patch_result) :: result
-      !> The level that errors are estimated from; unallocated before they are asked for
+      !> The coarse level for error estimates; unallocated until they are requested
       type(coarse_level), allocatable :: coarse
       type(contact_region) :: region
       type(frame) :: plane
@@ -38,33 +38,33 @@ module contact_wheelrail_memory
       !> Heights of rail and wheel over that surface [mm], shape (mx, my)
       real(wp), allocatable :: on_rail(:, :), on_wheel(:, :)
       type(contact_motion) :: motion
-      !> Where friction varies over the rail: one set of parameters or one per row; otherwise unallocated
+      !> If friction varies over the rail: one set of parameters or one per row; otherwise unallocated
       type(friction_set), allocatable :: friction(:)
-      !> Place of the contact reference on the lattice of the pair [mm]
+      !> Position of the contact reference on the lattice of the pair [mm]
       real(wp) :: reference(2) = 0.0_wp
-      !> Window of the grid on the lattice, and that of the solution in `state`
+      !> Window of the grid on the lattice, and window of the solution in `state`
       type(lattice_window) :: window, solved_window
-      !> What the undeformed distance keeps from trial to trial
+      !> Data that the undeformed distance keeps from trial to trial
       type(distance_scratch) :: distance
-      !> Elements left out because the gap jumps between them and the reference; see `settle_distance`
+      !> Number of elements left out because the gap jumps between them and the reference; see `settle_distance`
       integer :: strangers = 0
       !> Patches of the previous time step that this one continues
       integer, allocatable :: previous(:)
       !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane
       real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp
-      !> Force of the pressures on the rail in the axes x, s, n of the plane [N]
+      !> Force due to pressures on the rail in the axes x, s, n of the plane [N]
       real(wp) :: pressure_force(3) = 0.0_wp
       !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
       !> solution, or an estimate
       real(wp) :: friction_share(3) = 0.0_wp
    end type patch_slot
 
-   !> What a pair remembers from case to case, and scratch
+   !> Data of a pair that are kept from case to case, and workspace
    type :: wheel_rail_memory
       !> Height of the wheelset above a rail without vertical deflection in the previous case [mm]
       real(wp) :: z_ws = 0.0_wp
       logical :: started = .false.
-      !> Patches 1...used are those of the last evaluation
+      !> Number of patches of the last evaluation, slots 1...used
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
       type(wheel_rail_geometry) :: geometry
@@ -80,9 +80,9 @@ module contact_wheelrail_memory
 
 contains
 
-   !> Free what the memory holds outside Fortran's own
+   !> Release the memory that is allocated outside Fortran
    subroutine release_wheel_rail(memory)
-      !> Workspaces of all patches are freed; tractions stay
+      !> Workspaces of all patches are released; tractions are kept
       type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 
@@ -119,11 +119,11 @@ contains
       force = all(3)
    end function vertical_force
 
-   !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
+   !> Derivative of the vertical force with respect to the height, from the contact stiffness if it is known [N/mm]
    pure real(wp) function vertical_slope(memory, estimated) result(slope)
       !> Patches of the last trial
       type(wheel_rail_memory), intent(in) :: memory
-      !> Is the stiffness of a patch that of Hertz's contact where it is not known? Otherwise 0
+      !> Is Hertz's stiffness used for a patch whose stiffness is not known? Otherwise 0
       logical, intent(in) :: estimated
       real(wp) :: stiffness
       integer :: k
@@ -135,7 +135,7 @@ contains
             stiffness = slot%result%sensitivity(1, 1)
             if (estimated .and. slot%result%pen > 0.0_wp .and. .not. stiffness > 0.0_wp) &
                & stiffness = slot%result%fn/(power*slot%result%pen)
-            ! the normal force changes by the stiffness, the vertical one along with it
+            ! the normal force changes by the stiffness, and the vertical force with it
             slope = slope + slot%plane%axes(3, 3)*stiffness &
                & *dot_product(slot%plane%axes(3, :), slot%pressure_force/slot%result%fn + slot%friction_share)
          end associate

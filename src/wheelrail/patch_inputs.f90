@@ -23,25 +23,25 @@ module contact_wheelrail_patch_inputs
 
    public :: set_up_patch
 
-   !> Parts of a blended patch reach this far beyond their bounds, relative to D_COMB
+   !> Distance by which parts of a blended patch extend beyond their bounds, relative to D_COMB
    real(wp), parameter :: part_margin = 0.4_wp
 
-   !> Steps that are longer than an element by less than this factor are one element
+   !> Steps longer than an element by less than this factor are treated as one element
    real(wp), parameter :: longer_step = 1.01_wp
 
 contains
 
-   !> Problem of one patch for its region: everything but where the solution starts
+   !> Set up the problem of one patch for its region: all data except the initial estimate
    subroutine set_up_patch(problem, geometry, number, slot, error)
-      !> What is asked for wheel and rail
+      !> Specification of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
-      !> Where the bodies are, and the rail in the track
+      !> Positions of the bodies, and the rail in the track
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Number of the patch
       integer, intent(in) :: number
-      !> Its region on entry; gets grid, distance, creepages and friction
+      !> On entry with the region; grid, distance, creepages and friction are set
       type(patch_slot), intent(inout) :: slot
-      !> Allocated when the grid would be too large
+      !> Allocated if the grid would be too large
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(problem%rail_surface)) then
@@ -51,9 +51,9 @@ contains
       end if
    end subroutine set_up_patch
 
-   !> The same, over a section of the rail
+   !> The same, with a section of the rail
    subroutine set_up_over(rail, problem, geometry, number, slot, error)
-      !> In track coordinates, at the reference; may be that of `geometry`, where it is not changed
+      !> Section in track coordinates, at the reference; may be that of `geometry`, which is not changed then
       type(profile_curve), intent(in) :: rail
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
@@ -107,14 +107,14 @@ contains
       call set_motion(problem, geometry, slot, approach)
    end subroutine set_up_over
 
-   !> Refuse a grid beyond the limits of the case, and one that makes a transient case hopeless
+   !> Refuse a grid beyond the limits of the case, and one with which a transient case cannot be solved in practice
    !>
-   !> The elements of transient cases stand on the rail and are not made larger where NPOT_MAX is exceeded.
+   !> The elements of transient cases are fixed to the rail and are not enlarged if NPOT_MAX is exceeded.
    subroutine check_size(problem, grid, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(potential_contact), intent(in) :: grid
       type(error_type), allocatable, intent(out) :: error
-      !> Times NPOT_MAX
+      !> Multiple of NPOT_MAX
       integer(long), parameter :: hopeless = 10_long
       character(len=200) :: text
       integer(long) :: number
@@ -132,7 +132,7 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       type(potential_contact), intent(in) :: grid
       type(error_type), allocatable, intent(out) :: error
-      !> Relative
+      !> Relative tolerance
       real(wp), parameter :: same = 1.0e-6_wp
       character(len=280) :: text
 
@@ -146,20 +146,20 @@ contains
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_sides
 
-   !> Undeformed distance of a flat patch, on a grid that holds all of the overlap
+   !> Undeformed distance of a flat patch, on a grid that contains all of the overlap
    !>
-   !> The bounds of a region come from the vertical gap. Along the normal of the plane the bodies may overlap elsewhere, when
-   !> the surface is steep or rough and the wheel turned; contact that is cut off there would make the force jump.
+   !> The bounds of a region are derived from the vertical gap. Along the normal of the plane the bodies may overlap elsewhere, if
+   !> the surface is steep or rough and the wheel yawed; truncating contact there would make the force discontinuous.
    subroutine cover_overlap(problem, geometry, rail, slot, h, approach)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      !> With its grid and window
+      !> With grid and window
       type(patch_slot), intent(inout) :: slot
       !> Undeformed distance [mm] with its minimum at zero, shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> Largest interpenetration along the normal [mm]
+      !> Maximum interpenetration along the normal [mm]
       real(wp), intent(out) :: approach
       integer :: most(2)
       logical :: grown
@@ -179,26 +179,26 @@ contains
       end do
    end subroutine cover_overlap
 
-   !> A grid that does not hold all of the overlap grows at most to so many elements in each direction
+   !> Maximum number of elements in each direction, for a grid that grows because it does not contain all of the overlap
    pure function max_elements(grid) result(most)
       type(potential_contact), intent(in) :: grid
       integer :: most(2)
-      !> Multiples of its size; small grids by a number
+      !> Multiple of its size; number of added elements for small grids
       integer, parameter :: times = 3, more = 40
 
       most = max(times*[grid%mx, grid%my], [grid%mx, grid%my] + more)
    end function max_elements
 
-   !> Add elements at sides where bodies overlap in the outermost ones
+   !> Add elements at sides where the bodies overlap in the outermost elements
    subroutine grow(slot, h, approach, most, rows_too, grown)
       type(patch_slot), intent(inout) :: slot
       !> Undeformed distance in the elements of its grid, and the approach: the bodies overlap where it is larger [mm]
       real(wp), intent(in) :: h(:, :), approach
-      !> Columns and rows at most
+      !> Maximum number of columns and rows
       integer, intent(in) :: most(2)
       !> May rows be added, too?
       logical, intent(in) :: rows_too
-      !> Is the grid another one now?
+      !> Was the grid changed?
       logical, intent(out) :: grown
       integer :: more(2, 2), side
       real(wp) :: y(2)
@@ -207,14 +207,14 @@ contains
          more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
          more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
          if (.not. rows_too) more(2, :) = 0
-         ! what lies beyond the middle of the outermost elements is that of another patch
+         ! beyond the centre of the outermost elements the overlap belongs to another patch
          if (plane%origin(1) + grid%x(1) < region%others_x(1)) more(1, 1) = 0
          if (plane%origin(1) + grid%x(grid%mx) > region%others_x(2)) more(1, 2) = 0
          y = plane%origin(2) + cos(plane%roll())*[grid%y(1), grid%y(grid%my)]
          if (minval(y) < region%others_y(1)) more(2, merge(1, 2, y(1) < y(2))) = 0
          if (maxval(y) > region%others_y(2)) more(2, merge(2, 1, y(1) < y(2))) = 0
          do side = 1, 2
-            ! by small steps, as the overlap of a neighbouring patch must stay outside
+            ! in small steps, as the overlap of a neighbouring patch must remain outside
             more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/32)
          end do
          grown = any(more > 0) .and. .not. any([grid%mx, grid%my] + sum(more, dim=2) > most)
@@ -233,11 +233,11 @@ contains
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      !> With its grid
+      !> With grid
       type(patch_slot), intent(inout) :: slot
       !> Undeformed distance [mm] with its minimum at zero, shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> Largest interpenetration along normals [mm]
+      !> Maximum interpenetration along normals [mm]
       real(wp), intent(out) :: approach
       integer :: most(2), iy
       logical :: conformal, grown
@@ -254,7 +254,7 @@ contains
             call surface_heights(geometry%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
             h = slot%on_rail - slot%on_wheel
             call settle_distance(patch%grid, allocated(slot%region%seeds), h, approach, slot%strangers)
-            ! rows of a curved reference are chosen with room to spare
+            ! rows of a curved reference are chosen with a margin
             call grow(slot, h, approach, most, .not. conformal, grown)
             if (.not. grown) exit
          end do
@@ -265,7 +265,7 @@ contains
       end associate
    end subroutine follow_surface
 
-   !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
+   !> Divide the elements among the parts of a blended patch; elements outside all parts cannot make contact
    subroutine divide_patch(problem, rail, slot)
       type(wheel_rail_problem), intent(in) :: problem
       !> The rail in track coordinates in the section of the reference
@@ -285,7 +285,7 @@ contains
          parts%interaction = slot%region%interaction
          do iy = 1, grid%my
             y = plane%origin(2) + cos(plane%roll())*grid%y(iy)
-            ! the rail bends away from a steep plane
+            ! the rail curves away from a steep plane
             if (section%has(grid%y(iy))) y = y - sin(plane%roll())*section%height(grid%y(iy))
             if (allocated(slot%curve)) y = slot%curve%y(iy)
             do ix = 1, grid%mx
@@ -304,7 +304,7 @@ contains
       end associate
    end subroutine divide_patch
 
-   !> Friction of the patch: where it varies, that of the contact angle or of the place along the track
+   !> Friction of the patch: if it varies, that for the contact angle or for the position along the track
    subroutine set_patch_friction(problem, slot, error)
       type(wheel_rail_problem), intent(in) :: problem
       type(patch_slot), intent(inout) :: slot
@@ -381,23 +381,23 @@ contains
                   & merge(-1, 1, cos(patch%chi) < 0.0_wp))
             end associate
          end if
-         ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge
+         ! as in module 3: a layer that yields follows its particles, simplified theory restarts at each edge
          patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > longer_step*patch%grid%dx &
             & .and. .not. allocated(patch%simplified) .and. .not. patch%remembers_yield
       end associate
    end subroutine set_motion
 
-   !> Slip element by element on a reference surface: creepages that describe it best, and the remainder
+   !> Slip element by element on a reference surface: creepages that approximate it best, and the remainder
    subroutine set_surface_slip(problem, rail, wheel, slot)
       type(wheel_rail_problem), intent(in) :: problem
       type(rigid_motion), intent(in) :: rail, wheel
-      !> With the motion at the contact reference on entry
+      !> On entry with the motion at the contact reference
       type(patch_slot), intent(inout) :: slot
       real(wp) :: before
 
       associate (patch => slot%problem)
          before = slot%motion%veloc
-         ! on the track the rolling velocity is the forward one, unless the wheel turns on the spot
+         ! on a track the rolling velocity is the forward velocity, unless the wheel turns without moving forward
          if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller &
             & .and. abs(problem%spec%wheelset%vs) > 0.0_wp) slot%motion%veloc = abs(problem%spec%wheelset%vs)
          call surface_slip(rail, wheel, slot%curve, patch%grid, slot%on_rail, slot%on_wheel, problem%rail_share, &

@@ -19,36 +19,36 @@ module contact_wheelrail_pitch_rate
 
    public :: search_pitch_rate
 
-   !> A change of the creepage by less than this part of the slip does not tell whether friction can do more [-]
+   !> Minimum change of the creepage, relative to the slip, that shows whether the force can still increase [-]
    real(wp), parameter :: part_of_slip = 0.5_wp
 
-   !> The first step goes a little beyond what the slope tells, so that the root lies between the first two points
+   !> Factor of the first step relative to that by the slope, so that the root lies between the first two points
    real(wp), parameter :: beyond_slope = 1.1_wp
-   !> Intervals of the pitch rate that count as a point, relative to the rate of rolling
+   !> Width of intervals of the pitch rate that are regarded as a point, relative to the rate of rolling
    real(wp), parameter :: fine_rate = 1.0e-10_wp
-   !> Tangential stiffness of a circular contact of two alike bodies over G times its radius: 4/(2 - nu) by Mindlin (1949), 2.35
-   !> for steel
+   !> Tangential stiffness of a circular contact of two equal bodies over G times its radius: 4/(2 - nu) by Mindlin (1949), 2.35 for
+   !> steel
    real(wp), parameter :: tangential_stiffness = 2.5_wp
 
 contains
 
-   !> Search the pitch rate at which the prescribed longitudinal force acts
+   !> Find the pitch rate that gives the prescribed longitudinal force
    !>
-   !> A wheel that turns faster about the axis to the right drags the rail forward. Where all of the contact slides, the
-   !> force changes no more; the search ends there only if friction acts in the direction in which force is missing, otherwise
-   !> it has not come to the rate yet at which the slip changes its direction.
+   !> A wheel that turns faster about the axis to the right drives the rail forward. If all of the contact slides, the force is
+   !> constant; the search ends there only if friction acts in the direction of the missing force, otherwise it has not reached the
+   !> rate at which slip reverses.
    subroutine search_pitch_rate(problem, memory, z, log, result, error)
-      !> Prescribed longitudinal force, and what is asked besides
+      !> Problem, with the prescribed longitudinal force
       type(wheel_rail_problem), intent(in) :: problem
-      !> Patches of the trials; those of the last one stay
+      !> Patches of the trials; on return those of the last one
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset [mm]
       real(wp), intent(out) :: z
-      !> Told when no rate gives the force
+      !> Receives a warning if no rate gives the force
       type(log_type), intent(inout) :: log
-      !> Says whether the force was found
+      !> Status, with whether the force was found
       type(wheel_rail_result), intent(inout) :: result
-      !> Allocated when a trial has no result
+      !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent
@@ -64,7 +64,7 @@ contains
          call search%start(memory%geometry%pitch_rate, beyond_slope*abs(residual)/slope, tolerance)
          moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%geometry%placement%wheel_radius
          search%resolution = fine_rate*moving
-         ! where the spin turns the slip another way at each place, the force changes although all slides
+         ! if spin gives slip of different directions, the force changes although all of the contact slides
          search%reach = part_of_slip*largest_slip(memory)*moving
          do
             call search%update(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
@@ -86,7 +86,7 @@ contains
 
    contains
 
-      !> Why the force is not there, with blanks behind
+      !> Reason why the force is not reached, padded with blanks
       character(len=56) function reason()
          if (memory%used == 0) then
             reason = "it needs contact, and there is none"
@@ -97,13 +97,13 @@ contains
          end if
       end function reason
 
-      !> Longitudinal force in wheelset axes that is missing [N]
+      !> Missing longitudinal force, in wheelset axes [N]
       real(wp) function missing()
          missing = problem%spec%wheelset%fx - dot_product(total_force(memory), memory%geometry%placement%wheelset%axes(:, 1))
       end function missing
    end subroutine search_pitch_rate
 
-   !> Begin with the rate at which the circumference of the wheel is as fast as the rail where they touch first
+   !> Initial rate, at which the circumferential velocity of the wheel equals that of the rail at the point of first touch
    subroutine roll_at_contact(problem, memory)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(inout) :: memory
@@ -125,17 +125,17 @@ contains
       end associate
    end subroutine roll_at_contact
 
-   !> Radius of a circle as large as the contact area [mm]
+   !> Radius of a circle with the area of contact [mm]
    pure real(wp) function contact_radius(contact)
       type(patch_result), intent(in) :: contact
 
       contact_radius = sqrt(contact%ncon*contact%grid%dx*contact%grid%dy/pi)
    end function contact_radius
 
-   !> Order of magnitude of the change of the longitudinal force with the pitch rate, without slip [N s/rad]
+   !> Order of magnitude of the derivative of the longitudinal force with respect to the pitch rate, without slip [N s/rad]
    !>
-   !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
-   !> step of transient rolling, or in rolling over the length a.
+   !> The stiffness of a contact area pi a**2 is 2.5 G a; the rigid displacement is that of a shift, of a step of transient rolling,
+   !> or of rolling over the length a.
    real(wp) function force_per_pitch_rate(memory) result(slope)
       type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: a, length

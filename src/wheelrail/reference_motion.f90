@@ -1,8 +1,8 @@
-!> How the references of the patches move with the wheelset: their places and contact angles
+!> Derivatives of the references of the patches with respect to the position of the wheelset: positions and contact angles
 !>
-!> The gap at each place of the mesh changes as the contact locus there does; these changes come from the points of the locus and
-!> their derivatives, by central differences of the formula of one point. With them the search for regions is repeated on
-!> changed gaps: nothing else tells how patches are joined, turned, and weighed. No contact problem is solved.
+!> The gap at each mesh point changes with the contact locus. These changes are computed from the points of the locus and their
+!> derivatives, by central differences of the formula of one point. With them the search for regions is repeated on changed gaps,
+!> since joining, rotation and weights of patches follow only from the search. No contact problem is solved.
 module contact_wheelrail_reference_motion
    use contact_base_kinds, only : wp
    use contact_wheelrail_displacements, only : coordinate, displaced
@@ -22,39 +22,39 @@ module contact_wheelrail_reference_motion
 
    !> Motion of the reference of one patch per unit of a displacement of the wheelset
    type :: reference_motion
-      !> Of its origin in the track [mm], and of the contact angle [rad]
+      !> Derivatives of its origin in the track [mm], and of the contact angle [rad]
       real(wp) :: origin(3) = 0.0_wp, angle = 0.0_wp
-      !> Changes of the factors between the parts of a blended patch, shape (parts, parts); unallocated where there are none
+      !> Derivatives of the factors between the parts of a blended patch, shape (parts, parts); unallocated if there are none
       real(wp), allocatable :: interaction(:, :)
    end type reference_motion
 
-   !> How the gap changes, shape (points, coordinates): gap [mm] and place of the locus along the track [mm] per unit
+   !> Derivatives of the gap [mm] and of the position of the locus along the track [mm] per unit, shape (points, coordinates)
    type :: gap_motion
       real(wp), allocatable :: gap(:, :), x(:, :)
    end type gap_motion
 
-   !> Steps of central differences: displacements [mm] and turns [rad] of the wheelset for points of the locus, of the place on the
-   !> profile [mm], and displacements and turns for regions. Errors of the first are 1e-8 of the derivatives. Regions have kinks
-   !> where points of the mesh come into contact or leave it: their steps are small beside the approach of a light wheel, 2e-3 mm
-   !> with 100 N, and round-off of a place in the track, 1e-13 mm, is 1e-6 of the motion of a patch
+   !> Steps of central differences: displacements [mm] and rotations [rad] of the wheelset for points of the locus, of the position
+   !> on the profile [mm], and displacements and rotations for regions. Errors of the first are 1e-8 of the derivatives. Regions are
+   !> not smooth where points of the mesh come into contact or leave it: their steps are small compared to the approach of a light
+   !> wheel, 2e-3 mm with 100 N, and round-off of a position in the track, 1e-13 mm, is 1e-6 of the motion of a patch
    real(wp), parameter :: locus_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-6_wp, 1.0e-6_wp], place_step = 1.0e-4_wp
    real(wp), parameter :: region_step(4) = [1.0e-7_wp, 1.0e-7_wp, 1.0e-10_wp, 1.0e-10_wp]
-   !> Gaps up to this one take part: those beside the contact tell where it ends [mm]
+   !> Maximum gap that is included: gaps beside the contact determine its border [mm]
    real(wp), parameter :: near_contact = 0.5_wp
 
 contains
 
    !> Motions of the references of all patches
    subroutine find_reference_motions(problem, geometry, z, motions, is_smooth)
-      !> Profiles, and how patches are searched
+      !> Profiles, and settings of the search for patches
       type(wheel_rail_problem), intent(in) :: problem
-      !> Gap and place of the bodies
+      !> Gap and position of the bodies
       type(wheel_rail_geometry), intent(in) :: geometry
       !> Height at which regions are searched [mm]
       real(wp), intent(in) :: z
-      !> Shape (patches, coordinates); of size zero where displacements to both sides change the number of patches or parts
+      !> Motions, shape (patches, coordinates); of size zero if displacements to both sides change the number of patches or parts
       type(reference_motion), allocatable, intent(out) :: motions(:, :)
-      !> Does no displacement change the number of patches or parts?
+      !> Is the number of patches and parts the same for all displacements?
       logical, intent(out) :: is_smooth
       type(gap_motion) :: whole
       type(gap_motion), allocatable :: near(:)
@@ -79,7 +79,7 @@ contains
       allocate(motions(size(at), coordinate%count))
       do number = 1, coordinate%count
          step = region_step(number)
-         ! regions are those of a height that stays, see `lowest_for_regions`
+         ! regions are those of a fixed height, see `lowest_for_regions`
          if (number == coordinate%z .and. geometry%lowest_for_regions > z) cycle
          call regions_at(number, -step, low)
          call regions_at(number, step, high)
@@ -91,7 +91,7 @@ contains
             allocate(motions(0, coordinate%count))
             return
          end if
-         ! where a patch appears or vanishes the derivative is that to the other side
+         ! if a patch appears or vanishes, the derivative is the one-sided one to the other side
          if (.not. below) low = at
          if (.not. above) high = at
          if (.not. (below .and. above)) step = 0.5_wp*step
@@ -129,7 +129,7 @@ contains
       end subroutine regions_at
    end subroutine find_reference_motions
 
-   !> Have two searches found the same patches and parts?
+   !> Have two searches found the same numbers of patches and parts?
    pure logical function alike(a, b)
       type(contact_region), intent(in) :: a(:), b(:)
       integer :: k
@@ -145,7 +145,7 @@ contains
    subroutine difference(geometry, low, high, step, motion)
       type(wheel_rail_geometry), intent(in) :: geometry
       type(contact_region), intent(in) :: low, high
-      !> Between the two [mm] or [rad]
+      !> Distance between the two [mm] or [rad]
       real(wp), intent(in) :: step
       type(reference_motion), intent(inout) :: motion
       type(frame) :: from, to
@@ -157,11 +157,11 @@ contains
       if (allocated(high%interaction)) motion%interaction = (high%interaction - low%interaction)/step
    end subroutine difference
 
-   !> Derivatives of the gap at the places of a mesh, where it is small
+   !> Derivatives of the gap at the points of a mesh at which it is small
    subroutine differentiate_gap(problem, geometry, placement, gap, z, motion)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
-      !> Where the bodies were when the gap was measured
+      !> Position of the bodies when the gap was measured
       type(wheel_rail_placement), intent(in) :: placement
       type(gap_curve), intent(in) :: gap
       !> Height at which regions are searched [mm]
@@ -188,16 +188,16 @@ contains
                & - locus_point(wheel, placement, place - place_step, rail))/(2.0_wp*place_step)
             do number = 1, coordinate%count
                by = 0.0_wp
-               ! where the height is sought, the gap is measured once and serves all heights
+               ! if the height is searched, the gap is measured once and serves all heights
                if ((rolls .and. .not. (number == coordinate%z .and. problem%force_prescribed)) &
                   & .or. number == coordinate%roll .or. number == coordinate%yaw) then
                   by = (locus_point(wheel, high(number), place, rail) - locus_point(wheel, low(number), place, rail)) &
                      & /(2.0_wp*locus_step(number))
                else
-                  ! the locus moves along
+                  ! the locus moves with the wheel
                   by(merge(2, 3, number == coordinate%y)) = 1.0_wp
                end if
-               ! the place on the profile that comes to lie at the same place of the track
+               ! the position on the profile that moves to the same position in the track
                across = -by(2)/along(2)
                by = by + across*along
                motion%x(i, number) = by(1)

@@ -1,7 +1,8 @@
 !> Heights of a round wheel over the rows of a patch
 !>
-!> Along a row a wheel is nearly a polynomial: heights that are found at a few points tell those of all elements. Where its last
-!> terms are not small, as with profiles that bend differently from point to point, all heights are found directly.
+!> Along a row the wheel's surface is close to a polynomial: heights computed at a few points give those of all elements. If the
+!> last terms of the polynomial are not small, as with profiles whose curvature varies from point to point, all heights are computed
+!> directly.
 module contact_wheelrail_wheel_rows
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -13,41 +14,41 @@ module contact_wheelrail_wheel_rows
 
    public :: wheel_rows
 
-   !> Points of a row that a polynomial is made of: as many as are found at once
+   !> Number of points of a row for a polynomial: as many as are computed at once
    integer, parameter :: terms = 8
-   !> Last two terms of a polynomial that is as good as the heights themselves [mm]
+   !> Maximum of the last two terms of a polynomial that is as accurate as the heights themselves [mm]
    real(wp), parameter :: negligible = 1.0e-10_wp
-   !> Rows one after the other without such a polynomial, after which none is tried
+   !> Number of consecutive rows without such a polynomial, after which none is tried
    integer, parameter :: patience = 5
-   !> Rows that are remembered at most
+   !> Maximum number of stored rows
    integer, parameter :: remembered = 3
 
-   !> Rows of a patch, one after the other at even distances; its arrays serve patches that follow
+   !> Consecutive rows of a patch at even distances; its arrays are reused for further patches
    type :: wheel_rows
       private
-      !> First and last point along a row [mm], and how many there are
+      !> First and last point along a row [mm], and number of points
       real(wp) :: ends(2) = 0.0_wp
       integer :: points = 0
-      !> Points that heights are found at [mm]: all, or `terms`
+      !> Points at which heights are computed [mm]: all, or `terms`
       real(wp) :: nodes(terms) = 0.0_wp
       integer :: few = 0
-      !> Places on the profile and heights of the rows before at the nodes [mm], the last one first, and how many are known
+      !> Positions on the profile and heights of previous rows at the nodes [mm], the last one first, and number of known rows
       real(wp) :: rows(terms, 2, remembered) = 0.0_wp
       integer :: known = 0
-      !> Where the first point of a row is looked for: place and height [mm]
+      !> Initial values of the first point of a row: position on the profile and height [mm]
       real(wp) :: start(2) = 0.0_wp
-      !> Rows without a polynomial so far, one after the other
+      !> Number of consecutive rows without a polynomial so far
       integer :: failures = 0
-      !> All points, their places on the profile, and the rows before: where no polynomials are looked for
-      !> There may be room for more than the points of this patch
+      !> All points, their positions on the profile, and the previous rows: for rows without polynomials. The arrays may be larger
+      !> than the number of points of this patch
       real(wp), allocatable :: x(:), place(:), all_rows(:, :, :)
       logical, allocatable :: found(:)
       !> Do they belong to this patch?
       logical :: has_all = .false.
    contains
-      !> Begin with the first row
+      !> Prepare for the first row
       procedure :: begin
-      !> Heights of a row
+      !> Compute the heights of a row
       procedure :: find
    end type wheel_rows
 
@@ -58,12 +59,12 @@ contains
       class(wheel_rows), intent(inout) :: self
       !> First and last point along the track [mm]
       real(wp), intent(in) :: ends(2)
-      !> How many there are, at even distances
+      !> Number of points, at even distances
       integer, intent(in) :: points
-      !> Place on the profile and height near the first point [mm]
+      !> Position on the profile and height near the first point [mm]
       real(wp), intent(in) :: start(2)
       integer :: i
-      !> Where heights are found, relative to the middle and half the length of a row
+      !> Points at which heights are computed, relative to the middle and half the length of a row
       real(wp), parameter :: places(terms) = [(-cos(pi*i/(terms - 1)), i=0, terms - 1)]
 
       self%ends = ends
@@ -82,7 +83,7 @@ contains
       end if
    end subroutine begin
 
-   !> Place of a point along the track [mm]
+   !> Position of a point along the track [mm]
    pure real(wp) function point_at(self, i)
       type(wheel_rows), intent(in) :: self
       integer, intent(in) :: i
@@ -94,22 +95,22 @@ contains
       class(wheel_rows), intent(inout) :: self
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Of the wheel at the origin of its profile [mm]
+      !> Radius of the wheel at the origin of its profile [mm]
       real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
+      !> The plane in the axes of the wheel
       type(frame), intent(in) :: seen
       !> Position of the row [mm]
       real(wp), intent(in) :: s
-      !> Height where the line along n does not meet the wheel
+      !> Height if the line along n does not meet the wheel
       real(wp), intent(in) :: missing
       !> Height over each point [mm]
       real(wp), contiguous, intent(out) :: n(:)
       real(wp) :: some_places(terms), some_n(terms), c(terms)
       logical :: some_found(terms)
       integer :: i, j
-      !> The first and the last of something count half
+      !> Weights of sums whose first and last terms are halved
       real(wp), parameter :: ends_half(0:terms - 1) = [0.5_wp, (1.0_wp, i=1, terms - 2), 0.5_wp]
-      !> Factors of Chebyshev's polynomials (first index) through heights at the places of `begin`
+      !> Coefficients of Chebyshev polynomials (first index) through heights at the points of `begin`
       real(wp), parameter :: factors(terms, terms) = reshape([((2.0_wp/(terms - 1)*ends_half(i)*ends_half(j) &
          & *cos(pi*i*(terms - 1 - j)/(terms - 1)), i=0, terms - 1), j=0, terms - 1)], [terms, terms])
 
@@ -154,7 +155,7 @@ contains
       end do
    end subroutine find
 
-   !> Heights at the nodes, from the rows before where they are known
+   !> Heights at the nodes, estimated from previous rows if there are any
    pure subroutine find_nodes(self, wheel, radius, seen, s, place, n, found)
       type(wheel_rows), intent(inout) :: self
       !> See `find`
@@ -162,7 +163,7 @@ contains
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: s
-      !> Place on the profile and height at each node [mm], where they are found
+      !> Position on the profile and height at each node [mm], set if found
       real(wp), intent(out) :: place(:), n(:)
       logical, intent(out) :: found(:)
       integer :: i
@@ -182,7 +183,7 @@ contains
       call keep(place, n, all(found), self%rows(:self%few, :, :), self%known)
    end subroutine find_nodes
 
-   !> Heights at all points, from the rows before where they are known
+   !> Heights at all points, estimated from previous rows if there are any
    pure subroutine find_all(self, wheel, radius, seen, s, n)
       type(wheel_rows), intent(inout) :: self
       !> See `find`
@@ -190,7 +191,7 @@ contains
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: s
-      !> Height of each point [mm], where it is found
+      !> Height of each point [mm], set if found
       real(wp), intent(out) :: n(:)
 
       if (self%known > 0) then
@@ -205,7 +206,7 @@ contains
       call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
    end subroutine find_all
 
-   !> Room for all points
+   !> Allocate the arrays for all points
    pure subroutine make_room(self)
       type(wheel_rows), intent(inout) :: self
       integer :: i
@@ -223,13 +224,13 @@ contains
       self%all_rows(:self%points, :, :) = 0.0_wp
    end subroutine make_room
 
-   !> Places and heights of the next row, from those before
+   !> Estimate positions and heights of the next row, from the previous ones
    pure subroutine estimate(rows, known, place, height)
-      !> Places and heights of the rows before [mm], the last one first, shape (points, 2, remembered)
+      !> Positions and heights of previous rows [mm], the last one first, shape (points, 2, remembered)
       real(wp), intent(in) :: rows(:, :, :)
-      !> How many of them there are
+      !> Number of previous rows
       integer, intent(in) :: known
-      !> [mm], one for each point
+      !> Positions and heights, one for each point [mm]
       real(wp), intent(out) :: place(:), height(:)
 
       associate (p => rows(:, 1, :), h => rows(:, 2, :))
@@ -247,9 +248,9 @@ contains
       end associate
    end subroutine estimate
 
-   !> Remember a row; one with points that were not found begins anew
+   !> Store a row; if some of its points were not found, the list of rows is cleared
    pure subroutine keep(place, height, found, rows, known)
-      !> [mm], one for each point
+      !> Positions and heights, one for each point [mm]
       real(wp), intent(in) :: place(:), height(:)
       !> Were all points found?
       logical, intent(in) :: found
@@ -260,7 +261,7 @@ contains
 
       known = merge(min(known + 1, remembered), 0, found)
       if (.not. found) return
-      ! one by one: whole sections that may overlap are copied by way of the heap
+      ! element by element: whole sections that may overlap are copied through the heap
       do j = remembered, 2, -1
          do i = 1, size(place)
             rows(i, 1, j) = rows(i, 1, j - 1)
@@ -273,15 +274,15 @@ contains
       end do
    end subroutine keep
 
-   !> Values of a polynomial at points at even distances, the ends included
+   !> Values of a polynomial at points at even distances, including the ends
    pure subroutine between(c, values)
-      !> Factors of Chebyshev's polynomials
+      !> Coefficients of Chebyshev polynomials
       real(wp), intent(in) :: c(terms)
       real(wp), intent(out) :: values(:)
       real(wp) :: p(0:terms - 1), t, step
       integer :: i
 
-      ! powers in place of Chebyshev's polynomials
+      ! converted to powers
       p(0) = c(1) - c(3) + c(5) - c(7)
       p(1) = c(2) - 3.0_wp*c(4) + 5.0_wp*c(6) - 7.0_wp*c(8)
       p(2) = 2.0_wp*c(3) - 8.0_wp*c(5) + 18.0_wp*c(7)
@@ -297,10 +298,10 @@ contains
       end do
    end subroutine between
 
-   !> Are all places between those at the nodes on the profile, too?
+   !> Are all positions between those at the nodes on the profile as well?
    pure logical function is_inside(wheel, place)
       type(profile_curve), intent(in) :: wheel
-      !> [mm]
+      !> Positions at the nodes [mm]
       real(wp), intent(in) :: place(terms)
       real(wp) :: ends(2), low, high
 
