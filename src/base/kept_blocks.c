@@ -1,17 +1,17 @@
-/* Blocks of memory that a calculation has given back, kept by its owner for the next one.
+/* Blocks of memory released by a calculation, kept by its owner for the next one.
  *
- * Arrays of the size of a window are allocated anew when the window changes, which a contact that moves does in a tenth of the
- * steps of a loop over time. Instead of going to the heap such blocks stay with the problem that they served: up to `most_bytes`,
- * up to `largest` bytes each, in lists by size. Four sizes lie between a power of two and the next one, so that a block serves all
- * requests that are less than a quarter smaller; they are at least as
- * far apart as the sizes of blocks that the system has. A thread uses the blocks of one owner while it calculates (guard.c). */
+ * Arrays of the size of a window are reallocated when the window changes, which happens in a tenth of the steps of a loop over
+ * time if the contact moves. Instead of being returned to the heap, such blocks are kept with the problem that used them: in
+ * total up to `most_bytes`, of up to `largest` bytes each, in lists by size. There are four sizes per factor of two, so that a
+ * block is used for all requests that are less than a quarter smaller; their distances are at least those of the block sizes of
+ * the system. A thread uses the blocks of one owner while it calculates (guard.c). */
 #include "kept_blocks.h"
 #include <stdint.h>
 #include <stdlib.h>
 
 enum { sizes = 57, smallest = 64, largest = 1 << 20, most_bytes = 16 << 20 };
 
-/* A block that is kept: its first bytes hold the way to the next one */
+/* A kept block: its first bytes contain the address of the next one */
 struct link {
   struct link *next;
 };
@@ -23,13 +23,13 @@ struct kept_blocks {
 
 static size_t size_of(unsigned k) { return (size_t)(4 + k%4) << (k/4 + 4); }
 
-/* Number of the largest size that is at most n, for n >= smallest */
+/* Index of the largest size that is at most n, for n >= smallest */
 static unsigned size_below(size_t n) {
   const unsigned shift = 61u - (unsigned)__builtin_clzll((unsigned long long)n);
   return 4*(shift - 4) + (unsigned)(n >> shift) - 4;
 }
 
-/* Number of the smallest size that is at least n */
+/* Index of the smallest size that is at least n */
 static unsigned size_above(size_t n) { return n <= smallest ? 0 : size_below(n - 1) + 1; }
 
 struct kept_blocks *contact_kept_new(void) { return calloc(1, sizeof(struct kept_blocks)); }

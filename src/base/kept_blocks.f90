@@ -1,4 +1,4 @@
-!> Blocks of memory that the calculations of an owner have given back, kept for its next one; see kept_blocks.c
+!> Blocks of memory released by the calculations of an owner, kept for its next one; see kept_blocks.c
 module contact_base_kept_blocks
    use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    implicit none (type, external)
@@ -6,15 +6,15 @@ module contact_base_kept_blocks
 
    public :: kept_blocks
 
-   !> What an owner keeps, 16 MB at most; not to be copied
+   !> The kept blocks of an owner, 16 MB at most; not to be copied
    type :: kept_blocks
       type(c_ptr), private :: place = c_null_ptr
    contains
-      !> From now on this thread takes its blocks from here, and gives them back to here
+      !> This thread allocates its blocks from here, and releases them to here, until `stop_using`
       procedure :: use_them
-      !> From now on it goes to the heap
+      !> This thread uses the heap again
       procedure, nopass :: stop_using
-      !> Give all blocks back to the heap
+      !> Release all blocks to the heap
       procedure :: release
    end type kept_blocks
 

@@ -1,4 +1,4 @@
-!> From the specification of a case to the problem of its patch
+!> Conversion of the specification of a case to the problem of its patch
 module contact_cases_patch_setup
    use contact_base_choices, only : has_slope_reduction, is_simplified, material_model, motion, &
       & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
@@ -28,12 +28,12 @@ module contact_cases_patch_setup
 
 contains
 
-   !> From the specification to the problem of the patch
+   !> Convert the specification to the problem of the patch
    subroutine set_problem(spec, folder, problem, log, error)
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative; "" for the current one
       character(len=*), intent(in) :: folder
-      !> Of the previous case on entry
+      !> On entry the problem of the previous case
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -51,7 +51,7 @@ contains
       problem%fn = spec%kinematics%fn
       problem%pen = spec%kinematics%pen
       problem%force_prescribed = spec%normal == normal_control%force
-      ! a Hertzian geometry is laid out anew when the case gives a grid, not when the load changes
+      ! a Hertzian geometry is discretised anew if the case gives a grid, not if the load changes
       if (spec%has_new_geometry() .or. .not. problem%has_geometry) then
          call set_geometry(spec, problem, error)
          if (allocated(error)) return
@@ -69,7 +69,7 @@ contains
       problem%spin_weight = merge(0.0_wp, 1.0_wp, spec%slip_source == [slip_source%no_spin_x, slip_source%no_spin_y])
       call set_method(spec, problem)
       problem%sensitivity = spec%iteration%sensitivity
-      ! what nobody asked for is computed only if it gets printed
+      ! sensitivities that were not requested are computed only if they are printed
       if (problem%sensitivity == sensitivity_choice%forces .and. spec%output_level < 2) &
          & problem%sensitivity = sensitivity_choice%none
       problem%mxsens = spec%iteration%mxsens
@@ -107,7 +107,7 @@ contains
       end if
    end subroutine set_problem
 
-   !> Near-surface plasticity: a yield limit that is neither nothing nor out of reach
+   !> Near-surface plasticity: set a yield limit that is positive and can be reached
    subroutine set_yield_limit(spec, problem)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
@@ -154,7 +154,7 @@ contains
       problem%has_geometry = .true.
    end subroutine set_geometry
 
-   !> Where pressures come from; pressures that are given in closed form
+   !> Choose the model of pressures; compute pressures that are given in closed form
    subroutine set_pressures(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
@@ -162,7 +162,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       problem%pressure = spec%pressure
-      ! a sheet belongs to the bodies: the normal problem is the same
+      ! a sheet is part of the bodies: the normal problem is the same
       if (spec%pressure == pressure_model%thin_sheet) problem%pressure = pressure_model%full
       select case (spec%pressure)
       case (pressure_model%sdec)
@@ -188,9 +188,9 @@ contains
       call carry_force(problem%grid, problem%fn, problem%given_pressure, log, error)
    end subroutine set_pressures
 
-   !> Scale pressures by formula, taken at the centres of elements, such that their sum is the force of the formula.
+   !> Scale pressures by formula, evaluated at the centres of elements, such that their sum is the force of the formula.
    !>
-   !> Of the two ways to make total and pressures agree this one has the smaller error in the tangential forces
+   !> Of the two ways to make total and pressures consistent this one has the smaller error in the tangential forces
    !> (doc/theory/approximate_normal.md), and a prescribed force is carried in full, as by the full solution.
    subroutine carry_force(grid, fn, pn, log, error)
       type(potential_contact), intent(in) :: grid
@@ -200,7 +200,7 @@ contains
       real(wp), intent(inout) :: pn(:, :)
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> Part of the force by which the sum may differ without a word, and below which there is no contact to speak of
+      !> Maximum relative difference of the sum without a warning, and minimum fraction of the force for a valid contact
       real(wp), parameter :: rough = 0.1_wp, nothing = 1.0e-3_wp
       character(len=12) :: percent
       real(wp) :: total
@@ -220,7 +220,7 @@ contains
          & "add up to " // trim(percent) // " % of FN. They are scaled to carry FN")
    end subroutine carry_force
 
-   !> Simplified theory for the tangential problem, if the material model asks for it
+   !> Set up simplified theory for the tangential problem, if it is the material model
    subroutine set_simplified_theory(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
@@ -232,7 +232,7 @@ contains
          return
       end if
       if (allocated(problem%friction)) then
-         ! friction follows from the rigid slip velocity, particles carry nothing along
+         ! friction follows from the rigid slip velocity, particles have no memory
          problem%remembers_friction = .false.
       end if
       if (.not. allocated(problem%simplified)) allocate(problem%simplified)
@@ -250,7 +250,7 @@ contains
          & "dissimilar bodies act on each other")
    end subroutine set_simplified_theory
 
-   !> Rolling direction and step; steady solvers but ConvexGS work with steps of one element along x
+   !> Rolling direction and step; steady solvers except ConvexGS use steps of one element along x
    subroutine set_rolling(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
@@ -298,7 +298,7 @@ contains
 
    contains
 
-      !> Steps longer than an element: along x the edge of contact is found in each row
+      !> For steps longer than an element along x: the edge of contact is found in each row
       subroutine set_leading_edge()
          problem%corrects_leading_edge = .not. oblique
          if (oblique) call log%warning("DQ is larger than DX: slip near the leading edge is corrected for rolling along x " // &
@@ -306,7 +306,7 @@ contains
       end subroutine set_leading_edge
    end subroutine set_rolling
 
-   !> Name of what advances by one element per step
+   !> Name of the model that advances by one element per step
    pure function kind_of_rolling(spec) result(text)
       type(case_spec), intent(in) :: spec
       character(len=33) :: text
@@ -315,7 +315,7 @@ contains
       if (spec%motion == motion%steady_rolling) text = "steady rolling"
    end function kind_of_rolling
 
-   !> Can steady rolling be solved with coefficients at any distance, and does nothing else follow particles?
+   !> Can steady rolling be solved with coefficients at arbitrary distances, and does no other model follow particles?
    pure logical function takes_any_step(spec, problem)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(in) :: problem

@@ -37,13 +37,13 @@ module contact_cases_wheel_rail_session
 
    public :: wheel_rail_session, check_files, load_profile, prepare_first_case, release_wheel_rail_session, solve_wheel_rail_case
 
-   !> Memory of one wheel on one rail
+   !> Data of one wheel on one rail
    type :: wheel_rail_session
       type(wheel_rail_problem) :: problem
       type(wheel_rail_memory) :: memory
-      !> Profiles that were used so far
+      !> Profiles used so far
       type(profile_store) :: profiles
-      !> What was last asked of the store for rail and wheel
+      !> Last requests to the store for rail and wheel
       type(profile_request) :: wanted(2)
       !> Influence coefficients from a file
       type(kept_table) :: coefficients
@@ -51,7 +51,7 @@ module contact_cases_wheel_rail_session
 
 contains
 
-   !> Solve one case, or only take note of its input (R = 2, 3)
+   !> Solve one case, or only read its input (R = 2, 3)
    subroutine solve_wheel_rail_case(session, spec, folder, log, result, error)
       type(wheel_rail_session), intent(inout) :: session
       !> Complete specification of a case of module 1
@@ -59,7 +59,7 @@ contains
       !> Folder to which names of profile files are relative, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
-      !> Not changed where nothing is computed
+      !> Unchanged if nothing is computed
       type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
 
@@ -70,7 +70,7 @@ contains
       call log%end_case()
    end subroutine solve_wheel_rail_case
 
-   !> The case between the first and the last word of the log
+   !> Solve the case between the beginning and the end of its log
    subroutine solve_and_describe(session, spec, folder, log, result, error)
       type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
@@ -118,9 +118,9 @@ contains
       end do
    end subroutine solve_and_describe
 
-   !> Tell that a patch has more elements than a table of influence coefficients
+   !> Warn if a patch has more elements than a table of influence coefficients
    subroutine warn_of_small_table(table, grid, number, log)
-      !> Unallocated: half-spaces
+      !> Table; unallocated for half-spaces
       type(influence_table), allocatable, intent(in) :: table
       type(potential_contact), intent(in) :: grid
       !> Number of the patch
@@ -159,12 +159,12 @@ contains
       end associate
    end subroutine keep_profiles
 
-   !> Do what the first case of a process would have to wait for, and that does not depend on the case
+   !> Perform the initialisation that the first case of a process would have to wait for, and that does not depend on the case
    subroutine prepare_first_case()
       call start_planner()
    end subroutine prepare_first_case
 
-   !> Free what a session holds outside Fortran's memory; call it before the session goes
+   !> Release the memory of a session that is allocated outside Fortran; must be called before the session is destroyed
    subroutine release_wheel_rail_session(session)
       type(wheel_rail_session), intent(inout) :: session
       call release_wheel_rail(session%memory)
@@ -181,7 +181,7 @@ contains
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> A ball ends at its axle, give or take roundings
+      !> The profile of a ball ends at its axle, within round-off
       real(wp), parameter :: at_axle = 0.999_wp
       real(wp) :: z(2)
 
@@ -211,14 +211,14 @@ contains
       if (.not. allocated(error)) call update_table(spec, folder, session%coefficients, log, error)
    end subroutine check_files
 
-   !> From the specification to the problem of the pair
+   !> Convert the specification to the problem of the pair
    subroutine set_wheel_rail(session, spec, folder, log, error)
       type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> Of DQREL [-]
+      !> Tolerance of DQREL [-]
       real(wp), parameter :: step_tolerance = 0.01_wp
       type(case_spec), allocatable :: first_set
 
@@ -254,7 +254,7 @@ contains
          end associate
          call set_method(spec, template)
          template%pressure = spec%pressure
-         ! a sheet belongs to the bodies: the normal problem is the same
+         ! a sheet is part of the bodies: the normal problem is the same
          if (spec%pressure == pressure_model%thin_sheet) template%pressure = pressure_model%full
          template%grid%my = 1
          problem%variation = spec%variation
@@ -285,7 +285,7 @@ contains
                & largest_rate=[spec%damping%dfnmax, spec%damping%dftmax])
          end if
          template%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
-         ! the contact stiffness leads the search for the height
+         ! the contact stiffness is used by the search for the height
          template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, &
             & problem%force_prescribed .or. problem%force == force_control%massless_rail)
          template%reports_sensitivity = .false.
@@ -298,9 +298,9 @@ contains
    pure subroutine name_file(profile, folder, file)
       !> Name of the file, or points
       type(profile_spec), intent(in) :: profile
-      !> To which the name is relative
+      !> Folder to which the name is relative
       character(len=*), intent(in) :: folder
-      !> Kept when it has the right length
+      !> Path; kept if it has the right length
       character(len=:), allocatable, intent(inout) :: file
       integer :: i, before
 
@@ -321,7 +321,7 @@ contains
       end do
    end subroutine name_file
 
-   !> Take a profile from the store, which reads it when it is new or has changed
+   !> Get a profile from the store, which reads it if it is new or has changed
    subroutine load_profile(profiles, profile, side, folder, wanted, curve, surface, log, error, confined)
       !> Profiles of all cases, each read once
       type(profile_store), intent(inout) :: profiles
@@ -329,11 +329,11 @@ contains
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
-      !> To which the name is relative
+      !> Folder to which the name is relative
       character(len=*), intent(in) :: folder
-      !> What was asked of the store before; gets what is asked now
+      !> Previous request to the store, replaced by the present one
       type(profile_request), intent(inout) :: wanted
-      !> Smoothed, in its own axes [mm]
+      !> Smoothed profile, in its own axes [mm]
       type(profile_curve), intent(inout) :: curve
       !> Allocated on exit for slices files
       type(profile_surface), allocatable, intent(inout) :: surface

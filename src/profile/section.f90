@@ -1,8 +1,8 @@
 !> The part of a rail's profile that lies below a contact patch, in the axes of the patch
 !>
-!> The profile is followed from some places on as long as the lateral coordinate of the patch does not turn round; what else stands
-!> above the plane, such as the far wall of a groove, is not part of it. Pieces of the profile are turned where they are
-!> looked at, so that no copy of the curve is made.
+!> The profile is followed from given positions as long as the lateral coordinate of the patch is monotone; other parts above the
+!> plane, such as the far wall of a groove, do not belong to the section. Pieces of the profile are rotated when they are used, so
+!> that the curve is not copied.
 module contact_profile_section
    use contact_base_kinds, only : wp
    use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
@@ -13,20 +13,20 @@ module contact_profile_section
 
    public :: profile_section
 
-   !> A range of s along which the lateral coordinate rises or falls
+   !> A range of s along which the lateral coordinate increases or decreases
    type :: followed_stretch
       !> Its ends in s, and the lateral coordinate there [mm]
       real(wp) :: s(2) = 0.0_wp, y(2) = 0.0_wp
-      !> The pieces that hold the ends, and the one that held the last point
+      !> Indices of the pieces with the ends, and of the piece with the last point
       integer :: first = 0, last = 0, piece = 0
    end type followed_stretch
 
-   !> What is seen of a profile; its array is kept from one section to the next
+   !> Section of a profile; its array is kept from one section to the next
    type :: profile_section
       private
       !> Cosine and sine of the roll angle of the axes, and their origin in the rolled axes [mm]
       real(wp) :: cosine = 1.0_wp, sine = 0.0_wp, origin(2) = 0.0_wp
-      !> Stretches 1...n, and room for more
+      !> Number of stretches; the array may be larger
       integer :: n = 0
       type(followed_stretch), allocatable :: along(:)
    contains
@@ -36,12 +36,12 @@ module contact_profile_section
       procedure :: height
    end type profile_section
 
-   !> Stretches that there is room for at first: more only below patches that were joined of several
+   !> Initial number of allocated stretches: more are used only below patches that were joined from several
    integer, parameter :: few_stretches = 4
 
 contains
 
-   !> Find what is reached from some places without the lateral coordinate turning round
+   !> Find the stretches around given positions in which the lateral coordinate is monotone
    pure subroutine follow(self, curve, origin, angle, places, range)
       class(profile_section), intent(inout) :: self
       !> Profile of a rail
@@ -50,7 +50,7 @@ contains
       real(wp), intent(in) :: origin(2), angle
       !> Arc lengths from which the profile is followed [mm]
       real(wp), intent(in) :: places(:)
-      !> Lateral coordinates in the new axes beyond which nothing is looked for [mm], rising
+      !> Increasing bounds of the lateral coordinate in the new axes, beyond which the profile is not followed [mm]
       real(wp), intent(in) :: range(2)
       integer :: i, k
 
@@ -69,7 +69,7 @@ contains
       end do
    end subroutine follow
 
-   !> Room for one stretch more
+   !> Allocate one more stretch
    pure subroutine make_room(self)
       type(profile_section), intent(inout) :: self
       type(followed_stretch), allocatable :: longer(:)
@@ -81,7 +81,7 @@ contains
       call move_alloc(longer, self%along)
    end subroutine make_room
 
-   !> The stretch that holds a place
+   !> The stretch around a position
    pure function stretch_around(self, curve, place, range) result(along)
       type(profile_section), intent(in) :: self
       type(profile_curve), intent(in) :: curve
@@ -139,14 +139,14 @@ contains
       end associate
    end function stretch_around
 
-   !> Height of the surface: of several stretches the one on top
+   !> Height of the surface: the highest one of several stretches
    pure subroutine height(self, curve, y, z, found)
       class(profile_section), intent(inout) :: self
-      !> That of `follow`
+      !> The curve given to `follow`
       type(profile_curve), intent(in) :: curve
       !> Lateral coordinate in the axes of the patch [mm]
       real(wp), intent(in) :: y
-      !> Height along the normal of the patch, into the rail [mm]; unchanged where there is no surface
+      !> Height along the normal of the patch, into the rail [mm]; unchanged if there is no surface
       real(wp), intent(inout) :: z
       !> Is there a surface?
       logical, intent(out) :: found
@@ -171,13 +171,13 @@ contains
       end do
    end subroutine height
 
-   !> Piece of a stretch that holds a lateral coordinate, from the last one on: points mostly follow each other
+   !> Find the piece of a stretch with a lateral coordinate, starting from the last one: points are mostly in order
    pure subroutine find_piece(self, curve, y, along)
       type(profile_section), intent(in) :: self
       type(profile_curve), intent(in) :: curve
-      !> Within the stretch [mm]
+      !> Lateral coordinate within the stretch [mm]
       real(wp), intent(in) :: y
-      !> Gets the piece
+      !> On return with the piece
       type(followed_stretch), intent(inout) :: along
       logical :: rises
 
@@ -211,11 +211,11 @@ contains
       c(0) = c(0) - self%origin(1)
    end function lateral
 
-   !> Places within a piece at which a coordinate turns round
+   !> Extrema of a coordinate within a piece
    pure subroutine turns_of(c, length, turns, n)
       !> Coefficients of the coordinate, and the length of the piece [mm]
       real(wp), intent(in) :: c(0:3), length
-      !> From the beginning of the piece [mm], the first n are set
+      !> Positions from the beginning of the piece [mm]; the first n are set
       real(wp), intent(out) :: turns(2)
       integer, intent(out) :: n
       real(wp) :: behind, between
@@ -223,7 +223,7 @@ contains
       n = 0
       turns = 0.0_wp
       behind = slope_at_end(c, length)
-      ! a parabola has no zero where its values at both ends and the crossing of its tangents there have one sign
+      ! a parabola has no zero if its values at both ends and the intersection of its tangents there have the same sign
       between = c(1) + length*c(2)
       if (behind*between > 0.0_wp .and. c(1)*between > 0.0_wp) return
       call quadratic_roots(3.0_wp*c(3), 2.0_wp*c(2), c(1), 0.0_wp, length, turns, n)
@@ -237,7 +237,7 @@ contains
    end function slope_at_end
 
    pure real(wp) function value(c, t)
-      !> Coefficients, and the place in the piece [mm]
+      !> Coefficients, and the position in the piece [mm]
       real(wp), intent(in) :: c(0:3), t
       value = c(0) + t*(c(1) + t*(c(2) + t*c(3)))
    end function value

@@ -33,9 +33,9 @@ module contact_simplified_fastrip
 
 contains
 
-   !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
+   !> Replace Fastsim's tractions, row by row and in each row for each run of neighbouring elements in contact
    pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division, scratch)
-      !> Ellipse, material, force and creepages that strip theory starts from
+      !> Ellipse, material, force and creepages for strip theory
       type(strip_data), intent(in) :: data
       !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
       real(wp), intent(in) :: x(:), y(:), dx
@@ -49,7 +49,7 @@ contains
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
       !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
-      !> Of the shape of p; its contents do not matter
+      !> Workspace of the shape of p; its contents are not used
       real(wp), contiguous, intent(inout) :: scratch(:, :, :)
       type(creepage_coefficients) :: c
       integer :: mx, iy, first, last
@@ -77,15 +77,15 @@ contains
       end do
    end subroutine apply_strip_theory
 
-   !> One strip: adhesion from strip theory where that is possible
+   !> One strip: adhesion from strip theory if that is possible
    pure subroutine one_strip(data, c, x, y, dx, mu, bound, p, slip, division, f)
       type(strip_data), intent(in) :: data
-      !> Kalker's coefficients of its ellipse [-]
+      !> Kalker's coefficients of the ellipse [-]
       type(creepage_coefficients), intent(in) :: c
       real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
       real(wp), intent(inout) :: p(:, :), slip(:, :)
       integer, intent(inout) :: division(:)
-      !> Scratch, shape (size(x), 2): tractions by strip theory relative to the largest bound [-]
+      !> Workspace, shape (size(x), 2): tractions by strip theory relative to the largest bound [-]
       real(wp), intent(inout) :: f(:, :)
       real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, whole, stick, xi, length
       integer :: i, n
@@ -97,7 +97,7 @@ contains
       creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
       creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
       call scale_creepages(data, c, mu, creep, spin)
-      ! seen from the leading edge: rolling towards decreasing x is a mirror image
+      ! relative to the leading edge: rolling towards decreasing x is the mirror image
       creep(1) = data%direction*creep(1)
       spin = data%direction*spin
       q = creep(1) - spin*(y - data%centre(2))/a
@@ -145,7 +145,7 @@ contains
 
    !> Scale the creepages and the spin of the contact to those of a strip, in place
    !>
-   !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
+   !> The factors are Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
    pure subroutine scale_creepages(data, c, mu, creep, spin)
       type(strip_data), intent(in) :: data
       !> Kalker's coefficients of the ellipse [-]
@@ -174,7 +174,7 @@ contains
       real(wp), intent(in) :: q, eta, spin
       !> Spin above which there is no adhesion area [-]
       real(wp), parameter :: excessive = 1.0e8_wp
-      !> Denominators, of order 1, below this value mean full sliding: rounding leaves about 1e-16
+      !> Denominators, of order 1, below this value mean full sliding: round-off is about 1e-16
       real(wp), parameter :: no_adhesion = 1.0e-12_wp
       real(wp) :: size_, q1, eta1, discriminant, root
 
