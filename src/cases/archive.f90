@@ -321,7 +321,7 @@ contains
       call self%tell_of_group(.true., text)
    end subroutine refuse_group
 
-   !> The numbers of the group in hand are doubtful
+   !> The numbers of the current group are doubtful
    subroutine warn_of_group(self, text)
       class(case_archive), intent(inout) :: self
       !> Message of one sentence

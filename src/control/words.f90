@@ -187,7 +187,7 @@ contains
       character(len=*), intent(in) :: word
       !> Number, 0 if the word is unknown
       integer, intent(out) :: value
-      !> Is the word known?
+      !> Is there such a word?
       logical, intent(out) :: is_known_word
       integer :: row
 
