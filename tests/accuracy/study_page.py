@@ -14,26 +14,26 @@ TOTALS = (("normal", "approach, or normal force"), ("peak", "PMAX"), ("power", "
           ("temperature", "highest temperature"))
 ASKED = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 
-HEAD = """# Accuracy over many contacts: error against time
+HEAD = """# Error against time over many contacts
 
 Written by `{command} --write doc/validation`,
-from {cases} solutions of {contacts} contacts in {kinds} kinds, each at {offsets} positions of each grid; {machine},
-shared with other work. Milliseconds are processor time of one thread for a case by the program, reading and writing
-included. What it means for a user:
-[how exact](../user/how_exact.md). One contact with all methods and tolerances: [what accuracy costs](accuracy.md).
+from {cases} solutions of {contacts} contacts in {kinds} kinds, each at {offsets} offsets of each grid; {machine},
+shared with other work. Times are processor time of one thread for a case of the program, including input and output.
+Consequences for the user: [how exact](../user/how_exact.md). One contact with all methods and tolerances:
+[accuracy against time](accuracy.md).
 
 ![error of the forces against processor time](accuracy_study.svg)
 
-Errors of forces are the largest one of FX and FY over the friction bound and MZ over the bound times the root of a b; with
-prescribed forces those of the creepages stand for FX and FY, relative to the creepage of full sliding. References are 80 and 160
-elements along the window, extrapolated, of order 2 where it acts: they carry an error of some 1e-5 there, and of some 3e-4 for
-layers and transient rolling. Of the latter, steps are 0.15 a on every grid, and what is compared is the limit of fine elements with
-that step. The number of elements is that along each side of a window 1.15 times (profiles 1.9, two patches 2, viscoelastic 1.3
-times) as long as the contact; on wheels that of 12 mm.
+The error of the forces is the largest of those of FX and FY, relative to the friction bound, and MZ, relative to the bound times the
+root of a b; with prescribed forces the errors of the creepages replace those of FX and FY, relative to the creepage of full sliding.
+References: 80 and 160 elements along a side, extrapolated, with order 2 where it applies; their own error is about 1e-5 there, and
+about 3e-4 for layers and transient rolling. In transient rolling the step is 0.15 a on every grid, and the reference is the limit of
+fine elements with that step. The number of elements is that along each side of a potential contact 1.15 times (profiles 1.9, two
+patches 2, viscoelastic 1.3 times) as long as the contact; for wheels along 12 mm.
 """
 
 
-PRICES = """Milliseconds, and the number of elements along a side, of the cheapest grid and tolerance with a median error below that
+PRICES = """Milliseconds, and number of elements along a side, of the fastest combination of grid and tolerance with a median error below that
 of the column; - where 80 elements are not enough.
 """
 
@@ -184,11 +184,11 @@ def make(rows, command, eps):
     for r in rows:
         missing[r["kind"]] = missing.get(r["kind"], 0) + r["missing"]
     told = ", ".join(f"{kind} {n}" for kind, n in missing.items() if n) or "none"
-    parts = [head, f"Solutions left out, because they or the reference did not converge: {told}.\n",
+    parts = [head, f"Solutions excluded because they or the reference did not converge: {told}.\n",
              "## Forces, EPS = 1e-5\n", *by_kind(rows, eps[1]),
-             "\n## What an error of the forces costs\n",
+             "\n## Cost of an accuracy of the forces\n",
              PRICES, *prices(rows, 0.5),
-             "\nThe same for 95 % of the contacts and positions.\n", *prices(rows, 0.95),
-             "\n## Other totals\n", "Relative errors, with order 2 where it acts.\n", *other_totals(rows, eps[1]),
+             "\nThe same for 95 % of the contacts and offsets.\n", *prices(rows, 0.95),
+             "\n## Other totals\n", "Relative errors, with order 2 where it applies.\n", *other_totals(rows, eps[1]),
              "\n## Tolerance\n", "Medians over all kinds.\n", *tolerances(rows, eps)]
     return "\n".join(parts) + "\n", draw(rows, eps[1])

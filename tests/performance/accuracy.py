@@ -123,32 +123,32 @@ def table(points):
     return "\n".join(out)
 
 
-TEXT = """# What accuracy costs
+TEXT = """# Accuracy against time
 
-Written by `sh tests/performance/accuracy.sh`; {machine}. Seconds are processor time of one thread
+Written by `sh tests/performance/accuracy.sh`; {machine}. Times are processor time of one thread
 for a case that starts from zero on a grid that is already set up.
 
 ![error against seconds](accuracy.svg)
 
-Each dot is one grid with one tolerance; the lines join, for each method, the combinations that no
-other combination beats. Where an error changes its sign between grids it can be small by luck, so
-single points far below their neighbours mean nothing. Errors below 1e-8 are drawn there. References
-from a finest grid carry an error of their own, about half the one of the grid before.
+Each dot is one grid with one tolerance; for each method the lines join the combinations that no
+other combination beats in both time and error. An error that changes its sign between grids can be small
+by chance: single points far below their neighbours are not significant. Errors below 1e-8 are drawn at 1e-8.
+References from a finest grid have an error of their own, about half that of the next coarser grid.
 
-- *Normal problem*: a ball on a flat, approach prescribed; errors in the force and in the largest
+- *Normal problem*: a ball on a flat, approach prescribed; errors of the force and of the largest
   pressure against Hertz's solution.
-- *Steady rolling*: the first contact of the benchmark, with Hertz's pressures given. The forces
-  are compared relative to the friction bound, the largest traction relative to its own value;
+- *Steady rolling*: the first contact of the benchmark, with Hertz's pressures. Errors of forces
+  are relative to the friction bound, that of the largest traction to its own value;
   reference: 320 x 320 elements, tolerance 1e-9.
 - *Shift*: the same contact shifted by (5, -3) micrometres.
 - *Complete case*: normal and tangential problem of a contact of 6 x 4 mm as in a creep-force table,
-  with the true pressures (B=0), given ones (B=2, B=3) or approximate ones (B=5, B=6, from the approach of the reference),
-  and with simplified theory instead of the complete one (M=3, M=5); reference: 283 x 283 elements, B=0, M=0,
-  tolerance 1e-9. Parabolical pressures are the bound of the simplified theory and not an
-  approximation of the true ones; their error does not vanish, nor do those of the other approximations.
+  with the full normal problem (B=0), prescribed pressures (B=2, B=3) or approximate ones (B=5, B=6, from the approach of the
+  reference), and with simplified theory instead of the full one (M=3, M=5); reference: 283 x 283 elements, B=0, M=0,
+  tolerance 1e-9. Parabolic pressures are the traction bound of the simplified theory, not an
+  approximation of the true ones; their error does not converge to zero, nor do those of the other approximations.
 
 The tolerance is that of each method: a bound on the true residual for Newton-Krylov, on the last
-update for the classical ones.
+update for the classical methods.
 
 """
 

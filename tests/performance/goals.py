@@ -26,12 +26,12 @@ TITLES = {"rolling": "Steady rolling, normal and tangential problem", "normal": 
 
 TEXT = """## Goals
 
-Part of `sh tests/performance/accuracy.sh`, alone with `--goals`. {contacts} random contacts at {places} places of the grid each,
-in a window of 1.1 times the contact. Errors are the largest of FX, FY, relative to the friction bound, and MZ, relative to
-that times the root of a b; reference: {middle} x {middle} and {fine} x {fine} elements extrapolated, which moves the finer
-one by {doubt:.0e} in the median. The normal problem has the approach prescribed, Hertz's force is exact. Both orders take
-turns. Times are medians, processor time of one thread; the first case of its size makes plans and influence coefficients
-as well.
+Part of `sh tests/performance/accuracy.sh`; `--goals` runs this part alone. {contacts} random contacts at {places} offsets of the grid each,
+in a potential contact 1.1 times as long as the contact. The error is the largest of those of FX and FY, relative to the friction
+bound, and MZ, relative to the bound times the root of a b; reference: {middle} x {middle} and {fine} x {fine} elements, extrapolated, which changes the finer
+one by {doubt:.0e} in the median. In the normal problem the approach is prescribed, and Hertz's force is exact. Both orders are run
+alternately. Times are medians, processor time of one thread; the first case of its size includes the set-up of plans and influence
+coefficients.
 """
 
 
@@ -109,7 +109,7 @@ def rows_of(samples, exact, motion, order, sizes, with_half=False):
 
 def report(tables, motion):
     """Lines of Markdown: what each size has, and what reaches the goals."""
-    lines = [f"### {TITLES[motion]}", "", "| " + " | ".join(["elements along the window", "EPS", *(
+    lines = [f"### {TITLES[motion]}", "", "| " + " | ".join(["elements along a side", "EPS", *(
         f"{name}: rms error | ms | ms, first of its size" for name in tables)]) + " |", "|---" * (2 + 3 * len(tables)) + "|"]
     for n in SIZES:
         cells = []
@@ -117,7 +117,7 @@ def report(tables, motion):
             found = [r for r in rows if r[0] == n]
             cells += [f"{found[0][1]:.1e}", f"{1e3 * found[0][2]:.3g}", f"{1e3 * found[0][3]:.3g}"] if found else ["-"] * 3
         lines.append(f"| {n} | {eps_of(n):.0e} | " + " | ".join(cells) + " |")
-    lines += ["", "| error asked | " + " | ".join(f"{name}: elements, error, ms" for name in tables) + " | goal |",
+    lines += ["", "| error required | " + " | ".join(f"{name}: elements, error, ms" for name in tables) + " | goal |",
               "|---" * (2 + len(tables)) + "|"]
     for error, goal in GOALS[motion]:
         cells, best = [], math.inf
