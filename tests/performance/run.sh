@@ -47,8 +47,8 @@ measure_rail() {
 
 # shellcheck disable=SC2086,SC2016  # marks of Markdown
 measure() {
-  printf '# What cases cost\n\n'
-  printf 'Written by `sh tests/performance/run.sh --write`; how to read and repeat it: [performance](../develop/performance.md).\n\n'
+  printf '# Computing times\n\n'
+  printf 'Written by `sh tests/performance/run.sh --write`; columns and repetition: [how to measure speed](../develop/performance.md).\n\n'
   printf 'Commit %s, %s, %s processors, %s.\n\n' \
     "$(git -C "$top" rev-parse --short HEAD 2>/dev/null || echo unknown)" "$(date -u +%Y-%m-%d)" \
     "$(getconf _NPROCESSORS_ONLN)" "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)"
