@@ -1,10 +1,11 @@
 """Errors of simplified methods against the full theory: python3 approximate.py [--count N] [--seed S] [--wheels N] [--check]
 
-Random ellipses, with creepages or forces prescribed, are solved by Fastsim and FaStrip with pressures by Hertz, and by the full
-theory on two fine grids whose totals are extrapolated. Printed is the error of the forces by method, elements and kind of contact:
-without spin, with less spin than creepage, with more. With wheels, the same for KPEC and ANALYN on S1002 and 60E1. They are where
-the bounds in src/cases/approximate_methods.f90 come from. With --check a small sample asks for accuracies and allows simplified
-methods: the command fails where an error is above what was asked for, or where none is chosen. CONTACT_PROGRAM names the program.
+Random ellipses, with prescribed creepages or forces, are solved by Fastsim and FaStrip with Hertzian pressures, and by the full
+theory on two fine grids whose totals are extrapolated. The output is the error of the forces by method, elements and kind of
+contact: without spin, with less spin than creepage, with more. With --wheels the same for KPEC and ANALYN on S1002 and 60E1. The
+bounds in src/cases/approximate_methods.f90 are taken from these results. --check solves a small sample with a requested accuracy
+and simplified methods allowed; it fails if an error exceeds the request, or if no simplified method is chosen. CONTACT_PROGRAM
+names the program.
 """
 import argparse
 import math
@@ -23,7 +24,7 @@ METHODS = ("fastsim", "fastrip")
 SIZES = (14, 20, 40)
 #: Methods for wheels on rails: pressures, and theory of the tractions
 WHEEL_METHODS = (("full", "elastic"), ("kpec", "elastic"), ("analyn", "elastic"), ("kpec", "fastrip"), ("full", "fastrip"))
-#: What the check asks for
+#: Accuracies requested by --check
 ASKED = (0.1, 0.06)
 
 
@@ -37,13 +38,13 @@ def simplified(text, c, n, method):
 
 
 def share_of_spin(c):
-    """How much of the motion is spin, 0 to 1."""
+    """Fraction of the motion that is spin, 0 to 1."""
     spin = abs(c["spin"]) * math.sqrt(c["a"] * c["b"])
     return spin / (spin + math.hypot(*c["creep"]))
 
 
 def kind_of(c):
-    """Kind of contact that errors are told for."""
+    """Kind of contact by which errors are grouped."""
     if c["tangential"] != "creepages":
         return "forces prescribed" + (", spin" if abs(c["spin"]) > 0.0 else "")
     share = share_of_spin(c)
@@ -51,7 +52,7 @@ def kind_of(c):
 
 
 def random_contacts(source, count):
-    """Contacts of all kinds; semi-axes from 0.2 to 5 to each other."""
+    """Contacts of all kinds; ratios of the semi-axes from 0.2 to 5."""
     found = []
     while len(found) < count:
         c = contact(source, source.choice(["rolling", "rolling", "reverse", "forces"]))
@@ -125,7 +126,7 @@ def allowed(c, text, n):
 
 
 def misses(program, asked, folder):
-    """Complaints about accuracies with simplified methods allowed, "" when there are none."""
+    """Failures of accuracies with simplified methods allowed, "" for none."""
     source = random.Random(asked.seed)
     contacts = [contact(source, "normal") for _ in range(4)] + random_contacts(source, 24)
     contacts = [c for c in contacts if 0.2 <= c["a"] / c["b"] <= 5.0]
@@ -158,7 +159,7 @@ def main():
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--reference", type=int, default=40, help="elements along each side of the coarser reference grid")
-    parser.add_argument("--check", action="store_true", help="a small sample of accuracies; fail where they are missed")
+    parser.add_argument("--check", action="store_true", help="a small sample of accuracies; fail if one is not reached")
     asked = parser.parse_args()
     program = os.environ["CONTACT_PROGRAM"]
     with tempfile.TemporaryDirectory() as name:

@@ -1,9 +1,9 @@
-"""Accuracy that was asked for against true errors: python3 asked.py [--count N] [--wheels N] [--seed S] [--asked 1e-2] [--check]
+"""Requested accuracies against true errors: python3 asked.py [--count N] [--wheels N] [--seed S] [--asked 1e-2] [--check]
 
 Random contacts, and wheels on rails, are solved with --accuracy and on two fine fixed grids with offsets of their own, whose totals
-are extrapolated. Printed is by accuracy and kind of contact: how many true errors are below what was asked for, their size, and the
-time beside that of the best fixed grid: the coarsest one with which as many contacts have so small an error. With --check the
-command fails where too few do. CONTACT_PROGRAM names the program.
+are extrapolated. Output by accuracy and kind of contact: the number of true errors below the request, their size, and the time
+beside that of the best fixed grid, the coarsest one with which as many contacts have an error below the request. --check fails if
+too few errors are below the request. CONTACT_PROGRAM names the program.
 """
 import argparse
 import math
@@ -19,13 +19,13 @@ from errors import last_cases, patch_of, run, scale_of
 
 #: Kinds of contacts whose grid can be chosen
 KINDS = (*(k for k in CHANGES if k != "transient"), "shifts")
-#: Fixed grids that are tried: elements along each side
+#: Fixed grids for comparison: elements along each side
 FIXED = (12, 14, 17, 20, 24, 28, 34, 40, 48, 56, 68, 80, 96, 112, 136, 160)
-#: The same of wheels: factors of the elements of a case, which have 0.3 to 0.7 mm
+#: The same for wheels: factors of the number of elements of a case, which have 0.3 to 0.7 mm
 FIXED_WHEELS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0)
-#: What the suite asks for: part of the contacts whose true error is below what was asked for, and largest error relative to that
+#: Bounds of the test: fraction of the contacts whose true error is below the request, and largest error relative to the request
 BOUNDS = (0.97, 3.0)
-#: Totals that count, with the order of the extrapolation of the reference where the discretisation is of second order
+#: Totals that are compared, with the order of the extrapolation of the reference where the discretisation is of second order
 COUNTED = {"fn": 2, "pen": 2, "fx": 2, "fy": 2, "mz": 2, "cksi": 2, "ceta": 2, "shift_x": 2, "shift_y": 2}
 
 
@@ -37,7 +37,7 @@ def timed(*what):
 
 
 def exact_totals(c, records):
-    """Extrapolated totals of both reference grids, and by how much the finer one differs from them, relative."""
+    """Extrapolated totals of both reference grids, and largest relative difference of the finer one from them."""
     middle, fine = (patch_of(r, 1) for r in ({1: records[0]}, {1: records[1]}))
     if None in (middle, fine):
         return None
@@ -69,7 +69,7 @@ def contact_errors(contacts, records, exact):
 
 
 def judge_contacts(program, asked, folder):
-    """Rows (contact, accuracy, error, what was told, doubt of the reference), seconds by accuracy, grids (n, errors, seconds)."""
+    """Rows (contact, accuracy, error, report, uncertainty of the reference), seconds by accuracy, grids (n, errors, seconds)."""
     source = random.Random(asked.seed)
     contacts = [contact(source, asked.kinds[k % len(asked.kinds)]) for k in range(asked.count)]
     reference = []
@@ -92,7 +92,7 @@ def judge_contacts(program, asked, folder):
 
 
 def wheel_of(records, number):
-    """Totals of a wheel that was solved, with those of its patches that are needed."""
+    """Totals of a solved wheel, with the required ones of its patches."""
     record = records.get(number)
     if not record or not record.get("converged") or not record["patches"]:
         return None
@@ -148,7 +148,7 @@ def judge_wheels(program, asked, folder):
 
 
 def value_of(told, name, default=math.nan):
-    """A value of the group of a record."""
+    """A value of a group of a record."""
     value = told.get(name, default)
     return value["value"] if isinstance(value, dict) else value
 
@@ -179,12 +179,12 @@ def table(rows, seconds, fixed):
     return lines
 
 
-HEADING = ("| asked | kind | contacts | reached by the estimate | of these true [%] | median error | largest | ms | all grids over "
-           "the last | best fixed grid: ms |\n|---|---|---|---|---|---|---|---|---|---|")
+HEADING = ("| requested | kind | contacts | reached by estimate | true error below [%] | median error | largest | ms | all grids "
+           "over the last | best fixed grid: ms |\n|---|---|---|---|---|---|---|---|---|---|")
 
 
 def misses(rows):
-    """Complaints about accuracies that were promised and missed, "" when there are none."""
+    """Failures: accuracies reported as reached whose true error is larger; "" for none."""
     complaints = []
     said = [row for row in rows if math.isfinite(row[4])]
     if any(not value_of(row[3], "reached", False) for row in said):
@@ -197,7 +197,7 @@ def misses(rows):
 
 
 def parser_of(description):
-    """Options that tell which contacts are drawn and what is asked of them."""
+    """Options for the choice of contacts and the requested accuracies."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--count", type=int, default=0, help="number of contacts")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails")
@@ -212,8 +212,8 @@ def main():
     """Study or test."""
     parser = parser_of(__doc__)
     parser.add_argument("--fixed", action="store_true", help="compare with fixed grids")
-    parser.add_argument("--list", action="store_true", help="name the contacts that miss what was asked")
-    parser.add_argument("--check", action="store_true", help="a small sample; fail where bounds are missed")
+    parser.add_argument("--list", action="store_true", help="list the contacts that miss the request")
+    parser.add_argument("--check", action="store_true", help="a small sample; fail if bounds are missed")
     asked = parser.parse_args()
     if asked.check:
         asked.count, asked.wheels, asked.seed, asked.asked, asked.reference = 20, 4, 5, "1e-2,2e-3", 40
@@ -231,7 +231,7 @@ def main():
             print("\n".join((HEADING, *table(rows, seconds, fixed))), flush=True)
             for c, tolerance, error, told, doubt in rows:
                 if asked.list and (error > tolerance or not value_of(told, "reached", False)):
-                    print(f"{c['kind']} asked {tolerance:g}: error {error:.1e}, reference {doubt:.0e}, "
+                    print(f"{c['kind']} requested {tolerance:g}: error {error:.1e}, reference {doubt:.0e}, "
                           + ", ".join(f"{key} {value_of(told, key)}" for key in told))
             failures += misses(rows)
     if asked.check:

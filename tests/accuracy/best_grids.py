@@ -1,12 +1,12 @@
-"""What --accuracy costs beside the cheapest fixed grid of each contact: python3 best_grids.py [--count N] [--wheels N] [--seed S]
+"""Cost of --accuracy beside the fastest fixed grid of each contact: python3 best_grids.py [--count N] [--wheels N] [--seed S]
 
-The contacts of asked.py with the same seed. Each is solved with --accuracy, and on fixed grids from coarse to fine, by the second
-order where it acts, without estimates and with the same tolerance of the solvers, until the true error is below what was asked, in
-each of its cases where these are a series.
-Times are user and system time of a process with one contact, the least of some, without that of a process that solves nothing: from
-scratch, with influence coefficients and plans of transforms. With --further they are those of one more contact in the same file,
-which finds plans, and on a fixed grid coefficients, too. With --instructions counts of valgrind take the place of times, which
-other work on the machine does not change. Printed is by accuracy and kind the ratio of the sums. CONTACT_PROGRAM names the program.
+The contacts of asked.py with the same seed. Each is solved with --accuracy, and on fixed grids from coarse to fine, with second
+order where it applies, without estimates and with the same tolerance of the solvers, until the true error is below the request;
+for a series in each of its cases. Times are user and system time of a process with one contact, the smallest of several runs,
+without that of a process that solves nothing; they include influence coefficients and plans of transforms. With --further they are
+those of one more contact in the same file, which reuses plans, and on a fixed grid also coefficients. --instructions replaces
+times by counts of valgrind, which do not depend on other processes. The output is the ratio of the sums by accuracy and kind.
+CONTACT_PROGRAM names the program.
 """
 import math
 import os
@@ -22,11 +22,11 @@ from cost import processor_time
 from error_cases import contact, text_of, wheel, wheel_text
 from errors import patch_of, run
 
-#: How often a contact is solved more, and repeated
+#: Number of further copies of a contact, and of repeated runs
 COPIES, RUNS = 4, 3
 #: Time of a process that solves nothing [s], whether further contacts are measured, and whether instructions are counted
 START = {"seconds": 0.0, "further": False, "instructions": False}
-#: Instructions that count as a second
+#: Instructions counted as one second
 PER_SECOND = 1e9
 #: Finer grids than those of asked.py, for kinds of first order
 FINEST = (190, 226, 270, 320)
@@ -44,14 +44,14 @@ def cpu_of(*what):
 
 
 def counted(program, folder, name, options=()):
-    """Instructions of a run of a file that is there, as seconds."""
+    """Instructions of a run of an existing file, as seconds."""
     command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, *options, "--quiet", "--json", "2", name]
     done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
     return int(re.search(r"refs: +([0-9,]+)", done.stderr).group(1).replace(",", "")) / PER_SECOND
 
 
 def seconds_of(program, folder, text, options):
-    """Records of one contact, and what it, or one more of them, takes [s]."""
+    """Records of one contact, and its time or that of one more of them [s]."""
     if START["instructions"]:
         records = run(program, folder, "one", [text], False, options)
         one = counted(program, folder, "one", options)
@@ -68,7 +68,7 @@ def seconds_of(program, folder, text, options):
 
 
 def compare(text_at, sizes, error, program, folder, tolerance):
-    """Seconds, true error and report with --accuracy; and seconds and size of the cheapest fixed grid, infinite for none."""
+    """Seconds, true error and report with --accuracy; seconds and size of the fastest fixed grid, infinite for none."""
     records, seconds = seconds_of(program, folder, text_at(sizes[len(sizes) // 2], 1e-5), ("--accuracy", str(tolerance)))
     true, told = error(records)
     for size in sizes:
@@ -79,7 +79,7 @@ def compare(text_at, sizes, error, program, folder, tolerance):
 
 
 def contacts_compared(program, asked, folder):
-    """Rows (kind, tolerance, what `compare` finds) of random contacts."""
+    """Rows (kind, tolerance, result of `compare`) of random contacts."""
     source = random.Random(asked.seed)
     for c in [contact(source, asked.kinds[k % len(asked.kinds)]) for k in range(asked.count)]:
         references = [run(program, folder, "reference", [text_of(c, n, (source.random(), source.random()), 1e-7)], False,
@@ -100,7 +100,7 @@ def contacts_compared(program, asked, folder):
 
 
 def wheels_compared(program, asked, folder):
-    """The same of wheels on rails."""
+    """The same for wheels on rails."""
     source = random.Random(asked.seed)
     profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
     for c in [wheel(source) for _ in range(asked.wheels)]:
@@ -125,7 +125,7 @@ def main():
     """Measure and print."""
     parser = parser_of(__doc__)
     parser.add_argument("--list", action="store_true", help="a line for each contact")
-    parser.add_argument("--further", action="store_true", help="times of one more contact instead of those from scratch")
+    parser.add_argument("--further", action="store_true", help="times of one more contact in the same file")
     parser.add_argument("--instructions", action="store_true", help="instructions [1e6] instead of times [ms]")
     asked = parser.parse_args()
     asked.kinds = asked.kinds.split(",")
@@ -144,9 +144,9 @@ def main():
                 rows.append(row)
                 kind, tolerance, seconds, true, told, best, size = row
                 if asked.list:
-                    print(f"{kind} asked {tolerance:g}: {1e3 * seconds:.1f} ms, error {true:.1e}, best {size} {1e3 * best:.1f} ms, "
+                    print(f"{kind} at {tolerance:g}: {1e3 * seconds:.1f} ms, error {true:.1e}, best {size} {1e3 * best:.1f} ms, "
                           + ", ".join(f"{key} {value_of(told, key)}" for key in told), flush=True)
-    print("| asked | kind | contacts | true [%] | no fixed grid | ms of all | best fixed grids: ms of all | ratio |\n"
+    print("| requested | kind | contacts | error below [%] | no fixed grid | ms of all | best fixed grids: ms of all | ratio |\n"
           "|---|---|---|---|---|---|---|---|")
     for tolerance in asked.asked:
         for kind in ("all", *dict.fromkeys(row[0] for row in rows)):

@@ -1,8 +1,8 @@
-"""What `contact explain` tells of the cost of an accuracy, and what it takes: python3 cost.py [--count N] [--wheels N] [--seed S]
+"""Cost of an accuracy as predicted by `contact explain`, and measured: python3 cost.py [--count N] [--wheels N] [--seed S]
 
-Each random contact is a process of its own; its processor time, without that of a process that solves nothing, is compared with the
-seconds that are told beforehand, and so are the elements. Printed is by kind and by accuracy: the median of told over taken, its
-deciles, and the part within a factor of two. CONTACT_PROGRAM names the program.
+Each random contact is solved in a separate process. Its processor time, without that of a process that solves nothing, is compared
+with the predicted seconds, and its elements with the predicted ones. Output by kind and by accuracy: median of predicted over
+measured time, its deciles, and the fraction within a factor of two. CONTACT_PROGRAM names the program.
 """
 import argparse
 import json
@@ -19,14 +19,14 @@ from pathlib import Path
 from asked import KINDS
 from error_cases import contact, text_of, wheel, wheel_text
 
-#: Runs of which the quickest counts: other work on the machine only adds
+#: Number of runs, of which the fastest counts: other processes only add time
 RUNS = 3
 #: A run that takes longer is not repeated [s]
 LONG = 0.5
 
 
 def processor_time(command, folder):
-    """Processor time of a process [s], and what it says."""
+    """Processor time of a process [s], and its output."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=dict(os.environ, OMP_NUM_THREADS="1"))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -34,7 +34,7 @@ def processor_time(command, folder):
 
 
 def quickest(command, folder):
-    """The least of some runs [s]."""
+    """The shortest of several runs [s]."""
     times = []
     while len(times) < RUNS and (not times or times[-1] < LONG):
         times.append(processor_time(command, folder)[0])
@@ -42,7 +42,7 @@ def quickest(command, folder):
 
 
 def compare(program, folder, text, accuracy, start):
-    """Seconds told and taken, elements told and taken."""
+    """Seconds predicted and measured, elements predicted and used."""
     (folder / "x.toml").write_text(text)
     asked = ("--accuracy", str(accuracy))
     words = processor_time([program, "explain", *asked, "x.toml"], folder)[1]
@@ -91,7 +91,7 @@ def main():
                 if asked.raw:
                     print(kind, word, *rows[-1][2], flush=True)
     print(f"A process that solves nothing takes {1e3 * start:.1f} ms.\n")
-    print("| | cases | taken, median [ms] | told over taken | deciles | within a factor of 2 [%] | elements [%] |")
+    print("| | cases | measured, median [ms] | predicted over measured | deciles | within a factor of 2 [%] | elements [%] |")
     print("|---" * 7 + "|")
     for k in (0, 1):
         for value in dict.fromkeys(r[k] for r in rows):

@@ -1,6 +1,6 @@
 """Random contacts of many kinds, as cases of the readable format on any grid.
 
-A contact is a dictionary that knows nothing of elements: geometry, loads, motion, friction, materials. `text_of` writes it for a
+A contact is a dictionary without a grid: geometry, loads, motion, friction, materials. `text_of` writes it for a
 number of elements along each side and an offset of the grid, so that the same contact can be solved on any grid.
 """
 import math
@@ -21,7 +21,7 @@ def elliptic(g):
 
 
 def curvatures(a, b, modulus, fn):
-    """Coefficients of x**2 and y**2 that make Hertz's ellipse have the semi-axes a and b under the force fn."""
+    """Coefficients of x**2 and y**2 for a Hertzian ellipse with the semi-axes a and b under the force fn."""
     g = min(a, b) / max(a, b)
     bb, dd, _, e = elliptic(g)
     ratio = g * g * dd / bb
@@ -37,7 +37,7 @@ def contact(random, kind):
     p0 = random.uniform(0.002, 0.01) * shear
     fn = 2.0 * math.pi * a * b * p0 / 3.0
     mu = random.uniform(0.1, 0.6)
-    # creepage at which about all of a contact slides
+    # creepage of about full sliding
     full = mu * p0 / shear * math.sqrt(a * b) * 4.0 * (1.0 - poisson) / max(a, 0.5 * b)
     angle = random.uniform(0.0, 2.0 * math.pi)
     size = full * math.exp(random.uniform(math.log(0.05), math.log(1.2)))
@@ -59,7 +59,7 @@ def _normal(random, c, b1, b3, full):
 
 
 def _by_approach(c, b1, b3):
-    """The approach of Hertz's theory instead of the force."""
+    """Prescribe the Hertzian approach instead of the force."""
     g = min(c["a"], c["b"]) / max(c["a"], c["b"])
     _, _, k, e = elliptic(g)
     c.update(normal="approach", pen=min(c["a"], c["b"]) ** 2 * (b1 + b3) * k / e)
@@ -80,7 +80,7 @@ def _dissimilar(random, c, b1, b3, full):
 
 
 def _profile(random, c, b1, b3, full):
-    """A circle along x, across it a profile that is no parabola: flat, skew, or with two parts."""
+    """A circle along x, and across it a non-parabolic profile: flat, skew, or with two parts."""
     b, n = c["b"], 2001
     amplitude, waves, phase = random.uniform(0.1, 0.5), random.uniform(0.8, 2.5), random.uniform(0, 6.28)
     y1, dy = -4.0 * b, 8.0 * b / (n - 1)
@@ -117,12 +117,12 @@ def _heat(random, c, b1, b3, full):
 
 
 def _transient(random, c, b1, b3, full):
-    # a step is about an element of the coarsest grid and stays that on finer ones
+    # a step is about one element of the coarsest grid, with the same length on finer ones
     c.update(motion="transient_rolling", steps=4, dq=0.15 * c["a"])
 
 
 def _steps(random, c, b1, b3, full):
-    """The same in steps from less than an element to many, up to the eighth."""
+    """The same with steps of less than one to many elements, up to eight of them."""
     c.update(motion="transient_rolling", steps=random.choice([1, 2, 3, 5, 8]),
              dq=c["a"] * math.exp(random.uniform(math.log(0.06), math.log(0.5))))
 
@@ -140,7 +140,7 @@ def _fastsim(random, c, b1, b3, full):
 
 
 def _unlike(random, c, b1, b3, full):
-    """Bodies from alike to very unlike, friction from next to none to much, creepages around those that pressures drive."""
+    """Bodies from similar to very dissimilar, very low to high friction, creepages around those caused by the pressures."""
     mu, ratio = math.exp(random.uniform(math.log(1e-3), math.log(0.6))), math.exp(random.uniform(0.1, math.log(10.0)))
     p0 = 1.5 * c["fn"] / (math.pi * c["a"] * c["b"])
     driven = 0.3 * p0 / c["gg"][0] * (1 - 1 / ratio)
@@ -151,7 +151,7 @@ def _unlike(random, c, b1, b3, full):
 
 
 def _extreme(random, c, b1, b3, full):
-    """From next to no creepage to sliding fast, and spin alone."""
+    """From very small creepage to far beyond full sliding, and pure spin."""
     size = full * math.exp(random.uniform(math.log(1e-3), math.log(20.0)))
     angle = random.uniform(0, 2 * math.pi)
     c["creep"] = random.choice([(0.0, 0.0), (size * math.cos(angle), size * math.sin(angle)), (size, 0.0), (0.0, size)])
@@ -160,7 +160,7 @@ def _extreme(random, c, b1, b3, full):
 
 
 def _warm(random, c, b1, b3, full):
-    """Friction that follows the temperature of the surface."""
+    """Friction that depends on the surface temperature."""
     _heat(random, c, b1, b3, full)
     c["creep"] = tuple(10.0 * x for x in c["creep"])
     if random.random() < 0.5:
@@ -170,7 +170,7 @@ def _warm(random, c, b1, b3, full):
 
 
 def _shifts(random, c, b1, b3, full):
-    """Four shifts, each from where the one before ended, in other directions and with other loads."""
+    """Four shifts, each continuing the previous one, with other directions and loads."""
     _shift(random, c, b1, b3, full)
     c["steps"] = 4
     size = math.hypot(*c["creep"])
@@ -179,7 +179,7 @@ def _shifts(random, c, b1, b3, full):
 
 
 def _slender(random, c, b1, b3, full):
-    """Ellipses of 1:4 to 1:10, either way, by Hertz's formula for the mean of the semi-axes and the creepages of sliding."""
+    """Ellipses of 1:4 to 1:10 in both directions, with the given mean of the semi-axes and creepages relative to full sliding."""
     ratio, mean = random.uniform(4.0, 10.0) ** random.choice([-0.5, 0.5]), math.sqrt(c["a"] * c["b"])
     larger = max(mean * ratio, mean / ratio) / max(c["a"], 0.5 * c["b"])
     c.update(a=mean * ratio, b=mean / ratio, creep=tuple(v / larger for v in c["creep"]))
@@ -188,7 +188,7 @@ def _slender(random, c, b1, b3, full):
 
 
 def _spun(random, c, full):
-    """With spin, from a tenth of that of full sliding to twice as much."""
+    """With spin, 0.1 to 2 times that of full sliding."""
     c["spin"] = random.choice([-1, 1]) * full / math.sqrt(c["a"] * c["b"]) * math.exp(random.uniform(math.log(0.1), math.log(2.0)))
 
 
@@ -210,7 +210,7 @@ def _viscoelastic_spin(random, c, b1, b3, full):
 
 
 def _falling_forces(random, c, b1, b3, full):
-    """Friction that falls with slip, forces below its lower value, half of the contacts with one of them and spin."""
+    """Falling friction, forces below its kinetic value; half of the contacts with one prescribed force and spin."""
     _falling(random, c, b1, b3, full)
     _forces(random, c, b1, b3, full)
     c["force"] = tuple(0.65 * v for v in c["force"])
@@ -220,7 +220,7 @@ def _falling_forces(random, c, b1, b3, full):
 
 
 def _one_force(random, c, b1, b3, full):
-    """FX prescribed, with creepage across and spin."""
+    """FX prescribed, with lateral creepage and spin."""
     c.update(tangential="fx_and_ceta", force=(random.uniform(-0.9, 0.9), c["creep"][1]))
     _spun(random, c, full)
 
@@ -238,23 +238,23 @@ def _two(random, c, b1, b3, full):
 CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _forces, "dissimilar": _dissimilar,
            "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
            "transient": _transient, "reverse": _reverse}
-#: Kinds that are further out, not part of the tables
+#: Kinds with extreme parameters, not part of the tables
 FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps,
            "slender": _slender, "layer_spin": _layer_spin, "dissimilar_spin": _dissimilar_spin,
            "viscoelastic_spin": _viscoelastic_spin, "falling_forces": _falling_forces, "one_force": _one_force, "two": _two}
-#: Kinds that the second order is not made for: a layer, and steps that stay what they are on finer grids
+#: Kinds without second order: a layer, and steps of the same length on finer grids
 FIRST_ORDER = ("layer", "layer_spin", "transient", "steps")
 
 
 def stress_points(c):
-    """Points below the surface, about where stresses are largest."""
+    """Points below the surface, near the largest stresses."""
     depth, x, y = min(c["a"], c["b"]), c["a"] / 3.0, c["b"] / 3.0
     return ["[case.stress_output]", "matfil_s = 0", "output_s = 0", "[[case.stress_points]]", 'points = "free"',
             f"x = {[-x, 0.0, x]}", f"y = {[-y, 0.0, y]}", f"z = {[0.4 * depth, 0.6 * depth, 0.9 * depth]}"]
 
 
 def text_of(c, n, offset, eps=1e-6, options=""):
-    """The cases of a contact on n elements along each side; the grid is shifted by parts of an element."""
+    """The cases of a contact on n elements along each side; the grid is shifted by fractions of an element."""
     length_x, length_y = 2 * c["margin"] * c["a"], 2 * c["margin"] * c["b"]
     dx, dy = length_x / n, length_y / n
     xl, yl = -0.5 * length_x + (offset[0] - 0.5) * dx, -0.5 * length_y + (offset[1] - 0.5) * dy

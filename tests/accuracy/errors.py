@@ -1,11 +1,11 @@
 """Estimated against true errors of random contacts: python3 errors.py [--count N] [--seed S] [--kinds a,b] [--check [further]]
 
 Each contact is solved with --errors on a grid of random size and offset, and on grids of 3 and 6 times as many elements along each
-side, whose totals are extrapolated. Printed is the distribution of the effectivity, the estimated error over the true one, by kind
+side, whose totals are extrapolated. The output is the distribution of the effectivity, the estimated over the true error, by kind
 of contact and by total. With --places N each contact is solved on N grids of other offsets, and a second table has the effectivity
-over the root of the mean square of the errors of these; wheels, whose grids cannot be moved, have elements of N sizes instead.
---acceptance makes the table of 400 contacts and 100 wheels at four places, and tells which totals miss the bounds that are wanted.
-With --check the command fails where the bounds of the suite are missed.
+relative to the rms error of these; for wheels, whose grids cannot be moved, elements of N sizes replace the offsets.
+--acceptance makes the table of 400 contacts and 100 wheels at four offsets, and lists the totals that miss the goals.
+--check fails if the bounds of the test are missed.
 CONTACT_PROGRAM names the program.
 """
 import argparse
@@ -22,22 +22,22 @@ from error_cases import CHANGES, FIRST_ORDER, contact, text_of, wheel, wheel_tex
 
 #: Sides of the finer grids
 FINER = (3, 6)
-#: What the suite asks for with a fixed seed: least and most effectivity of all contacts, part of them within 0.3 to 5
+#: Bounds of the test with a fixed seed: smallest and largest effectivity of all contacts, fraction of them within 0.3 to 5
 BOUNDS = {"forces": (0.1, 30.0, 0.8), "pen": (0.1, 30.0, 0.9), "fn": (0.1, 10.0, 0.9), "contact_area": (0.1, 20.0, 0.85),
           "pmax": (0.1, math.inf, 0.75), "creepages": (0.1, 10.0, 0.6), "friction_power": (0.2, 30.0, 0.9),
           "elastic_energy": (0.1, math.inf, 0.7), "max_mises": (0.2, math.inf, 0.85), "max_tresca": (0.2, math.inf, 0.85)}
-#: The same of the kinds that are further out, by the second order; contacts of them may have no result
+#: The same for the kinds with extreme parameters, second order; some of these contacts may have no result
 FURTHER_BOUNDS = {"forces": (0.1, math.inf, 0.5), "pen": (0.1, math.inf, 0.5), "pmax": (0.1, math.inf, 0.5),
                   "contact_area": (0.1, 20.0, 0.8), "friction_power": (0.2, math.inf, 0.6), "elastic_energy": (0.3, math.inf, 0.5),
                   "max_mises": (0.25, math.inf, 0.6), "max_tresca": (0.25, math.inf, 0.6)}
-#: The same of contacts whose estimates lied once: what pressures drive in unlike bodies, friction that takes what they give
+#: The same for contacts whose estimates were once too small: tractions due to pressures of dissimilar bodies, layers, relaxation
 COUPLED_BOUNDS = {"forces": (0.3, 10.0, 0.9), "friction_power": (0.3, 20.0, 0.8)}
 #: Their kinds, and numbers among the first sixty with their seed
 COUPLED, COUPLED_SEED = ("layer", "layer_spin", "viscoelastic", "viscoelastic_spin", "dissimilar", "dissimilar_spin"), 8101
 THOSE_THAT_LIED = (16, 22, 23, 59)
-#: Other offsets that are tried for a finer grid on which the second order ends as the first
+#: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
-#: What is wanted: part of the estimates within 0.3 to 5 of the error, and the least of all; and contacts and wheels that show it
+#: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
 WANTED, ACCEPTANCE = (0.95, 0.1), (400, 100)
 #: Sizes of the elements of wheels at the places of a grid, relative to those of the case
 WHEEL_PLACES = (1.0, 0.97, 1.03, 1.06)
@@ -82,7 +82,7 @@ def patch_of(records, number):
 
 
 def scale_of(name, totals, c):
-    """What the error of a total is relative to."""
+    """Scale of the relative error of a total."""
     if name in ("fx", "fy"):
         return totals["mu_scal"] * totals["fn"]
     if name == "mz":
@@ -93,7 +93,7 @@ def scale_of(name, totals, c):
 
 
 def judge(program, seed, count, kinds, limits, folder, options, places=1, only=()):
-    """Relative true errors and estimates of all totals of all contacts, or of some, in all places of the grid with a result."""
+    """Relative true errors and estimates of all totals of all contacts, or of some, at all offsets of the grid with a result."""
     source = random.Random(seed)
     contacts = [dict(contact(source, kinds[k % len(kinds)]), stresses=True) for k in range(count)]
     sizes = [source.randrange(*limits) for _ in contacts]
@@ -103,7 +103,7 @@ def judge(program, seed, count, kinds, limits, folder, options, places=1, only=(
     def solve(factor, chosen):
         texts = [text_of(contacts[k], sizes[k] * factor, (source.random(), source.random()), eps=1e-6 if factor == 1 else 1e-7)
                  for k in chosen]
-        # the largest stresses are totals where errors are asked for
+        # with --errors the largest stresses are totals
         records = run(program, folder, f"level{factor}", texts, True, options)
         return [patch_of(records, last) for last in last_cases([contacts[k] for k in chosen])]
 
@@ -113,7 +113,7 @@ def judge(program, seed, count, kinds, limits, folder, options, places=1, only=(
     coarse += [solve(1, everyone) for _ in range(1, places)]
     for _ in range(OTHER_OFFSETS):
         for factor, patches in finer.items():
-            # two grids of different schemes tell no limit
+            # two grids of different schemes have no common limit
             left = [k for k in everyone if None not in (levels := [finer[f][k] for f in FINER])
                     and patches[k]["order"] < max(patch["order"] for patch in levels)]
             for k, patch in zip(left, solve(factor, left) if left else []):
@@ -126,14 +126,14 @@ def values_of(c, patches, second):
     """Estimated and true relative errors of the totals of a contact, and those of the finest grid; none where one has no result."""
     if None in patches or "errors" not in patches[0] or len({patch["order"] for patch in patches[1:]}) > 1:
         return None
-    # a step that happens to be an element of the first grid is of the second order there alone
+    # a step of exactly one element of the first grid is of second order on that grid only
     if c["motion"] == "transient_rolling" and patches[0]["order"] > patches[1]["order"]:
         return None
     ratio = (FINER[1] / FINER[0]) ** (2 if second and c["kind"] not in FIRST_ORDER else c["order"])
     values = {}
     for key, estimate in patches[0]["errors"].items():
         name = key.removesuffix("_error")
-        # points below the surface are too near to it for one of the grids
+        # points below the surface that are too close to it on one of the grids
         if name == key or not all(name in patch["totals"] for patch in patches):
             continue
         coarse, middle, fine = (patch["totals"][name] for patch in patches)
@@ -144,7 +144,7 @@ def values_of(c, patches, second):
 
 
 def judge_wheels(program, seed, count, folder, options, places=1):
-    """The same for wheels on rails: forces in track coordinates and heights, and more of single patches."""
+    """The same for wheels on rails: forces in track coordinates and heights, and further totals of single patches."""
     source = random.Random(seed)
     wheels = [wheel(source) for _ in range(count)]
     profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
@@ -178,7 +178,7 @@ def ratio_of(records, name, order, scale):
 
 
 def groups_of(values):
-    """Errors of the totals, those of the tangential forces together: the largest relative ones."""
+    """Errors of the totals; for the tangential forces the largest relative one."""
     forces = [values[name] for name in FORCES if name in values]
     groups = {}
     if forces:
@@ -191,7 +191,7 @@ def groups_of(values):
 
 
 def over_places(places):
-    """Groups of a contact in all places of the grid: estimated, true and finest errors, and the rms of the true ones."""
+    """Groups of a contact at all offsets of the grid: estimated, true and finest errors, and the rms of the true ones."""
     grouped = [groups_of(values) for values in places]
     for values in grouped:
         for name, value in values.items():
@@ -200,7 +200,7 @@ def over_places(places):
 
 
 def line_of(title, pairs, against=1):
-    """One line of a table: number, quantiles of the effectivity, parts within the bounds; against errors of that column."""
+    """One line of a table: number, quantiles of the effectivity, fraction within the bounds; against the errors of a column."""
     ratios = sorted(pair[0] / max(pair[against], 1e-12) for pair in pairs)
     n = len(ratios)
 
@@ -216,7 +216,7 @@ def line_of(title, pairs, against=1):
 
 
 def misses(by_total, unsolved, bounds):
-    """Complaints about estimates beyond bounds, "" when there are none."""
+    """Failures: estimates outside the bounds; "" for none."""
     complaints = [f"{unsolved} contacts have no result"] if unsolved else []
     for name, (least, most, part) in bounds.items():
         ratios = [pair[0] / max(pair[1], 1e-12) for pair in by_total[name]]
@@ -228,7 +228,7 @@ def misses(by_total, unsolved, bounds):
 
 
 def verdict(by_total, against):
-    """Totals whose estimates miss what is wanted, with errors of that column."""
+    """Totals whose estimates miss the goals, against the errors of a column."""
     missed = []
     for name, pairs in by_total.items():
         ratios = [pair[0] / max(pair[against], 1e-12) for pair in pairs]
@@ -251,13 +251,13 @@ def main():
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
     parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled"),
-                        help="contacts on small grids: usual ones, others, or unlike bodies; fail where bounds are missed")
-    parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails besides")
+                        help="contacts on small grids: usual ones, extreme ones, or dissimilar bodies; fail if bounds are missed")
+    parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
     parser.add_argument("--places", type=int, default=1, help="number of offsets of the grid for each contact")
-    parser.add_argument("--acceptance", action="store_true", help="400 contacts and 100 wheels at four places")
-    parser.add_argument("--list", action="store_true", help="name the contacts whose estimates miss the bounds")
+    parser.add_argument("--acceptance", action="store_true", help="400 contacts and 100 wheels at four offsets")
+    parser.add_argument("--list", action="store_true", help="list the contacts whose estimates miss the bounds")
     asked = parser.parse_args()
     if asked.check == "usual":
         asked.count, asked.seed, asked.sizes = 36, 11, "15,24"
@@ -292,10 +292,10 @@ def main():
     for group, pairs in by_total.items():
         print(line_of(group, pairs))
     if asked.places > 1:
-        print(f"\nAgainst the root of the mean square of {asked.places} places of the grid:\n\n{HEADING}")
+        print(f"\nAgainst the rms error of {asked.places} offsets of the grid:\n\n{HEADING}")
         for group, pairs in by_total.items():
             print(line_of(group, pairs, against=3))
-        print(f"\nAgainst the error of the same grid {verdict(by_total, 1)}.\nAgainst the root of the mean square "
+        print(f"\nAgainst the error of the same grid {verdict(by_total, 1)}.\nAgainst the rms error "
               f"{verdict(by_total, 3)}.\n\n{HEADING}")
     if asked.check == "usual":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), BOUNDS) or 0)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Orders of steady rolling on other contacts than ellipses of like bodies: the second table of doc/validation/second_order.md
 
-second_order_study.py [name ...]; about a minute for each. The environment tells CONTACT_PROGRAM.
+second_order_study.py [name ...]; about a minute for each. CONTACT_PROGRAM names the program.
 """
 import json
 import os
@@ -15,7 +15,7 @@ import numpy as np
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 OFFSETS = np.vstack([[0.0, 0.0], np.random.default_rng(5).uniform(-0.5, 0.5, (9, 2))])
 STEEL = "0.28 0.28 82000 82000"
-# coefficients of x2 and y2 of an ellipse of 3 x 5 mm under 30 kN
+# coefficients of x2 and y2 for an ellipse of 3 x 5 mm under 30 kN
 ELLIPSE = ["1 1", "0.002436996253160624 0 0.001130294718810031 0 0 0"]
 
 

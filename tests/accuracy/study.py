@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Error against processor time over random contacts of both modules: python3 study.py [--contacts N] [--offsets K] [--write FOLDER]
 
-Contacts of each kind are solved on several grids, each at random offsets by parts of an element, with both orders of steady rolling
-and two tolerances. Errors are those against finer grids, extrapolated; times those of the program, reading and writing
-included. Printed are the medians and 95 % lines; with --write the page accuracy_study.md and its picture are made in a folder
-(doc/validation). With --check a small sample is judged, as the suite does. CONTACT_PROGRAM names the program.
+Contacts of each kind are solved on several grids, each at random offsets by fractions of an element, with both orders of steady
+rolling and two tolerances. Errors are taken against finer grids, extrapolated; times are those of the program including input and
+output. The output is medians and 95 % quantiles; --write makes the page accuracy_study.md and its picture in a folder
+(doc/validation). --check tests a small sample, as ctest does. CONTACT_PROGRAM names the program.
 """
 import argparse
 import json
@@ -22,17 +22,17 @@ import study_page
 from error_cases import contact, curvatures, text_of, wheel, wheel_text
 
 PROFILES = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-#: Elements along each side of the window, and those of the references
+#: Elements along each side of the potential contact, and those of the references
 GRIDS, REFERENCE = (10, 14, 20, 28, 40, 56, 80), (80, 160)
-#: Length of the elements of a wheel on a rail [mm] as many of the above would have in a contact of 12 mm
+#: Length of the contact of a wheel on a rail [mm] along which the elements are counted
 WHEEL_WINDOW = 12.0
 TOLERANCES = (1e-3, 1e-5)
-#: Orders of the totals of the references where the second order of steady rolling does not act
+#: Orders of the totals of the references where the second order of steady rolling does not apply
 FIRST, SECOND = 1, 2
 
 
 def elliptic(source, c, b1, b3, full):
-    """Ratios of the semi-axes of 0.1 to 10, the area as it was drawn."""
+    """Ratios of the semi-axes of 0.1 to 10, with the area unchanged."""
     ratio = math.exp(source.uniform(math.log(0.1), math.log(10.0)))
     side, p0 = math.sqrt(c["a"] * c["b"]), c["fn"] / c["a"] / c["b"]
     old = max(c["a"], 0.5 * c["b"])
@@ -46,7 +46,7 @@ def elliptic(source, c, b1, b3, full):
 
 
 def two_patches(source, c, b1, b3, full):
-    """Two ridges side by side, the second one a little lower."""
+    """Two ridges side by side, the second one slightly lower."""
     b, n, lower = c["b"], 2001, source.uniform(0.0, 0.1)
     y1, dy = -4.0 * b, 8.0 * b / (n - 1)
     heights = [b3 * (abs(y1 + k * dy) - 1.1 * b) ** 2 + (lower * b3 * b * b if y1 + k * dy > 0.0 else 0.0) for k in range(n)]
@@ -55,7 +55,7 @@ def two_patches(source, c, b1, b3, full):
     c["margin"] = 2.0
 
 
-#: Kinds of the study: title, and what makes a contact of them
+#: Kinds of the study: title, and function that makes a contact
 KINDS = {"elliptic": elliptic, "profile": None, "two patches": two_patches, "falling": None, "viscoelastic": None, "layer": None,
          "heat": None, "dissimilar": None, "forces": None, "reverse": None, "transient": None, "shift": None, "normal": None,
          "wheel on rail": None}
@@ -84,7 +84,7 @@ def seconds_of(command, folder):
 
 
 def solve(folder, contacts, n, order, eps, offsets):
-    """Totals of each contact at each offset, None where there is no result, and processor seconds per contact."""
+    """Totals of each contact at each offset, None without a result, and processor seconds per contact."""
     (folder / "a.toml").write_text("\n".join(texts_of(contacts, n, eps, offsets)))
     program = os.environ["CONTACT_PROGRAM"]
     seconds, done = seconds_of([program, "--quiet", "--json", "--order", str(order), "2", "a"], folder)
@@ -103,7 +103,7 @@ def solve(folder, contacts, n, order, eps, offsets):
 
 
 def values_of(record, c):
-    """Totals relative to what their errors are compared with, by groups; the forces in track coordinates for wheels on rails."""
+    """Totals divided by the scales of their errors, by groups; for wheels on rails the forces in track coordinates."""
     totals = {name: v["value"] if isinstance(v, dict) else v for name, v in record["patches"][0]["totals"].items()}
     bound = c["mu"] * totals["fn"]
     if c["kind"] == "wheel on rail":
@@ -122,7 +122,7 @@ def values_of(record, c):
     size = bound * math.sqrt(c["a"] * c["b"])
     groups["forces"] = [totals["fx"] / bound, totals["fy"] / bound, totals["mz"] / size]
     if c["tangential"] == "fx_and_fy":
-        # as a part of what slides fully, so that they compare with forces
+        # relative to full sliding, so that they are comparable with forces
         groups["forces"] = [totals["cksi"] / c["full"], totals["ceta"] / c["full"], totals["mz"] / size]
     power = abs(totals.get("friction_power", totals.get("friction_work", 0.0)))
     groups["power"] = [math.log(power + 1e-30)]
@@ -152,7 +152,7 @@ def reference_of(folder, contacts, order, p, offsets):
 
 
 def creepage_of_sliding(c):
-    """Creepage at which about all of a contact slides."""
+    """Creepage of about full sliding."""
     p0 = 1.5 * c["fn"] / (math.pi * c["a"] * c["b"])
     return c["mu"] * p0 / c["gg"][0] * math.sqrt(c["a"] * c["b"]) * 4.0 * (1.0 - c["poiss"][0]) / max(c["a"], 0.5 * c["b"])
 
@@ -189,7 +189,7 @@ def measure(kind, count, source, offsets, grids, folder):
 
 
 def complaints(rows):
-    """What a small sample has to show: errors fall with the grid, and the second order is the better one."""
+    """Failures of a small sample: errors must decrease with refinement, and be smaller with the second order."""
     def median(kind, order, n, group="forces"):
         row = next(r for r in rows if (r["kind"], r["order"], r["n"], r["eps"]) == (kind, order, n, TOLERANCES[1]))
         return sorted(row["errors"][group])[len(row["errors"][group]) // 2]
@@ -206,11 +206,11 @@ def main():
     """Study, page, or test."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--contacts", type=int, default=16, help="number of contacts of each kind")
-    parser.add_argument("--offsets", type=int, default=3, help="positions of each grid")
+    parser.add_argument("--offsets", type=int, default=3, help="offsets of each grid")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--kinds", default=",".join(KINDS))
-    parser.add_argument("--check", action="store_true", help="a small sample, judged")
-    parser.add_argument("--rows", help="file that keeps what was measured; where it is there, the page is made from it")
+    parser.add_argument("--check", action="store_true", help="test a small sample")
+    parser.add_argument("--rows", help="file of the measured rows; if it exists, the page is made from it")
     parser.add_argument("--write", help="folder for the page and its picture")
     asked = parser.parse_args()
     grids = GRIDS

@@ -1,4 +1,4 @@
-"""Page and picture of study.py: tables of medians and 95 % lines, and error against processor time by kind of contact."""
+"""Page and picture of study.py: tables of medians and 95 % quantiles, and error against processor time by kind of contact."""
 import math
 import os
 import platform
@@ -24,22 +24,22 @@ Consequences for the user: [how exact](../user/how_exact.md). One contact with a
 
 ![error of the forces against processor time](accuracy_study.svg)
 
-The error of the forces is the largest of those of FX and FY, relative to the friction bound, and MZ, relative to the bound times the
-root of a b; with prescribed forces the errors of the creepages replace those of FX and FY, relative to the creepage of full sliding.
-References: 80 and 160 elements along a side, extrapolated, with order 2 where it applies; their own error is about 1e-5 there, and
-about 3e-4 for layers and transient rolling. In transient rolling the step is 0.15 a on every grid, and the reference is the limit of
-fine elements with that step. The number of elements is that along each side of a potential contact 1.15 times (profiles 1.9, two
-patches 2, viscoelastic 1.3 times) as long as the contact; for wheels along 12 mm.
+The error of the forces is the largest of those of FX and FY, relative to the friction bound, and MZ, relative to the bound times
+the root of a b; with prescribed forces the errors of the creepages replace those of FX and FY, relative to the creepage of full
+sliding. References: 80 and 160 elements along a side, extrapolated, with order 2 where it applies; their own error is about 1e-5
+there, and about 3e-4 for layers and transient rolling. In transient rolling the step is 0.15 a on every grid, and the reference
+is the limit of fine elements with that step. The number of elements is that along each side of a potential contact 1.15 times
+(profiles 1.9, two patches 2, viscoelastic 1.3 times) as long as the contact; for wheels along 12 mm.
 """
 
 
-PRICES = """Milliseconds, and number of elements along a side, of the fastest combination of grid and tolerance with a median error below that
-of the column; - where 80 elements are not enough.
+PRICES = """Milliseconds, and number of elements along a side, of the fastest combination of grid and tolerance with a median error
+below that of the column; - where 80 elements are not enough.
 """
 
 
 def quantile(values, q):
-    """Value that a part q of the sorted values is not above."""
+    """Quantile q of the values."""
     values = sorted(values)
     return values[min(len(values) - 1, int(q * len(values)))] if values else math.nan
 
@@ -55,7 +55,7 @@ def milliseconds(seconds):
 
 
 def find(rows, kind, order, eps, n):
-    """The row of a kind, None where it was not computed."""
+    """The row of a kind, None if it was not computed."""
     return next((r for r in rows if (r["kind"], r["order"], r["eps"], r["n"]) == (kind, order, eps, n)), None)
 
 
@@ -77,7 +77,7 @@ def by_kind(rows, eps):
 
 
 def other_totals(rows, eps):
-    """Medians and 95 % lines of the other totals by kind, with the best order there is."""
+    """Medians and 95 % quantiles of the other totals by kind, with the highest order available."""
     lines = ["| total | contact | " + " | ".join(f"{n} x {n}: median | 95 %" for n in SHOWN) + " |",
              "|---" * (2 + 2 * len(SHOWN)) + "|"]
     for group, title in TOTALS:
@@ -92,14 +92,14 @@ def other_totals(rows, eps):
 
 
 def cheapest(rows, kind, order, asked, q):
-    """Grid and seconds of the cheapest choice of grid and tolerance whose quantile of the error is below what is asked."""
+    """Row of the fastest combination of grid and tolerance whose quantile of the error is below the request."""
     good = [r for r in rows if r["kind"] == kind and r["order"] == order and r["errors"].get("forces")
             and quantile(r["errors"]["forces"], q) <= asked]
     return min(good, key=lambda r: r["seconds"], default=None)
 
 
 def prices(rows, q):
-    """What an error of the forces costs, by kind and order."""
+    """Cost of an accuracy of the forces, by kind and order."""
     lines = ["| contact | order | " + " | ".join(f"{e:g}" for e in ASKED) + " |", "|---" * (2 + len(ASKED)) + "|"]
     for kind in dict.fromkeys(r["kind"] for r in rows):
         for order in (1, 2):
@@ -114,7 +114,7 @@ def prices(rows, q):
 
 
 def tolerances(rows, eps):
-    """What a looser tolerance changes: ratios of errors and times, medians over kinds and grids."""
+    """Effect of a larger tolerance: ratios of errors and times, medians over kinds."""
     lines = ["| order | elements | error at EPS 1e-3 over that at 1e-5 | time |", "|---|---|---|---|"]
     for order in (1, 2):
         for n in SHOWN:
@@ -129,7 +129,7 @@ def tolerances(rows, eps):
 
 
 def panel(out, x0, y0, kind, rows):
-    """Error against time of one kind: medians as lines, 95 % dashed."""
+    """Error against time for one kind: medians as lines, 95 % quantiles dashed."""
     x_range, y_range = (-1, 3), (-6, 0)
 
     def x(ms):

@@ -1,4 +1,4 @@
-"""Table and picture of what accuracy costs, from the lines of performance_accuracy.
+"""Table and picture of error against time, from the output of performance_accuracy.
 
     accuracy.py FOLDER < lines      writes FOLDER/accuracy.md and FOLDER/accuracy.svg
 """
@@ -30,7 +30,7 @@ def unique(values):
 
 
 def front(points, measure):
-    """Points that no other one beats in both time and error, by time"""
+    """Points that no other one beats in both time and error, sorted by time"""
     best, kept = math.inf, []
     for point in sorted(points, key=lambda p: p["seconds"]):
         if point[measure] < best:

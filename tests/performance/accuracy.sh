@@ -1,9 +1,9 @@
 #!/bin/sh
-# What accuracy costs: sh tests/performance/accuracy.sh [--goals]
+# Error against time: sh tests/performance/accuracy.sh [--goals]
 #
-# Builds, measures for some minutes, and writes doc/validation/accuracy.md and accuracy.svg; with --goals the last part of
-# accuracy.md only, random contacts beside the goals.
-# BENCH_BUILD names a build folder that is up to date, to be used instead.
+# Builds, measures for some minutes, and writes doc/validation/accuracy.md and accuracy.svg; --goals writes only the last part of
+# accuracy.md, random contacts beside the goals.
+# BENCH_BUILD names an up-to-date build folder to be used instead of building.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"

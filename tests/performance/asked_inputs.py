@@ -1,7 +1,7 @@
-"""Time of the whole program on inputs as users write them, beside goals, the best of three runs: asked_inputs.py CONTACT SOURCE
+"""Time of the whole program on typical user inputs, beside goals, the best of three runs: asked_inputs.py CONTACT SOURCE
 
-With --instructions smaller ones of the same kinds run under valgrind, which counts what no other job of the machine changes: each
-must stay below what it took when it was measured, with a margin for other compilers and libraries.
+With --instructions smaller inputs of the same kinds run under valgrind, whose counts do not depend on other processes: each
+must stay below its known count, with a margin for other compilers and libraries.
 """
 import math
 import os
@@ -29,7 +29,7 @@ def ball(n, motion=0, solver=0, numbers="", creepages="0 0 0"):
 
 
 def remembering(sizes):
-    """The ball, of a material that relaxes over 4 mm, rolling on n x n elements for one n after the other"""
+    """The ball, of a material that relaxes over 4 mm, rolling on n x n elements for each n"""
     def one(n):
         side = 2.2*CONTACT
         return (f"3\n203100\n022120\n0000101\n999 100 30 1 1e-5\n{FORCE/2} 5e-4 0 3e-4\n0.3 0.3\n0 {side/n:.9g} 2000\n"
@@ -49,7 +49,7 @@ def wheel(digits, size, places):
 
 
 def flat(places):
-    """A wheel with a flat that turns over it, 125 kN"""
+    """A wheel that rolls over its flat, 125 kN"""
     head = ("1\n1250100\n0022033\n0000101\n999 100 30 1 1e-5\n0.3 0.3\n0.28 0.28 82000 82000\n0.4 0.4 1.0 90d 8.0 4.0\n"
             "14 0 1435 0.025\n'60E1.prr' 0 1.0 0.0\n0 0 0 0 0 0\n1360 -70 460\n'flat.slcw' 0 1.0 0.0\n"
             "0 0 125000 0 0 {pitch:.4f}d\n2000 0 0 0 0 -4.35\n")
@@ -57,7 +57,7 @@ def flat(places):
     return "".join((kept if k else head).format(pitch=-12.0 + 24.0*k/(places - 1)) for k in range(places)) + "0\n"
 
 
-#: What is run, cases, unit of the goal in seconds, goal in this unit
+#: Name, cases, unit of the goal in seconds, goal in this unit
 ROWS = [("normal problem, 3,000 elements", ball(68), 1, "ms", 8.0),
         ("normal problem, 201,000 elements", ball(557), 1, "s", 0.7),
         ("steady rolling with G = 5, 13,000 elements", ball(142, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 1, "s", 0.3),
@@ -69,7 +69,7 @@ ROWS = [("normal problem, 3,000 elements", ball(68), 1, "ms", 8.0),
         ("wheel flat, KPEC, 0.4 mm, 196 positions", flat(196), 1, "s", 2.0)]
 
 
-#: What is run, and how many millions of instructions it took besides the start of the program
+#: Name, and known millions of instructions without the start of the program
 COUNTED = [("normal problem, 3,000 elements", ball(68), 25),
            ("steady rolling with G = 5, 3,000 elements", ball(68, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 110),
            ("wheel on rail, KPEC, 0.2 mm, 5 places", wheel("1250100", 0.2, 5), 120),
@@ -77,9 +77,9 @@ COUNTED = [("normal problem, 3,000 elements", ball(68), 25),
            ("wheel on rail, KPEC, 1.0 mm, 41 places", wheel("1250100", 1.0, 41), 125),
            ("wheel flat, KPEC, 0.4 mm, 5 positions", flat(5), 563),
            ("rolling of a material that relaxes, two grids, three times each", remembering((50, 58)*3), 580)]
-#: The start alone, where HDF5 is inside the program: its shared library may bring many others along
+#: The start alone, with HDF5 linked statically: its shared library may load many others
 START = 3.6
-#: Part by which a count may be above the known one
+#: Fraction by which a count may exceed the known one
 MARGIN = 0.15
 
 
@@ -118,7 +118,7 @@ def judge_instructions(contact, folder):
 
 
 def seconds(contact, folder, text):
-    """Processor time of the best run, or what went wrong"""
+    """Processor time of the best run, or the error message"""
     with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
         file.write(text)
     best = math.inf

@@ -1,8 +1,8 @@
-/* Counts requests to the heap, and notes where they come from; linked into the benchmark only.
+/* Counts requests to the heap, and records their callers; linked into the benchmark only.
  *
- * The names of the C library are taken over by a program that defines them itself; what is left
- * of the library is called by its inner names, which glibc has and other libraries do not. There
- * the count stays at -1, "unknown". Sanitizers take over the same names and are left alone. */
+ * The benchmark defines the functions of the C library and calls the originals by their internal
+ * names, which only glibc has. With other libraries, and with sanitizers, which replace the same
+ * functions, the count is -1, "unknown". */
 #include <stddef.h>
 #include <stdio.h>
 
@@ -66,7 +66,7 @@ void bench_trace(int on)
   tracing = on;
 }
 
-/* Where the program was loaded: the first line of its map */
+/* Load address of the program: the first line of its map */
 static char *program_base(void)
 {
   unsigned long base = 0;
@@ -78,7 +78,7 @@ static char *program_base(void)
   return (char *)base;
 }
 
-/* One line per place: count and addresses, innermost first, relative to the program */
+/* One line per call site: count and addresses, innermost first, relative to the program */
 void bench_print_places(void)
 {
   int i, j;

@@ -1,8 +1,8 @@
-"""What files for other programs cost, and that a run without them costs nothing more: exports.py CONTACT [BEFORE]
+"""Cost of files for other programs, also in runs without them: exports.py CONTACT [BEFORE]
 
 A table of creep forces of 11 x 13 elements, and one of normal forces, in which every field changes: processor time per
-case (the best of three runs), size of what is written, and system calls of one more case. BEFORE is another program to
-compare a plain run with, such as one from before there were such files.
+case (the best of three runs), size of the files, and system calls of one more case. BEFORE is another program, for example
+one without such files, with which a run without options is compared.
 """
 import os
 import resource
@@ -59,7 +59,7 @@ for kind in ("creepages", "forces"):
     sizes = [0] * len(rows)
     with tempfile.TemporaryDirectory() as folder:
         write_table(os.path.join(folder, "table.inp"), CASES, kind)
-        # in turn, so that all of them see the same machine
+        # alternately, so that the conditions of the machine are the same
         for _ in range(ROUNDS):
             for k, (program, way) in enumerate(rows):
                 best[k] = min(best[k], seconds([program, "--quiet", *way, "2", "table"], folder))

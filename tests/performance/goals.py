@@ -1,9 +1,10 @@
 """Errors and times of random contacts beside their goals: goals.py PROGRAM [--contacts N] [--places N] [--seed S] [--check]
 
-PROGRAM is performance_goals. Random contacts of tests/accuracy roll steadily, and are pressed by their approach, on grids at random
-places, by both orders in turn. Rolling is judged by finer grids at places of their own, extrapolated; the normal problem by Hertz's
-solution. Printed are the rms error over contacts and places and the median time of each size, and the least size that reaches each
-goal. With --check a few contacts on small grids must have errors that belong to their order.
+PROGRAM is performance_goals. Random contacts of tests/accuracy are solved in steady rolling, and as normal problem with prescribed
+approach, on grids with random offsets, with both orders alternately. References are finer grids with offsets of their own,
+extrapolated, for rolling, and Hertz's solution for the normal problem. The output is the rms error over contacts and offsets and
+the median time of each size, and the smallest size that reaches each goal. With --check the errors of a few contacts on small
+grids must decrease according to their order.
 """
 import argparse
 import math
@@ -20,28 +21,28 @@ from error_cases import contact, curvatures, elliptic
 
 SIZES = (12, 14, 16, 18, 20, 22, 24, 25, 26, 28, 30, 32, 40, 48, 56, 60, 64, 80, 112, 160)
 REFERENCE, REFERENCE_EPS = (120, 240), 1e-7
-#: Largest error, and what it may cost [ms]
+#: Largest error, and goal for the time [ms]
 GOALS = {"rolling": ((1e-3, 0.8), (1e-4, 10.0), (3e-5, 50.0)), "normal": ((1e-4, 1.5),)}
 TITLES = {"rolling": "Steady rolling, normal and tangential problem", "normal": "Normal problem"}
 
 TEXT = """## Goals
 
-Part of `sh tests/performance/accuracy.sh`; `--goals` runs this part alone. {contacts} random contacts at {places} offsets of the grid each,
-in a potential contact 1.1 times as long as the contact. The error is the largest of those of FX and FY, relative to the friction
-bound, and MZ, relative to the bound times the root of a b; reference: {middle} x {middle} and {fine} x {fine} elements, extrapolated, which changes the finer
-one by {doubt:.0e} in the median. In the normal problem the approach is prescribed, and Hertz's force is exact. Both orders are run
-alternately. Times are medians, processor time of one thread; the first case of its size includes the set-up of plans and influence
-coefficients.
+Part of `sh tests/performance/accuracy.sh`; `--goals` runs this part alone. {contacts} random contacts at {places} offsets of
+the grid each, in a potential contact 1.1 times as long as the contact. The error is the largest of those of FX and FY, relative
+to the friction bound, and MZ, relative to the bound times the root of a b; reference: {middle} x {middle} and {fine} x {fine}
+elements, extrapolated, which changes the finer one by {doubt:.0e} in the median. In the normal problem the approach is
+prescribed, and Hertz's force is exact. Both orders are run alternately. Times are medians, processor time of one thread; the
+first case of its size includes the set-up of plans and influence coefficients.
 """
 
 
 def eps_of(n):
-    """Tolerance of the solvers: a part of it shows in forces, and what a grid leaves of them is some three times as large."""
+    """Tolerance of the solvers: its effect on forces is about a third of the discretisation error."""
     return max(1e-7, 0.2 / n**2)
 
 
 def numbers_of(c):
-    """The line of a contact."""
+    """The input line of a contact."""
     b1, b3 = curvatures(c["a"], c["b"], c["gg"][0] / (1.0 - c["poiss"][0]), c["fn"])
     g = min(c["a"], c["b"]) / max(c["a"], c["b"])
     _, _, k, e = elliptic(g)
@@ -108,7 +109,7 @@ def rows_of(samples, exact, motion, order, sizes, with_half=False):
 
 
 def report(tables, motion):
-    """Lines of Markdown: what each size has, and what reaches the goals."""
+    """Lines of Markdown: errors and times of each size, and the sizes that reach the goals."""
     lines = [f"### {TITLES[motion]}", "", "| " + " | ".join(["elements along a side", "EPS", *(
         f"{name}: rms error | ms | ms, first of its size" for name in tables)]) + " |", "|---" * (2 + 3 * len(tables)) + "|"]
     for n in SIZES:
@@ -136,7 +137,7 @@ def main():
     parser.add_argument("--contacts", type=int, default=30)
     parser.add_argument("--places", type=int, default=10)
     parser.add_argument("--seed", type=int, default=30)
-    parser.add_argument("--check", action="store_true", help="a small sample; fail where errors do not belong to their order")
+    parser.add_argument("--check", action="store_true", help="a small sample; fail if errors do not follow their order")
     asked = parser.parse_args()
     sizes, reference = SIZES, REFERENCE
     if asked.check:
@@ -152,10 +153,10 @@ def main():
     if asked.check:
         errors = [[r[1] for r in rows] for rows in (rolling["order 1"], rolling["order 2"], normal["normal force"])]
         print(errors)
-        # first order halves, second order quarters, with the jitter of so few contacts
+        # first order halves, second order quarters, with the scatter of few contacts
         good = errors[0][1] < 0.8 * errors[0][0] and all(e[1] < 0.5 * e[0] for e in errors[1:])
         good = good and errors[1][1] < 0.3 * errors[0][1]
-        sys.exit(0 if good else "errors do not fall as their order says")
+        sys.exit(0 if good else "errors do not decrease according to their order")
     print(TEXT.format(contacts=asked.contacts, places=asked.places, middle=reference[0], fine=reference[1], doubt=doubt))
     print("\n".join(report(rolling, "rolling") + report(normal, "normal")), end="")
 

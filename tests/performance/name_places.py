@@ -1,7 +1,7 @@
 """Names the places of `performance_bench --allocations`: name_places.py PROGRAM < its output
 
 Prints a table of requests to the heap per case, with the innermost frames that have a name in
-the project. Needs addr2line (binutils); lines stay numbers without it.
+the project. Without addr2line (binutils) addresses are printed as numbers.
 """
 import re
 import subprocess

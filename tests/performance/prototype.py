@@ -1,9 +1,9 @@
-"""Seconds of this solver against those of the numpy prototype, for the same problems in the same run.
+"""Time of this solver against that of the numpy prototype, for the same problems in the same run.
 
     prototype.py [--large] PROGRAM [FOLDER OF THE PROTOTYPE]
 
-Prints a table in markdown. Processor time of one thread, the shortest of a few runs, both sides in
-turn. Exit status 77 when numpy, scipy or the prototype are not there.
+Prints a Markdown table. Processor time of one thread, the shortest of several runs, both programs
+alternately. Exit status 77 if numpy, scipy or the prototype is not available.
 """
 import contextlib
 import io
@@ -38,7 +38,7 @@ except ImportError as error:
 sys.path.insert(0, folder)
 sys.dont_write_bytecode = True
 
-# the program of nested iteration runs its own table when it is imported: take its definitions only
+# the program of nested iteration prints its own table when imported: use its definitions only
 with open(os.path.join(folder, "nested_preconditioned.py"), encoding="utf-8") as file:
     source = file.read().split("\nfor name,geom,kw in")[0]
 nested_program = {}
@@ -64,7 +64,7 @@ def prototype_creepages(n, geometry, creepages):
 
 
 def prototype_forces(n, force):
-    # its setting up of coefficients is counted too, as in the nested program
+    # the set-up of coefficients is included, as in the nested program
     start = time.process_time()
     problem = sn.Prob(n, n, *BASE, ksi=0, phi=3e-4)
     problem.nfft = 0
@@ -73,7 +73,7 @@ def prototype_forces(n, force):
 
 
 def ours(name, n):
-    """Milliseconds with and without setting up, as printed by --case"""
+    """Milliseconds with and without set-up, as printed by --case"""
     out = subprocess.run([program, "--case", name, str(n)], capture_output=True, text=True, check=True).stdout.split()
     return float(out[0])/1000, float(out[1])/1000
 

@@ -6,7 +6,7 @@
 #   --write    puts the result into doc/validation/performance.md
 #   sections   setup normal rolling shift classical line table rail; without any: all of them, the
 #              whole program, requests to the heap, and the comparison with the prototype
-# BENCH_BUILD names a build folder that is up to date, to be used instead of building.
+# BENCH_BUILD names an up-to-date build folder to be used instead of building.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"
@@ -36,7 +36,7 @@ OMP_NUM_THREADS=1
 OPENBLAS_NUM_THREADS=1
 export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
 
-# Wheel on rail writes the slices of its crossing where it runs
+# performance_rail writes the slices of its crossing to the current folder
 measure_rail() {
   scratch=$(mktemp -d) || return 1
   (cd "$scratch" && "$programs/tests/performance_rail" "$top")
@@ -74,7 +74,7 @@ measure() {
   "$bench" --allocations | python3 "$here/name_places.py" "$bench"
   printf '\n## Against the numpy prototype\n\n'
   case $options in
-    *--quick*) echo "Left out by --quick." ;;
+    *--quick*) echo "Omitted by --quick." ;;
     *--large*) python3 "$here/prototype.py" --large "$bench" "$prototype" ;;
     *) python3 "$here/prototype.py" "$bench" "$prototype" ;;
   esac

@@ -1,14 +1,14 @@
-/* A vehicle of four wheelsets that runs over a straight track: one call of the library per wheel and time step.
+/* A vehicle of four wheelsets on a straight track: one call of the library per wheel and time step.
  *
  * usage: vehicle FOLDER_OF_PROFILES [--check] [--derivatives] [--simplified] [--calls FILE] [STEPS]
  *
- * With --simplified tractions are those of Fastsim and FaStrip, on pressures of the full theory, of KPEC and of ANALYN.
- * With --derivatives the derivatives of the forces are asked for after each call, and their time is told beside that of the call.
+ * --simplified uses the tractions of Fastsim and FaStrip, with pressures of the full theory, of KPEC and of ANALYN.
+ * --derivatives requests the derivatives of the forces after each call, and reports their time beside that of the call.
  *
- * Tells the distribution of the processor time of calls, with the goals of doc/validation/performance.md, and how often they ask
- * for memory. With --calls every call has a line in a file, for vehicle_calls.py. With --check it judges what does not depend
- * on the machine: forces do not depend on the calls before beyond the tolerance, they are smooth, no call fails, and the
- * later calls ask for no memory as a rule. */
+ * Prints the distribution of the processor time of calls, with the goals of doc/validation/performance.md, and their requests to
+ * the heap. --calls writes a line for every call to a file, for vehicle_calls.py. --check tests what does not depend
+ * on the machine: forces depend on the previous calls only within the tolerance, they are smooth, no call fails, and most of the
+ * later calls request no memory. */
 #define _POSIX_C_SOURCE 200809L
 #include <caddon_flags.h>
 #include <contact.h>
@@ -23,7 +23,7 @@ enum { wheels = 8, sweep = 80 };
 static const double pi = 3.14159265358979323846, radius = 460.0, speed = 25000.0, eps = 1e-5, load = 62500.0;
 static const int whole = -1, zero = 0;
 static const char *folder;
-/* M and B of all set-ups: the theory of tractions and that of pressures */
+/* M and B of all set-ups: theory of the tractions and of the pressures */
 static int theory = 0, pressures = 0;
 static int failures = 0;
 static FILE *calls;
@@ -35,7 +35,7 @@ static void check(int condition, const char *what, double value) {
   printf("FAILED %s: %g\n", what, value);
 }
 
-/* Where a wheelset is, and how it moves [mm, rad, s] */
+/* Position and velocity of a wheelset [mm, rad, s] */
 typedef struct {
   double y, yaw, roll, vy, vyaw, vpitch, fz;
 } position;
@@ -56,13 +56,13 @@ static void profile(int ire, const char *name) {
   cntc_setprofileinputfname(&ire, path, &length, &three, numbers, &two, reals);
 }
 
-/* A wheel on the left or on the right rail; P says what a case continues */
+/* A wheel on the left or on the right rail; P selects what a case continues */
 static void set_up(int ire, int left, double side, int p) {
   const int one = 1, two = 2, four = 4, five = 5, seven = 7, nine = 9, three = 3, eleven = 11, type = -1;
   const int flags[] = {CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_ic_pvtime,
                        CNTC_ic_norm,  CNTC_ic_output, CNTC_ic_flow, CNTC_ic_discns, CNTC_ic_bound};
   const int values[] = {CNTC_un_cntc, left ? 0 : 1, 3, p, 1, 0, 0, 2, pressures}, limits[] = {999, 100, 30, 1};
-  /* what simplified theory asks for besides: no reduction of slopes */
+  /* additional input of simplified theory: no reduction of slopes */
   const double steel[] = {0.28, 0.28, 82000.0, 82000.0, 1.0, 0.125, 1.0}, coulomb[] = {0.35, 0.35}, no_offset = 0.0, step = 1.0;
   const double grid[] = {side, side, pi / 2, 8.0, 4.0}, set[] = {1360.0, -70.0, radius};
   const double track[] = {14.0, 0.0, 1435.0, 0.025, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -95,7 +95,7 @@ static int step(int ire, position at, double *force) {
   return error;
 }
 
-/* Hunting into the flanges, over an uneven track, with loads that swing between the wheels; 1 ms per step */
+/* Hunting up to flange contact, on an uneven track, with loads that alternate between the wheels; 1 ms per step */
 static position on_the_way(int wheel, int k) {
   const double t = 1e-3 * k, w = 2 * pi * 1.3, late = 0.9 * (wheel / 2), a = 4.9, b = 0.0021;
   position at;
@@ -114,13 +114,13 @@ static int compare(const void *a, const void *b) {
   return x < y ? -1 : x > y;
 }
 
-/* A goal beside what was measured [ms]; 0: none */
+/* A goal beside the measured value [ms]; 0: none */
 static void judge(double measured, double goal) {
   if (goal > 0.0) printf(" %g: %s |", goal, measured <= goal ? "met" : "MISSED");
   else printf(" |");
 }
 
-/* Requests to the heap in the later half of the calls of a way: how many calls there are, and mean, median and 99 % of them */
+/* Requests to the heap in the second half of the calls of a run: number of calls; mean, median and 99 % of the requests */
 typedef struct {
   int n;
   double mean, median, most;
@@ -136,7 +136,7 @@ static request_count count_requests(double *each, int n) {
   return count;
 }
 
-/* All wheels through all steps: the distribution of the time of calls [ms], with goals for the median, for 99 of 100 and for all */
+/* All wheels, all steps: distribution of the time of calls [ms], with goals for the median, for 99 % and for the largest */
 static void drive(double side, int steps, const double *goal) {
   double *time = malloc(sizeof(double) * (size_t)(wheels * steps)), force[6], sum = 0.0, from;
   double *requests = malloc(sizeof(double) * (size_t)(wheels * steps));
@@ -156,7 +156,7 @@ static void drive(double side, int steps, const double *goal) {
         fprintf(calls, "%g %d %d %.5f %.15g %.15g %.15g\n", side, wheel, k, time[wheels * k + wheel], force[0], force[1], force[2]);
       missed += fabs(force[2] / on_the_way(wheel, k).fz - 1.0) > eps;
     }
-  /* tractions of simplified theory jump where elements enter the contact: some forces cannot be met */
+  /* tractions of simplified theory jump when elements enter the contact: some forces cannot be reached */
   if (theory == 0) check(unsolved + missed == 0, "calls that fail, or miss the vertical force", unsolved + missed);
   else if (missed > 0) printf("%d calls miss the vertical force by more than EPS, %d of them end so\n", missed, unsolved);
   for (wheel = 1; wheel <= wheels; wheel++) cntc_finalize(&wheel);
@@ -174,7 +174,7 @@ static void drive(double side, int steps, const double *goal) {
   free(requests);
 }
 
-/* Along the way of a wheel with starting values from the step before, and from nothing */
+/* A wheel with starting values from the previous step, and without */
 static void compare_with_fresh(int wheel, double side, int from, int steps, int p) {
   double force[6], fresh[6], worst = 0.0;
   int k, i;
@@ -194,8 +194,8 @@ static void compare_with_fresh(int wheel, double side, int from, int steps, int 
   check(worst <= 0.5 * eps, "forces depend on the past", worst);
 }
 
-/* Requests to the heap of two wheels through a whole hunting wave and one more: none in the median of the second one, and few in
- * the mean. Bounds of the mean are twice what was measured, or more: which sizes of windows occur for the first time is chance */
+/* Requests to the heap of two wheels in two hunting waves: none in the median of the second one, and few in the mean. Bounds of
+ * the mean are at least twice the measured value: which sizes of windows occur for the first time is random */
 static void judge_requests(double side, double most) {
   enum { steps = 220, stride = 7, some = 2 };
   double each[some * steps], force[6];
@@ -244,7 +244,7 @@ static double noise(const double *f) {
   return sqrt(sum / sweep);
 }
 
-/* Small lateral steps, as an implicit integrator takes them: FX, FY, FZ, and MZ over 1 mm */
+/* Small lateral steps, as in an implicit integrator: FX, FY, FZ, and MZ over 1 mm */
 static void judge_smoothness(double side, double y0) {
   static const int which[4] = {0, 1, 2, 5};
   static const char *name[4] = {"FX", "FY", "FZ", "MZ"};
@@ -270,7 +270,7 @@ static void judge_smoothness(double side, double y0) {
   printf(" FZ of noise\n");
 }
 
-/* The same way with the derivatives of the forces: their time beside that of the calls, of which some are in the middle of a jump */
+/* The same run with the derivatives of the forces: their time beside that of the calls, some of which are at a discontinuity */
 static void differentiate(double side, int steps) {
   double *time = malloc(sizeof(double) * (size_t)(2 * wheels * steps)), force[6], from, sum[2] = {0.0, 0.0};
   double values[CONTACT_JACOBIAN_ROWS * CONTACT_JACOBIAN_COLUMNS];
@@ -340,7 +340,7 @@ int main(int count, char **word) {
     judge_requests(1.0, 0.5);
     pressures = 6;
     compare_with_fresh(0, 1.0, 0, 24, 2);
-    /* two heights carry the force in step 63 */
+    /* the force is reached at two heights in step 63 */
     theory = 5;
     pressures = 0;
     compare_with_fresh(6, 1.0, 40, 24, 2);

@@ -1,13 +1,13 @@
-"""Calls of performance_vehicle before and after: vehicle_calls.py BEFORE AFTER [PICTURE.svg]
+"""Calls of performance_vehicle in two versions: vehicle_calls.py BEFORE AFTER [PICTURE.svg]
 
-The files are those of `performance_vehicle FOLDER --calls FILE STEPS`, of the program before and of this one. Tells how far forces
-differ, and draws how long calls take: the share of calls that take longer than a time.
+The files are those of `performance_vehicle FOLDER --calls FILE STEPS` of both versions. Prints the differences of the forces, and
+draws the fraction of calls that take longer than a given time.
 """
 import math
 import sys
 
 WIDTH, HEIGHT, LEFT, TOP, BOTTOM = 720, 420, 70, 40, 60
-#: Range of times [ms] and of shares
+#: Range of times [ms] and of fractions
 TIMES, SHARES = (0.1, 30.0), (1e-4, 1.0)
 COLOURS = {"1": "#1f77b4", "0.5": "#d62728"}
 
@@ -23,17 +23,17 @@ def read(name):
 
 
 def across(time):
-    """Place of a time [ms] in the picture"""
+    """Position of a time [ms] in the picture"""
     return LEFT + (WIDTH - LEFT - 20)*math.log(time/TIMES[0])/math.log(TIMES[1]/TIMES[0])
 
 
 def down(share):
-    """Place of a share of calls in the picture"""
+    """Position of a fraction of calls in the picture"""
     return TOP + (HEIGHT - TOP - BOTTOM)*math.log(SHARES[1]/share)/math.log(SHARES[1]/SHARES[0])
 
 
 def curve(times, colour, dashes):
-    """Share of calls that take longer, as a path"""
+    """Fraction of calls that take longer, as a path"""
     times = sorted(times)
     points = []
     for k, time in enumerate(times):
@@ -45,7 +45,7 @@ def curve(times, colour, dashes):
 
 
 def axes():
-    """Lines and words of the picture"""
+    """Lines and texts of the picture"""
     parts = []
     for time in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20):
         x = across(time)
