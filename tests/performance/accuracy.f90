@@ -1,4 +1,4 @@
-!> What accuracy costs: errors in the forces and in the peak traction against seconds
+!> Error against time: errors of the forces and of the peak traction against seconds
 !>
 !> Writes lines "group,method,elements in contact,grid,tolerance,seconds,force error,peak error" for accuracy.py.
 !> Errors are relative to the friction bound and to the peak of the reference: Hertz's solution for the

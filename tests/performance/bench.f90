@@ -1,4 +1,4 @@
-!> The benchmark: one table of what cases cost, in seconds and in pairs of transforms
+!> The benchmark: one table of the cost of cases, in milliseconds and in pairs of transforms
 !>
 !>     performance_bench [--large] [--quick] [SECTION ...]   sections: normal rolling shift classical line table setup
 !>     performance_bench --allocations [KIND [MX]]           where repeated cases ask for memory
