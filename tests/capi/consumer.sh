@@ -1,5 +1,5 @@
 #!/bin/sh
-# Install into a scratch folder, then build and run programs of others against it: by CMake package, by pkg-config
+# Install into a temporary folder, then build and run third-party programs against it: by CMake package, by pkg-config
 # with the shared and with the static library, and as callers of the published library are built, by its file names
 # usage: consumer.sh BUILD_FOLDER C_COMPILER FORTRAN_COMPILER
 # shellcheck disable=SC2086  # options are lists of words
@@ -55,7 +55,7 @@ same() {
 echo "-- file names of the published library, linked by name, by path, and as libcontact"
 "$compiler" -std=c90 $strict -I"$include" "$here/consumer/stranger.c" -o stranger_name -L"$work/prefix/bin" \
   -l:contact_addon_linux64.so -lm
-# there is no other folder in which something else could be found
+# no other folder is searched
 mkdir -p swapped
 cp "$work/prefix/bin/contact_addon_linux64.so" swapped
 LD_LIBRARY_PATH=$work/swapped ./stranger_name > stranger.txt
@@ -108,7 +108,7 @@ eval "\"\$compiler\" -Wall -Wextra -Werror \"\$here/consumer/consumer.c\" -o con
   '"-Wl,-rpath,$library_folder"'
 run shared ./consumer_shared
 
-# build_caller NAME COMPILER FILES: the library's routines, which need no module file of ours
+# build_caller NAME COMPILER FILES: the library's routines, which need no module file of the library
 build_caller() {
   name=$1
   # shellcheck disable=SC2034  # eval reads it

@@ -123,7 +123,7 @@ def told():
 
 
 def drawn(result, stresses, pair):
-    """Pictures show the values at their places"""
+    """Plots show the values at their positions"""
     raises(ValueError, lambda: result.plot("nothing"), "there are eldiv, h")
     if not has("matplotlib"):
         raises(ImportError, result.plot, "pip install matplotlib")
@@ -148,7 +148,7 @@ def drawn(result, stresses, pair):
     close(np.asarray(axes.collections[0].get_array()).reshape(3, 2), stresses.tensor[2, 2, :, 0, :], 0.0, "drawn stresses")
     check(axes.yaxis_inverted(), "depth points downwards")
     pyplot.close("all")
-    # a missing package is told in a sentence
+    # a missing package is reported in a sentence
     hidden = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "matplotlib"}
     sys.modules["matplotlib"] = None
     try:
@@ -257,7 +257,7 @@ def track(expected):
 
 
 def rates_of_pitch():
-    """A longitudinal force in place of the rate: the same contact by the rate that was found, signs, and what a free wheel has"""
+    """A longitudinal force in place of the rate: the same contact with the computed rate, signs, and the state of a free wheel"""
     braked, free, driven = (wheel(force=force) for force in (1000.0, 0.0, -1000.0))
     for result, force in ((braked, 1000.0), (free, 0.0), (driven, -1000.0)):
         close(result.forces.wheelset.force[0], force, 1e-4 * 10e3, "the force that was asked for")

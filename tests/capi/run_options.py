@@ -2,7 +2,7 @@
 """contact_run_with does what the program does: moving heat sources, angles at the contact, classical solvers, confined
 runs, one run at a time.
 
-The environment tells CONTACT_PROGRAM, CONTACT_LIBRARY and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM, CONTACT_LIBRARY and CONTACT_SOURCE.
 """
 import ctypes
 import fcntl

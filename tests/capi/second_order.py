@@ -73,7 +73,7 @@ def errors(n, creep, order, limit):
 
 
 def carter_force(n, place, order, ratio, direction):
-    """Relative force of two cylinders, long elements in one row; the place of the grid is a part of an element"""
+    """Relative force of two cylinders, long elements in one row; the offset of the grid is a fraction of an element"""
     a, p0, length = 1.0, 500.0, 1e4
     radius = a * E_STAR / (2 * p0)
     dx = 2.2 * a / n

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Python package, installed by pip with the library in it, and used far from the checkout
+# The Python package, installed by pip with the library in it, and used outside the checkout
 # usage: wheel.sh LIBRARY
 set -eu
 python3 -c "import numpy" 2> /dev/null || { echo "skipped: numpy is not installed"; exit 77; }

@@ -2,7 +2,7 @@
 """Contact problems with numbers at and between both ends of their bounds: no NaN in a result, no hang, no crash.
 
 usage: extremes.py [COUNT [SEED]]    default 150 cases, seed 1
-The environment tells CONTACT_PROGRAM; CONTACT_JOBS is the number of processes.
+The environment gives CONTACT_PROGRAM; CONTACT_JOBS is the number of processes.
 
 A case passes if it ends in time, with results that are all finite numbers or with an error message. An infinite residual of a case
 with the status "not converged" is not a result.

@@ -2,7 +2,7 @@
 """Every number of the examples replaced by an invalid or extreme one: no NaN in a result, no hang, no crash.
 
 usage: mutations.py [COUNT [SEED]]    COUNT random mutations (default 250, seed 13); "all" for every one, which takes minutes
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE; CONTACT_JOBS is the number of processes.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE; CONTACT_JOBS is the number of processes.
 
 A mutation takes one number of an example, of its first case or cases, or of a profile, and replaces it. It passes if the run ends
 in time, either with an error message or with results that are all finite numbers.

@@ -2,7 +2,7 @@
 """One number of a profile is wrong, or two rows are exchanged: reported or refused, without a large increase of the run time.
 
 usage: profile_mutations.py [COUNT [SEED]]    COUNT random mutations (default 16, seed 5) beside those that were found once
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 
 Examples run with one row of one profile changed, with and without smoothing. A run passes if it takes less than ten times the
 processor time of the correct profile and, if the point is more than 2 mm off the curve, ends in an error with the name of the file

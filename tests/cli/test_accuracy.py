@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A prescribed accuracy: choices, reports, cost, limits, refused cases
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os
@@ -57,7 +57,7 @@ class Accuracy(Runs):
         """Rollers of aluminium and steel close to full sliding: FX depends on where slip reverses, which a single element
         determines
 
-        The limit is that of 2400 and 4800 elements, at three places of the grid each, within 3e-5.
+        The limit is that of 2400 and 4800 elements, at three positions of the grid each, within 3e-5.
         """
         limit, force = 0.05474, 1e-4 * 16201.9
         case = """3 MODULE

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The program as a user meets it: texts, exit codes, modes, questions, options, files.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import os
 import pty
@@ -13,7 +13,7 @@ import unittest
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 
-# One case of a frictionless ball; {name} stands for what tests vary
+# One case of a frictionless ball; {name} is a part that tests vary
 CASE = """{module}
 {first}
 {second}

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A confined run: regular files below the folder of the experiment only, and limits of its resources.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE, and by INJECT_NO_OPENAT2 that the system has no openat2
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE, and by INJECT_NO_OPENAT2 that the system has no openat2
 (tests/faults/inject.c).
 """
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Inputs of the program: modules and result elements keep their own values, numbers have bounds, nothing is ignored silently.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os

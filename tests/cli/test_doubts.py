@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Warnings about a result: truncated contact, stresses between element centres, the kind of temperatures.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import math

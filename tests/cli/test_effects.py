@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """EFFECTS names the effects that act and no others: every effect with and without, and what did not converge in the same line.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os

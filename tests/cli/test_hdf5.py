@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """contact --hdf5: one file with all results, read by h5py and by Octave; readable after the program was killed.
 
-Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+Skipped (exit status 77) without h5py. The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import hashlib
 import os
@@ -211,7 +211,7 @@ class Hdf5(unittest.TestCase):
                     self.assertAlmostEqual(fields[field][...].sum() * area, case["patch_1/totals/" + force][()],
                                            delta=1e-6 * case["patch_1/totals/fn"][()], msg=name + force)
                 self.assertGreater(abs(total), 0.0)
-                # the contact reference lies on the rail's profile in its place in the track
+                # the contact reference lies on the rail's profile at its position in the track
                 roll, s = case["markers/roll_r"][()], -1.0 if left else 1.0
                 y, z = case["profiles/rail/y"][...], case["profiles/rail/z"][...]
                 yt = case["markers/y_r"][()] + y * np.cos(roll) - z * np.sin(roll)

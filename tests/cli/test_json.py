@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """contact --json: every case is a line of valid JSON, with the values of the .out file.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os

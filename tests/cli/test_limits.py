@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Limits of time, memory and elements; estimates before a case; early end of cases without prospect.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Rules of grids, accepted and refused: cases that continue another one, strips, rows of friction.
 
-The environment tells CONTACT_PROGRAM.
+The environment gives CONTACT_PROGRAM.
 """
 import json
 import os

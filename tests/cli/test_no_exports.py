@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Effects that are not requested cost nothing: files made by a run with and without the options for other programs.
 
-System calls are counted where strace is installed. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+System calls are counted where strace is installed. The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import os
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The order of the discretisation: --order, the key of the readable format, the report, cases that remain at order 1
 
-The environment tells CONTACT_PROGRAM.
+The environment gives CONTACT_PROGRAM.
 """
 import json
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Values in the files of results against their sources: bounds of tractions, times, names of files that cannot be written.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import math

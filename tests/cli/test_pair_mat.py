@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The .mat files of wheel on rail: both sides of a mirrored problem, several patches, friction that varies over the rail.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import os
 import subprocess

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The report of wheel and rail: every number below its name is that of the input or of the JSON record, on both sides.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import math
@@ -124,7 +124,7 @@ class PairReport(unittest.TestCase):
                             expected = value(totals["bar_mn"])
                         elif name == "MN" and "mz_elem" in totals:
                             expected = value(totals["mz_elem"])
-                        # four digits, or as many behind the point as are printed
+                        # four figures, or the number of decimals that are printed
                         decimals = len(word.split("E")[0].partition(".")[2])
                         unit = 10.0**(-decimals + (int(word.split("E")[1]) if "E" in word else 0)) if "." in word else 1.0
                         self.assertAlmostEqual(float(word), expected, delta=0.501*unit if "." in word else 1e-9, msg=(name, left))
@@ -141,7 +141,7 @@ class PairReport(unittest.TestCase):
         self.assertLessEqual(set(GIVEN) | set(GIVEN_ODD), names | {"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"})
         self.assertLessEqual(set(FOUND), names | {"FX/FN", "FS/FN", "BAR_FN", "BAR_FX", "BAR_FS", "TILDE_FN", "DY_DEFL", "DZ_DEFL"})
         self.assertNotIn("SPINXO", sides[0][0][0])
-        # finer choices of profiles stand in longer reports
+        # finer choices of profiles are printed in longer reports
         names, _sides = self.compare([dict(PLAIN, o=3)])
         self.assertLessEqual({"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"}, names)
         self.assertNotIn("MX@R(TR)", names)
@@ -188,7 +188,7 @@ class PairReport(unittest.TestCase):
                 self.assertEqual(len(right), len(left))
                 for (a, b), record in zip(zip(right, left), sides[0][1]):
                     totals = {name: value(entry) for name, entry in record["patches"][0]["totals"].items()}
-                    # the contact reference has this place in the coordinates of the elements
+                    # position of the contact reference in the coordinates of the elements
                     self.assertAlmostEqual(totals["mz"] + float(a[0])*totals["fy"] - float(a[1])*totals["fx"], totals["mz_elem"],
                                            delta=2e-3*abs(totals["mz_elem"]))
                     self.assertAlmostEqual(float(a[0]), float(b[0]), delta=1e-6 + 1e-3*abs(float(a[0])))
@@ -315,7 +315,7 @@ class PairReport(unittest.TestCase):
                 for reports, records in self.run_both(dict(PLAIN, d=d)):
                     totals = records[0]["totals"]
                     self.assertAlmostEqual(value(totals["fz_tr"]), 60000, delta=0.06)
-                    # friction at rest: what is printed are numbers, and no force is larger than friction allows
+                    # friction at rest: the report contains numbers only, and no force is larger than friction allows
                     self.assertLess(math.hypot(value(totals["fx_tr"]), 0), 0.35*60000*1.2)
                     self.assertNotIn("NaN", reports[0])
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Errors of an input are reported with line, column and name: every number of all examples.
 
-The comments of the examples name the numbers before them. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The comments of the examples name the numbers before them. The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import glob
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The program among other processes: signals, locks, streams that are closed, small limits of the system, leftovers.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import fcntl
 import json

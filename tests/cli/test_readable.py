@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The readable format: conversion in both directions, results, error messages with positions, explain
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os
@@ -222,7 +222,7 @@ class Readable(unittest.TestCase):
             self.assertIn("Expected on one thread: ", out)
             digits = re.findall(r"\b(?:C1|M2|[PBTNFSVLDCMZEHGIAOWR]) = \d|\bas \d", out)
             self.assertEqual(digits, [], name)
-            # both formats say the same
+            # both formats give the same
             other = self.run_program("explain", name.replace(".inp", ".toml"))[1]
             self.assertEqual(words(out), words(other))
 

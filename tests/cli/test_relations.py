@@ -2,7 +2,7 @@
 """Relations that every solution obeys: mirror images, exchanged bodies, other lengths, other moduli; for all kinds of materials,
 friction, motion and solvers, two cases in a row each.
 
-Factors are powers of two, so that nothing is rounded differently. The environment tells CONTACT_PROGRAM.
+Factors are powers of two, so that nothing is rounded differently. The environment gives CONTACT_PROGRAM.
 """
 import copy
 import json
@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
-# Totals and what they are multiplied with: power of length, of modulus, signs in the images x, y and with exchanged bodies
+# Totals and their factors: power of length, of modulus, signs in the images x, y and with exchanged bodies
 KINDS = {"fn": (2, 1, 1, 1, 1), "fx": (2, 1, -1, 1, -1), "fy": (2, 1, 1, -1, -1), "mz": (3, 1, -1, -1, -1), "pen": (1, 0, 1, 1, 1),
          "pmax": (0, 1, 1, 1, 1), "cksi": (0, 0, -1, 1, -1), "ceta": (0, 0, 1, -1, -1), "cphi": (-1, 0, -1, -1, -1),
          "shift_x": (1, 0, -1, 1, -1), "shift_y": (1, 0, 1, -1, -1), "rotation": (0, 0, -1, -1, -1),
@@ -235,7 +235,7 @@ class Relations(unittest.TestCase):
         self.assertGreater(len(ended), 4, ended)
 
     def test_as_many_iterations_as_are_allowed(self):
-        """A classical solver that needs n iterations ends well with MAXGS = n, and not with one less"""
+        """A classical solver that needs n iterations converges with MAXGS = n, and not with one less"""
         for name in ("ConvexGS", "SteadyGS", "GDsteady"):
             case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **CONFIGURATIONS[name])
             needed = self.solve([case])[0]["solver"]["tangential_iterations"]
@@ -270,7 +270,7 @@ class Relations(unittest.TestCase):
         self.compare(exchanged, 4)
 
     def test_moved_window(self):
-        """The same bodies at another place: creepages are those of the origin, and so is the moment"""
+        """The same bodies at another position: creepages are those of the origin, and so is the moment"""
         move = 0.75, -0.5
         names = [name for name, values in CONFIGURATIONS.items() if not values.get("b")]
         before = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **copy.deepcopy(CONFIGURATIONS[name])) for name in names]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Profiles in slices: narrow ridges, overlap far from the wheel, ends of a wheel that is out of round.
 
-Heights come from the shapes that the slices are made of. The environment tells CONTACT_PROGRAM.
+Heights come from the shapes that the slices are made of. The environment gives CONTACT_PROGRAM.
 """
 import json
 import math

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Results on large grids are identical to the last digit for all numbers of threads.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import os

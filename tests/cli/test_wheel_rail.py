@@ -2,7 +2,7 @@
 """Wheel on rail: creepages against the velocities of two rigid bodies, and messages about forces that cannot be met.
 
 Velocities come from finite differences of positions at two times, in the coordinates of the track on both of its sides:
-this file shares no formula with the program. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+this file shares no formula with the program. The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
 import math
@@ -164,7 +164,7 @@ class Velocities(Case):
             axes = about(0, delta)
             on_rail = [p["xcp_tr"], p["ycp_tr"], p["zcp_tr"]]
             on_wheel = plus(on_rail, apply(axes, [0.0, 0.0, p["pen"]]))
-            # the marker of the rail in the track, at that height at which the contact stands on its profile
+            # the marker of the rail in the track, at the height at which the contact lies on its profile
             angle = p["deltcp_tr"] - p["deltcp_r"]
             on_profile = apply(about(0, angle), [0.0, p["ycp_r"], p["zcp_r"]])
             marker = minus(on_rail, on_profile)

@@ -1,10 +1,10 @@
 #!/bin/sh
 # Rules for one language: sh lint.sh fortran|python|shell. Exit status 0: no finding; 77: the tool is not installed
 #
-# The rules, and why some are off, stand in .fortitude.toml, .ruff.toml and .shellcheckrc.
+# The rules, with reasons of those that are disabled, are in .fortitude.toml, .ruff.toml and .shellcheckrc.
 set -u
 cd "$CONTACT_SOURCE" || exit 1
-# where tests/support/setup.sh puts them
+# installed there by tests/support/setup.sh
 PATH=$CONTACT_SOURCE/build/lint/bin:$PATH
 skip() { echo "SKIPPED: there is no $1; sh tests/run.sh installs it"; exit 77; }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The pages that FORD makes of the sources, without a warning: sh pages.sh. Exit status 77: FORD is not installed
+# The pages made by FORD from the sources, without a warning: sh pages.sh. Exit status 77: FORD is not installed
 #
 # They are in build/pages/index.html.
 set -u

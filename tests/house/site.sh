@@ -1,5 +1,5 @@
 #!/bin/sh
-# The site of the manual: doc/build.sh makes it without a network and without a warning, and no link in it leads to nothing.
+# The site of the manual: doc/build.sh makes it without a network and without a warning, and without broken links.
 # Exit status 77: its tools are not installed (doc/build.sh installs them into build/site-tools).
 set -eu
 top=${CONTACT_SOURCE}
@@ -9,7 +9,7 @@ if ! "$python" -c "import sphinx, myst_parser, furo, latex2mathml, nbclient, ipy
   echo "SKIPPED: the tools of the site are not installed (sh doc/build.sh installs them)"
   exit 77
 fi
-# a network of its own has the loopback interface alone, which notebooks need
+# a separate network namespace has the loopback interface only, which notebooks need
 if unshare -n sh -c "ip link set lo up" 2>/dev/null; then
   unshare -n sh -c "ip link set lo up && exec sh '$top/doc/build.sh' '$PWD/site'"
 else

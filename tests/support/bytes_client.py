@@ -4,7 +4,7 @@
     bytes_client.py read NAME             cntc_readinpfile on an experiment of wheel and rail, then every getter
     bytes_client.py calls SCRIPT [ARG..]  a script of the Python package; each call with its results goes to calls.txt
 
-The environment tells CONTACT_LIBRARY; the package contact is found by PYTHONPATH.
+The environment gives CONTACT_LIBRARY; the package contact is found by PYTHONPATH.
 """
 import ctypes
 import inspect

@@ -27,11 +27,11 @@ module contact_test_case_builder
       type(patch_result) :: result
       type(log_type) :: log
    contains
-      !> Solve, and claim that the solvers succeed
+      !> Solve, and check that the solvers converge
       procedure :: run
-      !> Solve without any claim about convergence
+      !> Solve without a check of convergence
       procedure :: try
-      !> Free what the session holds
+      !> Release the memory of the session
       procedure :: release
    end type test_case
 
@@ -41,7 +41,7 @@ module contact_test_case_builder
    contains
       !> Uniform in [low, high]
       procedure :: uniform
-      !> Uniform in the logarithm
+      !> Logarithm uniform in the range
       procedure :: logarithmic
       !> Integer in low...high
       procedure :: whole
@@ -77,7 +77,7 @@ contains
       call release_session(self%session)
    end subroutine release
 
-   !> Normal compression with tight tolerance, what all cases below begin with
+   !> Normal compression with a tight tolerance, the initial state of all cases below
    function base_case(fn, eps) result(spec)
       !> Normal force [N]
       real(wp), intent(in) :: fn
@@ -145,7 +145,7 @@ contains
       spec%grid%form = -5
    end function line_case
 
-   !> Quadratic surfaces on a window of one's own, centred in the origin
+   !> Quadratic surfaces on a given window, centred at the origin
    function grid_case(a1, b1, fn, mx, my, dx, dy, eps) result(spec)
       real(wp), intent(in) :: a1, b1, fn
       integer, intent(in) :: mx, my
@@ -232,7 +232,7 @@ contains
       order = sum(x*y)/sum(x*x)
    end function order_of
 
-   !> Print the errors on a sequence of grids, claim their order and the error on the finest grid
+   !> Print the errors on a sequence of grids, check their order and the error on the finest grid
    subroutine observed(suite, name, h, error, order, band, finest)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: name

@@ -1,4 +1,4 @@
-!> Files that tests write for themselves
+!> Files written by tests for their own use
 module contact_test_files
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -8,7 +8,7 @@ module contact_test_files
 
 contains
 
-   !> A file that holds a text and nothing else
+   !> A file that contains a text only
    subroutine write_file(name, text)
       character(len=*), intent(in) :: name, text
       integer :: unit

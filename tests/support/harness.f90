@@ -14,7 +14,7 @@ module contact_test_harness
 
    public :: test_suite, reference_folder, environment
 
-   !> Exit status that ctest shows as "Skipped"
+   !> Exit status shown by ctest as "Skipped"
    integer, parameter :: skip_status = 77
 
    !> One suite is one program and one entry of ctest
@@ -41,7 +41,7 @@ module contact_test_harness
 
 contains
 
-   !> Give the suite its name and set all counts to zero
+   !> Set the name of the suite and all counts to zero
    subroutine start_suite(self, name)
       class(test_suite), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -55,22 +55,22 @@ contains
    !> Count one check; a failure is printed at once
    subroutine check_condition(self, condition, what)
       class(test_suite), intent(inout) :: self
-      !> What is claimed
+      !> Condition to be checked
       logical, intent(in) :: condition
-      !> The claim in words
+      !> Description of the check
       character(len=*), intent(in) :: what
 
       call count_check(self, condition, what, "")
    end subroutine check_condition
 
-   !> Claim that two numbers agree: |actual - expected| <= tolerance (times |expected| if relative)
+   !> Check that two numbers agree: |actual - expected| <= tolerance (times |expected| if relative)
    subroutine close_scalar(self, actual, expected, tolerance, what, relative)
       class(test_suite), intent(inout) :: self
       real(wp), intent(in) :: actual, expected
       !> Not negative
       real(wp), intent(in) :: tolerance
       character(len=*), intent(in) :: what
-      !> Whether the tolerance is a fraction of the expected value; default no
+      !> Is the tolerance relative to the expected value? Default no
       logical, intent(in), optional :: relative
       character(len=160) :: values
 
@@ -115,7 +115,7 @@ contains
       call self%close_array(reshape(actual, [size(actual)]), reshape(expected, [size(expected)]), tolerance, what, relative)
    end subroutine close_field
 
-   !> Claim that two integers are equal
+   !> Check that two integers are equal
    subroutine equal_integer(self, actual, expected, what)
       class(test_suite), intent(inout) :: self
       integer, intent(in) :: actual, expected
@@ -126,7 +126,7 @@ contains
       call count_check(self, actual == expected, what, trim(values))
    end subroutine equal_integer
 
-   !> Claim that two texts are equal, trailing blanks included
+   !> Check that two texts are equal, trailing blanks included
    subroutine equal_text(self, actual, expected, what)
       class(test_suite), intent(inout) :: self
       character(len=*), intent(in) :: actual, expected
@@ -139,7 +139,7 @@ contains
          & "actual """ // actual // """, expected """ // expected // """")
    end subroutine equal_text
 
-   !> Say that a part cannot run here, and why; a suite that only skips is shown as skipped
+   !> Report that a part cannot run here, with the reason; a suite that only skips is shown as skipped
    subroutine skip_part(self, what, why)
       class(test_suite), intent(inout) :: self
       character(len=*), intent(in) :: what, why
@@ -163,7 +163,7 @@ contains
       stop 1, quiet=.true.
    end subroutine finish_suite
 
-   !> Folder of the reference data, without a slash at its end; empty when it is not there
+   !> Folder of the reference data, without a slash at its end; empty if it is missing
    function reference_folder() result(folder)
       character(len=:), allocatable :: folder
       logical :: there
@@ -174,7 +174,7 @@ contains
       if (.not. there) folder = ""
    end function reference_folder
 
-   !> Value of an environment variable, empty when it is not set.
+   !> Value of an environment variable, empty if it is not set.
    !> Set by ctest: CONTACT_REFERENCE, CONTACT_SOURCE (top of the checkout), CONTACT_PROGRAM
    function environment(name) result(value)
       character(len=*), intent(in) :: name
@@ -187,8 +187,8 @@ contains
       if (length > 0) call get_environment_variable(name, value)
    end function environment
 
-   !> Whether two numbers agree; NaN agrees with nothing, an infinity with itself.
-   !> NaN is sorted out first because a comparison with it traps in debug builds.
+   !> Do two numbers agree? NaN agrees with nothing, an infinity with itself.
+   !> NaN is excluded first because a comparison with it traps in debug builds.
    pure function is_close(actual, expected, tolerance, relative) result(is_near)
       real(wp), intent(in) :: actual, expected, tolerance
       logical, intent(in), optional :: relative
@@ -203,7 +203,7 @@ contains
       if (present(relative)) then
          if (relative) allowed = tolerance * abs(expected)
       end if
-      ! Halves, so that the difference of two huge numbers does not overflow
+      ! halved, so that the difference of two huge numbers does not overflow
       is_near = abs(0.5_wp * actual - 0.5_wp * expected) <= 0.5_wp * allowed
    end function is_close
 

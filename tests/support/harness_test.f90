@@ -1,4 +1,4 @@
-!> The harness counts what it should: each failing check below is meant to fail
+!> The harness counts correctly: each failing check below is intended to fail
 program harness_test
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp

@@ -22,11 +22,11 @@ module contact_test_pair_builder
       type(wheel_rail_result) :: result
       type(log_type) :: log
    contains
-      !> Solve, and claim that there is a solution
+      !> Solve, and check that there is a solution
       procedure :: run
-      !> Solve without any claim
+      !> Solve without a check
       procedure :: try
-      !> Free what the session holds
+      !> Release the memory of the session
       procedure :: release
    end type pair_case
 
@@ -85,7 +85,7 @@ contains
       end associate
    end function railway_case
 
-   !> A cylindrical wheel across a rail of the same radius 100, which touch like a ball on a plane; both are soft
+   !> A cylindrical wheel across a rail of the same radius 100, whose contact is that of a ball on a plane; both are soft
    function ball_case(pen) result(spec)
       !> Penetration [mm]
       real(wp), intent(in) :: pen

@@ -1,6 +1,6 @@
-# What sh tests/run.sh --sanitize does; sourced by it with $top set to the checkout. Ends the shell.
+# Implementation of sh tests/run.sh --sanitize; sourced by it with $top set to the checkout. Ends the shell.
 #
-# Each part runs whatever the ones before found, and the exit status is 0 when none found anything.
+# Each part runs independent of earlier findings, and the exit status is 0 if there are none.
 # shellcheck shell=sh disable=SC2154,SC2034
 
 failures=
@@ -15,7 +15,7 @@ part() {
 # Tests of a build by their names
 tests_of() { ctest --test-dir "$top/build/$1" -N -LE '^long$' | sed -n 's/^ *Test *#[0-9]*: //p' | sort; }
 
-# Why a test does not run under the sanitizers; nothing for one that should
+# Reason why a test does not run under the sanitizers; empty for one that runs
 reason_of() {
   case $1 in
     memcheck_*) echo "is run by valgrind" ;;
@@ -48,7 +48,7 @@ build sanitize-thread -DCONTACT_TESTS=ON
 part "Thread sanitizer" env TSAN_OPTIONS=detect_deadlocks=0 OMP_NUM_THREADS=8 \
   setarch -R ctest --test-dir "$top/build/sanitize-thread" --output-on-failure -L '^threads$'
 
-# only what valgrind runs; the other tests are named here, not run
+# only tests that valgrind runs; the other tests are listed here, not run
 build_targets=memcheck
 build release -DCONTACT_TESTS=ON
 part "Valgrind" ctest --test-dir "$top/build/release" --output-on-failure -j2 -L '^memcheck$'

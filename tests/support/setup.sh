@@ -1,19 +1,19 @@
 # Set-up shared by examples/run.sh and tests/run.sh; sourced by them with $top set to the checkout.
 #
-#   install_missing    installs the compiler, tools and libraries that are not there
-#   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
-#   install_python_packages   the same for numpy, chromium and others, which only tests need; goes on without them
-#   install_axe        the same for axe-core, which judges whether everybody can use the pages; goes on without it
-#   install_valgrind   the same for valgrind, by which tests look for uninitialised values; goes on without it
+#   install_missing    installs the compiler, tools and libraries that are missing
+#   install_octave     the same for GNU Octave, for tests of matlab/; continues without it
+#   install_python_packages   the same for numpy, chromium and others, for tests only; continues without them
+#   install_axe        the same for axe-core, which checks the accessibility of the pages; continues without it
+#   install_valgrind   the same for valgrind, by which tests find uninitialised values; continues without it
 #   install_linters    the same for fortitude, ruff, shellcheck and ford, the rules for sources and their pages
 #   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
-#   build PRESET [-DX] configures and builds into build/PRESET; all of it, or what the build preset $build_targets names
+#   build PRESET [-DX] configures and builds into build/PRESET; all targets, or those of the build preset $build_targets
 # shellcheck shell=sh disable=SC2154
 
 say() { printf '%s\n' "== $*"; }
 fail() { printf '%s\n' "$*" >&2; exit 1; }
 
-# Take the first gfortran that is new enough, unless the caller named a compiler in FC. On some
+# Use the first gfortran that is new enough, unless the caller set a compiler in FC. On some
 # systems the plain name is an older one, and newer ones carry their number.
 choose_compiler() {
   [ -n "${FC:-}" ] && return 0
@@ -28,8 +28,8 @@ choose_compiler() {
   return 1
 }
 
-# Whether a Fortran program can be compiled and linked with everything the build asks for. Tried
-# with the tools of the build, because names of packages say little about what works.
+# Can a Fortran program be compiled and linked with all dependencies of the build? Tested
+# with the tools of the build, because names of packages do not show whether it works.
 everything_there() {
   command -v cmake >/dev/null 2>&1 || return 1
   choose_compiler || return 1
@@ -73,7 +73,7 @@ install_missing() {
     packages="gfortran gcc libc6-dev make cmake ninja-build pkg-config python3
       libfftw3-dev libhdf5-dev"
     apt="env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
-    # The lists of a fresh machine are empty, those of an old one out of date
+    # The lists of a new machine are empty, those of an old one out of date
     as_root apt-get update ||
       say "apt-get update failed; trying with the package lists that are there"
     as_root $apt $packages && { choose_compiler || as_root $apt gfortran-12; }
@@ -111,7 +111,7 @@ octave_there() {
 # shellcheck disable=SC2086
 install_octave() {
   octave_there && return 0
-  # never asks for a password
+  # never prompts for a password
   if [ "$(id -u)" != 0 ] && ! sudo -n true 2>/dev/null; then
     say "GNU Octave or Xvfb is missing; tests of matlab/ are skipped"
     return 0
@@ -138,15 +138,16 @@ install_octave() {
   octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
 }
 
-# What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
-# playwright for the browser, matplotlib, xarray, h5netcdf and jsonschema for results, pytest and the rest for studies. setuptools comes first: it refuses to be imported after the distutils that it replaces
+# Packages for the tests of Python: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
+# playwright for the browser, matplotlib, xarray, h5netcdf and jsonschema for results, pytest and the rest for studies. setuptools
+# comes first: it refuses to be imported after the distutils that it replaces
 python_modules="setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf, jsonschema"
 study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed, nbclient, ipykernel"
 has_python_packages() { python3 -c "import $python_modules, $study_modules" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
 install_python_packages() {
-  # What an earlier run installed
+  # Installed by an earlier run
   [ -x "$top/build/python/bin/python3" ] && PATH=$top/build/python/bin:$PATH
   export PATH
   if has_python_packages; then
@@ -171,7 +172,7 @@ install_python_packages() {
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"
 }
 
-# A package of Debian, without asking for a password
+# A package of Debian, without a prompt for a password
 quiet_apt() {
   command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } || return 1
   packages=$1
@@ -179,7 +180,7 @@ quiet_apt() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$packages"
 }
 
-# The version by which the pages were judged
+# The version used to check the pages
 axe=4.14.1
 install_axe() {
   grep -q "\"version\": \"$axe\"" "$top/build/axe/node_modules/axe-core/package.json" 2>/dev/null && return 0
@@ -197,7 +198,7 @@ install_valgrind() {
   quiet_apt valgrind || say "valgrind could not be installed; tests that need it are skipped"
 }
 
-# The versions by which the sources were judged; a folder of their own keeps python3 as it is
+# The versions used to check the sources; in a folder of their own python3 is unchanged
 linters="fortitude-lint==0.10.0 ruff==0.17.6 ford==7.0.13"
 install_linters() {
   if ! command -v shellcheck >/dev/null 2>&1; then

@@ -28,7 +28,7 @@ def case_a(ire, icp=1, units="un_cntc", eps=1e-4):
 
 
 def start(ire=1, module=3):
-    """A result element, whatever happened before"""
+    """A result element, independent of earlier ones"""
     same(cntc.initialize(ire, module)[1], 0, f"initialize {ire}")
 
 
@@ -291,7 +291,7 @@ def wrong_counts():
 
 
 def clamps():
-    """Flags that are documented to take the nearest value say so and go on; others are refused until a good one is set"""
+    """Flags that are documented to take the nearest value report it and continue; others are refused until a valid one is set"""
     start()
     start(2, 1)
     case_a(1)
@@ -349,7 +349,7 @@ def clamps():
     for values in ([0.3, 0.3], [0.3, 0.30000001]):
         cntc.setfrictionmethod(1, 1, 0, values)
         same(last_error(1, 1), (0, ""), f"L = 0, {values} needs no word")
-    # a good value that is clamped cures as well
+    # a value that is clamped to the range ends the refusal as well
     cntc.setflags(1, 1, CNTC["ic_inflcf"], 9)
     cntc.setflags(1, 1, [CNTC["ic_inflcf"], CNTC["ic_tang"]], [2, 9])
     same(cntc.calculate(1, 1), 0, "refused, made anew, and another one replaced")
@@ -372,7 +372,7 @@ def clamps():
 
 
 def refusals():
-    """A setting that is refused keeps calculations back until a good value of its kind is set, in every routine"""
+    """A refused setting prevents calculations until a valid value of its kind is set, in every routine"""
     start()
     case_a(1)
     same(cntc.calculate(1, 1), 0, "a good case")
@@ -516,7 +516,7 @@ def rail_on_wheel(ire, motion=2):
 
 
 def continued():
-    """P and I of wheel and rail act from the second case on and stay as they were set, whatever the first case makes of them"""
+    """P and I of wheel and rail act from the second case on and are kept as set, independent of their use in the first case"""
     totals = {}
     for ire, once in ((1, True), (2, False)):
         start(ire, 1)
@@ -539,7 +539,7 @@ def continued():
 
 
 def case_number():
-    """The number of a case can be set, counts on, and stands in the names of files"""
+    """The number of a case can be set, is incremented, and is part of the names of files"""
     start()
     case_a(1)
     cntc.setflags(1, 1, [CNTC["if_ncase"], CNTC["ic_matfil"]], [10, 1])
@@ -570,7 +570,7 @@ def grids():
             same(code, 0 if good else -34, f"{case}, elements of {dx} x {dy}: {told}")
             check(good or "element" in told or "differs" in told, f"{case}, elements of {dx} x {dy}: {told}")
             cntc.finalize(number)
-    # a window that moves by whole elements is good, along each side; by whole millimetres it is not
+    # a window that moves by whole elements is accepted, along each side; by whole millimetres it is not
     for x, y, good in ((0.8, 0.0, True), (0.0, 0.7, True), (-0.4, 1.05, True), (1.0, 0.0, False), (0.0, 1.0, False),
                        (0.0, -1.0, False), (-1.0, 0.0, False), (0.2, 0.0, False), (0.0, 0.175, False)):
         start(1)

@@ -16,7 +16,7 @@ _counts = {"checks": 0, "failed": 0}
 
 
 def check(condition, what):
-    """Count one claim"""
+    """Count one check"""
     _counts["checks"] += 1
     if not condition:
         _counts["failed"] += 1

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A book of creep forces for interpolation: 25 ellipses, 15 x 15 creepages, 30 spins, by several threads.
 
-The published program for this table has no printed results; what is checked is what must hold for every entry. Scaled
+The published program for this table has no printed results; conditions that hold for every entry are checked. Scaled
 creepages xi, eta, psi: the linear theory gives 3 xi, 3 eta, psi. usage: creep_force_book.py [STRIDE]
-With a stride only every so many ellipses and creepages are computed.
+With a stride n only every n-th ellipse and creepage is computed.
 """
 import sys
 from concurrent.futures import ThreadPoolExecutor

@@ -47,8 +47,8 @@ program creep_table
 
 contains
 
-   !> Print the time of the table by the numbers of threads that the arguments tell. Processor time is
-   !> that of all threads; where it stays, the speed-up is limited by free cores only.
+   !> Print the time of the table by the numbers of threads given as arguments. Processor time is
+   !> that of all threads; if it is constant, the speed-up is limited by free cores only.
    subroutine measure()
       character(len=20) :: word
       integer :: k, threads
@@ -105,7 +105,7 @@ contains
       call cntc_finalizelast()
    end subroutine run
 
-   !> The settings that stay
+   !> The constant settings
    subroutine set_up(ire)
       integer, intent(in) :: ire
 
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine compare_sums
 
-   !> Without spin, opposite directions give opposite lateral forces; no creepage gives nothing
+   !> Without spin, opposite directions give opposite lateral forces; without creepage there is no force
    subroutine check_symmetry()
       integer :: ir, ia, start, opposite
 

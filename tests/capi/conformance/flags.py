@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every flag with every value within and around its range: what is stored, what is refused, what a calculation makes of it"""
+"""Every flag with every value within and around its range: the stored value, refused values, the effect on a calculation"""
 import ctypes
 import ctypes.util
 import os
@@ -11,7 +11,7 @@ from contact import cntc
 from contact._library import call, last_error
 from contact.cntc import CNTC
 
-# Lowest and highest value, and what becomes of others: "near" the nearest of the range, "zero" 0, "keep" nothing is stored
+# Lowest and highest value, and the treatment of others: "near" the nearest of the range, "zero" 0, "keep" nothing is stored
 FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (0, 6, "near"), "ic_tang": (0, 3, "near"),
          "ic_norm": (0, 1, "near"), "ic_force": (0, 3, "near"), "ic_discns": (0, 9, "keep"), "ic_inflcf": (0, 4, "keep"),
          "ic_iestim": (0, 3, "near"), "ic_output": (0, 6, "near"), "ic_flow": (0, 9, "near"), "ic_return": (0, 3, "near"),
@@ -114,7 +114,7 @@ def pair(ire):
 
 
 def unknown():
-    """Values that a range has room for and no digit has: the calculation says so, and is well again with a good one"""
+    """Values within the range for which there is no digit: the calculation reports it, and succeeds again with a valid one"""
     pair(4)
     same(cntc.calculate(4, -1), 0, "a good case")
     force = cntc.getglobalforces(4, -1)[0]
@@ -152,7 +152,7 @@ def solvers():
 
 
 def rollers():
-    """A roller needs its radius, and is well with it"""
+    """A roller needs its radius, and is solved with it"""
     pair(5)
     cntc.setflags(5, -1, [CNTC["ic_config"]], [5])
     check(cntc.calculate(5, -1) < 0, "a roller without a radius is refused")
@@ -162,7 +162,7 @@ def rollers():
 
 
 def refused_in_parts():
-    """Track and deviations that were refused together are healed together, or one after the other"""
+    """Track and deviations that were refused together are corrected together, or one after the other"""
     pair(6)
     nan = float("nan")
     track, deviations = [14.0, 0.0, 1435.0, 0.0, 0.0], [0.0] * 6
@@ -176,7 +176,7 @@ def refused_in_parts():
 
 
 def threads():
-    """The largest number of threads is what OpenMP has now; it grows with what a host asks OpenMP for"""
+    """The largest number of threads is the present one of OpenMP; it increases with the number that a host sets in OpenMP"""
     openmp = ctypes.CDLL(ctypes.util.find_library("gomp"), mode=ctypes.RTLD_GLOBAL)
     first = call("cntc_getmaxnumthreads")
     for number in (first + 2, first + 5):

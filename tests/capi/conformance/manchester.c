@@ -3,7 +3,7 @@
  *
  * Profiles and expected figures: regression outputs of the published library, version 25.2.0 (win64,
  * serial), as printed there. Forces within 0.2 % of the largest component of the case, heights within
- * 0.0005 mm, places within 0.01 mm, creepages within 0.2 %, pressures and approaches within 0.5 %, moments within
+ * 0.0005 mm, positions within 0.01 mm, creepages within 0.2 %, pressures and approaches within 0.5 %, moments within
  * 0.5 % of the friction force at an arm of 1 mm, numbers of elements within 2. The program has the same
  * differences from the published outputs of these cases (doc/validation/wheel_rail.md); they come from the
  * search for the contact, not from the library.
@@ -207,7 +207,7 @@ static void one_step(int ire, int step) {
     if (patches[k][0] == ire && patches[k][1] == step) compare_patch(ire, step, patches[k]);
   }
   {
-    /* Digits that ask to keep what is there; they must not change a result */
+    /* Digits that keep the present data; they must not change a result */
     const int no_count = 0;
     const double nothing = 0.0;
     const int keep = 0, law = 1;

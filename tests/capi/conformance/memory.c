@@ -1,4 +1,4 @@
-/* Many identical cases with implicit initialisation: the same result in each, and no growing memory.
+/* Many identical cases with implicit initialisation: the same result in each, and constant memory.
  * usage: memory FOLDER_OF_PROFILES */
 #include <caddon_flags.h>
 #include <contact_addon.h>
@@ -17,7 +17,7 @@ static void check(int condition, const char *loop, const char *what) {
   printf("FAILED %s: %s\n", loop, what);
 }
 
-/* Resident memory [bytes], 0 where the system does not tell */
+/* Resident memory [bytes], 0 if the system does not report it */
 static long resident(void) {
   long total = 0, pages = 0;
   FILE *file = fopen("/proc/self/statm", "r");
@@ -41,7 +41,8 @@ static void calculate(int ire, int icp, const char *loop, double *force) {
   }
 }
 
-/* Forces may differ by a tolerance relative to the largest one: in wheel on rail height and pressures start from the previous ones, to EPS */
+/* Forces may differ by a tolerance relative to the largest one: in wheel on rail, height and pressures start from the previous
+ * ones, to EPS */
 static void repeat(int ire, int icp, double tolerance, const char *loop) {
   double first[4], force[4], scale, most = 0.0;
   long before = 0, after;
@@ -61,7 +62,7 @@ static void repeat(int ire, int icp, double tolerance, const char *loop) {
   printf("%s: %ld kB more in %d cases\n", loop, (after - before) / 1024, cases - warm_up);
 }
 
-/* Quadratic distance on a grid that is larger than the contact; with a layer and falling friction, or without */
+/* Quadratic distance on a grid that is larger than the contact; with a layer and friction that decreases with slip, or without */
 static void basic(int ire, int layer, const char *loop) {
   const int flags[] = {CNTC_if_units, CNTC_ic_tang, CNTC_ic_flow, CNTC_ic_output}, values[] = {CNTC_un_cntc, 3, 0, 0};
   const double material[] = {0.28, 0.28, 82000.0, 82000.0, 100.0, 0.01, 0.0, 0.0};
@@ -111,7 +112,7 @@ static void wheel_on_rail(int ire, const char *folder, const char *loop) {
   set_profile(ire, folder, "60E1.prr", 0);
   set_profile(ire, folder, "S1002.prw", 1);
   cntc_setwheelsetposition(&ire, &one, &six, position);
-  /* E = 1 is taken for 2 here */
+  /* E = 1 is treated as 2 here */
   cntc_setwheelsetvelocity(&ire, &one, &six, velocity);
   cntc_setverticalforce(&ire, &fz);
   repeat(ire, -1, 1e-5, loop);

@@ -21,13 +21,13 @@ from contact import cntc
 from contact._library import last_error
 from contact.cntc import CNTC
 
-#: Factor of lengths, sign of what acts on the other body
+#: Factor of lengths, sign of values that act on the other body
 UNITS = {"un_cntc": (1.0, 1.0), "un_si": (1e-3, 1.0), "un_spck": (1e-3, -1.0)}
 FLAT = [0.28, 0.31, 82e3, 75e3]
 
 
 def steel(big, *more):
-    """Elastic constants, and what follows them"""
+    """Elastic constants, and derived ones"""
     return [0.28, 0.31, 82e3 / big**2, 75e3 / big**2, *more]
 
 
@@ -138,7 +138,7 @@ CONTACT.update({
         6.3, 4.25]) * [1, 1, big, big, big, big]),
                                          {"MX MY XL YL DX DY": [16, 14, -6.1, -5.2, 0.8, 0.7]}),
 })
-# Curvatures and lengths of the sum of sines and of a circular body are told by the window alone
+# Curvatures and lengths of the sum of sines and of a circular body are shown by the window only
 NEEDS_WINDOW = ("window",)
 
 
@@ -174,7 +174,7 @@ def compare_rows(found, expected, label):
         elif names == "B":
             close([value for row in found["B"] for value in row], values, 1e-9 * np.abs(values), label_of_row)
         elif names.startswith("~"):
-            # the names of friction stand in the results only
+            # the names of friction are in the results only
             check(any(len(row) == len(values) and np.allclose(row, values, rtol=1e-9, atol=1e-300) for part in found.values()
                       for row in part),
                   f"{label_of_row}{values}: {found}")
@@ -200,7 +200,7 @@ told = set()
 
 
 def compare_results(name, expected, label):
-    """The .out file and the HDF5 file tell the same values by their names"""
+    """The .out file and the HDF5 file contain the same values under their names"""
     with open(f"program/{name}.out", encoding="utf-8") as file:
         lines = file.read().splitlines()
     printed = {}

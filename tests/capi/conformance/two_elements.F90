@@ -1,8 +1,8 @@
-!> Two result elements of basic contact in SIMPACK units, written the way published callers are: the
+!> Two result elements of basic contact in SIMPACK units, written like published callers: the
 !> preprocessor brings flags and interfaces, some calls name their arguments.
 !>
 !> Element 1: Hertzian ellipse, approach given. Element 2: undeformed distances per element, force given, a
-!> layer and falling friction. Expected figures: regression outputs of the published library, version
+!> layer and decreasing friction. Expected figures: regression outputs of the published library, version
 !> 25.2.0 (win64, serial), as printed there; forces within 0.2 % of the largest component of the case,
 !> pressures within 0.5 %, numbers of elements within 2.
 program two_elements
@@ -140,7 +140,7 @@ contains
       call suite%close_to(largest*1d-6, ptmax, 0.005d0*ptmax, label//": largest traction")
    end subroutine compare
 
-   !> Largest entries of pn, px, py and sx, sy, and where they are
+   !> Largest entries of pn, px, py and sx, sy, and their positions
    subroutine compare_fields(ire, label, traction, places, slip, slip_places)
       integer, intent(in) :: ire
       character(len=*), intent(in) :: label
@@ -165,7 +165,7 @@ contains
       end do
    end subroutine compare_fields
 
-   !> The named element holds the expected value, and no other holds more
+   !> The named element has the expected value, and no other has a larger one
    subroutine one_field(field, expected, tolerance, place, mx, label)
       double precision, intent(in) :: field(:), expected, tolerance
       integer, intent(in) :: place(2), mx

@@ -13,7 +13,7 @@ NOTHING = 7.25
 
 
 def ask(task, length, kind, method=1, reals=(1.0,)):
-    """The first entries of an array that is longer than what is asked for"""
+    """The first entries of an array that is longer than requested"""
     room = np.full(length + 5, NOTHING)
     call("cntc_getprofilevalues", 1, task, 2, np.array([kind, method]), len(reals), np.array(reals), length, room)
     check(bool(np.all(room[length:] == NOTHING)), f"task {task}: nothing behind an array of {length}")
@@ -73,7 +73,7 @@ def surface():
         full = ask(task, 3 * n, 1, **how)
         lengths(task, 1, full, "slices", **how)
         lists[task] = full.reshape(3, n)
-        # a part of it begins and ends where that is asked for
+        # a part of it begins and ends at the requested positions
         first, last = (2.0, 7.1) if task == 6 else (-0.021, 0.0305)
         width = how["reals"][0]
         how["reals"] += (first, last)

@@ -1,4 +1,4 @@
-/* A program of somebody else: runs an experiment by the library, and provokes what can go wrong.
+/* A third-party program: runs an experiment by the library, and provokes errors.
  * usage: consumer EXPERIMENT OUTPUT_FOLDER */
 #include <contact.h>
 #include <stdio.h>

@@ -45,7 +45,7 @@ int main(int argc, char **argv) {
     cntc_setpenetration(&ire, &icp, &approach);
     cntc_calculate(&ire, &icp, &error);
     if (error != 0) return 4;
-    /* the second time it is left to itself */
+    /* the second time it is not unloaded */
     if (round != 1) cntc_finalizelast();
     if (dlclose(library) != 0) return 5;
     nanosleep(&moment, NULL);

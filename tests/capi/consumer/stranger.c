@@ -1,4 +1,4 @@
-/* A caller of the published library: own numbers, no pointers to constants, no name but those of the header */
+/* A caller of the published library: own variables, no pointers to constants, only names of the header */
 #include "contact_addon.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* A library to preload under helgrind and drd: locks and critical sections of OpenMP made of mutexes, which these tools follow
  *
- * Those of the OpenMP run time library are made of system calls, so that what they order looks like a race. */
+ * Those of the OpenMP run time library are made of system calls, so that accesses ordered by them look like races. */
 #include <pthread.h>
 #include <stddef.h>
 

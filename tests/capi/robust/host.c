@@ -1,4 +1,4 @@
-/* Hosts that are not as usual: each must get the forces of a quiet one, or a code, and live on.
+/* Unusual hosts: each must get the forces of a usual one, or a code, and continue.
  *
  * usage: host PROFILES_FOLDER traps | stack | folder | de_DE | tr_TR | fork | memory */
 #define _GNU_SOURCE
@@ -43,7 +43,7 @@ static int calculate(int ire, int icp) {
   return error;
 }
 
-/* Rolling contact of an ellipse with friction that falls, on n x n elements */
+/* Rolling contact of an ellipse with friction that decreases with slip, on n x n elements */
 static int basic(int ire, int n, double *force) {
   const double creepages[] = {1e-3, 0.0, 4e-4};
   if (start(ire, 3) != 0) return 98;
@@ -88,7 +88,7 @@ static int wheel(int ire, double *force) {
   return code;
 }
 
-/* Both kinds, forces of a quiet host first */
+/* Both kinds, forces of a usual host first */
 static double quiet[8], now[8];
 
 static void compare(const char *what) {
@@ -104,7 +104,7 @@ static void compare(const char *what) {
   cntc_finalize(INT(12));
 }
 
-/* The host wants to be told of invalid operations, and must find its own settings again */
+/* The host traps invalid operations, and must find its own settings restored */
 static void traps(void) {
   feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
   compare("traps of floating point exceptions");
@@ -147,7 +147,7 @@ static void stack(void) {
   }
 }
 
-/* A current folder in which no file can be made, whoever asks */
+/* A current folder in which no user can create a file */
 static void folder(void) {
   check(mkdir("gone", 0755) == 0 && chdir("gone") == 0 && rmdir("../gone") == 0, "a folder that is gone");
   cntc_finalizelast();
@@ -198,7 +198,7 @@ static int language(const char *name) {
   return 1;
 }
 
-/* Processes that are made of this one, while threads wait for work */
+/* Processes forked from this one, while threads wait for work */
 static void forked(void) {
   for (int k = 0; k < 2; k++) {
     cntc_setglobalflags(INT(1), INT(2003), INT(k == 0 ? 1 : -1));
@@ -221,7 +221,7 @@ static void forked(void) {
   }
 }
 
-/* Grids and points that no memory holds */
+/* Grids and points that exceed any memory */
 static void memory(void) {
   static const double sizes[] = {3000, 30000, 46341, 1e5, 1e9, 1e300};
   const struct rlimit limit = {(rlim_t)3 << 29, (rlim_t)3 << 29};

@@ -1,5 +1,5 @@
-"""Every routine of the library with arguments that nobody should give: null pointers, numbers out of range, not a
-number, lengths that do not fit. The process must survive, memory behind the arrays must stay as it is, and a
+"""Every routine of the library with invalid arguments: null pointers, numbers out of range, NaN, lengths that do
+not fit. The process must survive, memory behind the arrays must stay as it is, and a
 good case must still be solved afterwards. No call may take longer than a minute, and memory may not grow.
 
 The list of routines is src/capi/interface.txt. With more than one thread all of them call at the same time, on the same
@@ -66,7 +66,7 @@ def value(generator, name):
 
 
 def call(generator, name, with_null):
-    """One call; returns the arrays that it may have written, to look behind their ends"""
+    """One call; returns the arrays that it may have written, to check beyond their ends"""
     arguments, arrays = [], []
     for _, kind, is_array, argument in ROUTINES[name]:
         if with_null and generator.random() < with_null:
@@ -145,7 +145,7 @@ def good_case():
 
 
 def ask(generator):
-    """The functions that are not in the table: what went wrong, how a case ended, a run of an experiment"""
+    """The functions that are not in the table: error messages, status of a case, a run of an experiment"""
     buffer = generator.choice([None, ctypes.create_string_buffer(40)])
     length = generator.choice([-2147483648, -1, 0, 1, 5, 40])
     ire, icp = generator.choice(INTEGERS), generator.choice(INTEGERS)
@@ -166,7 +166,7 @@ EMPTY = tempfile.TemporaryDirectory()
 
 
 def resident():
-    """Memory of the process [kB], 0 where the system does not tell"""
+    """Memory of the process [kB], 0 if the system does not report it"""
     try:
         with open("/proc/self/statm", encoding="ascii") as file:
             return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") // 1024

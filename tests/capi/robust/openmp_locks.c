@@ -1,6 +1,6 @@
 /* Locks and critical sections of OpenMP in a form that the thread sanitizer follows
  *
- * The run time library of OpenMP is not instrumented: what its locks order looks like a race. A program of an
+ * The run time library of OpenMP is not instrumented: accesses ordered by its locks look like races. A program of an
  * instrumented build that links this file takes these in their place, its library too. */
 #include <sched.h>
 

@@ -1,4 +1,4 @@
-/* What callers may do without harm: codes of wrong calls, many rounds without growth, threads.
+/* Calls that must do no harm: codes of wrong calls, many rounds without growth, threads.
  *
  * usage: robust codes | rounds COUNT | threads | messages | pairs FOLDER_OF_PROFILES | turns | mixed FOLDER_OF_PROFILES COUNT */
 #define _GNU_SOURCE
@@ -74,7 +74,7 @@ static int stresses(int ire, int icp) {
 
 static int exists(const char *file) { return access(file, F_OK) == 0; }
 
-/* Codes of calls that cannot be meant */
+/* Codes of invalid calls */
 static void codes(void) {
   char text[300];
   double pen = 0.1, f[4] = {-1, -2, -3, -4};
@@ -114,7 +114,7 @@ static void codes(void) {
   check(f[0] == -1 && f[3] == -4, "forces before a calculation are left alone");
   same(calculate(2, 1), 0, "the default problem, one element without a border");
 
-  /* the reason is told */
+  /* the reason is reported */
   set_up(2, 1, 7, 1e-3);
   same(calculate(2, 1), 0, "a good case");
   check(contact_last_error(2, 1, text, sizeof text) == 0 && !*text, "nothing to tell after a good case");
@@ -157,7 +157,7 @@ static long resident(void) {
   return pages * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
-/* Create, solve, look, free, as often as wanted: memory stays what it is after the first tenth */
+/* Create, solve, read, free, many times: memory is constant after the first tenth */
 static void rounds(int count) {
   int k, one = 1, free_points = 9;
   double f[4], x[1] = {0.0}, first = 0.0, growth;
@@ -208,7 +208,7 @@ static void *long_case(void *unused) {
   return NULL;
 }
 
-/* Different problems at the same time give what they give alone, bit by bit; one problem has one thread */
+/* Different problems at the same time give the same results as alone, bit by bit; one problem has one thread */
 static void threads(void) {
   pthread_t thread[workers];
   int number[workers], k, most, refused = 0, others = 0, code, ire = 9, round;
@@ -296,19 +296,19 @@ static void pairs(void) {
   cntc_finalizelast();
 }
 
-/* What each worker was told: one line per wrong call, and per right one in between */
+/* Messages to each worker: one line per wrong call, and per valid one in between */
 enum { talkers = 8, tries = 400, told_length = 200 };
 typedef char transcript[tries][told_length];
 static transcript alone_told[talkers], together_told[talkers];
 
-/* The code and the text of what went wrong last in a problem */
+/* Code and text of the last error in a problem */
 static void note(int ire, char *told) {
   char text[told_length - 12];
   int code = contact_last_error(ire, 1, text, sizeof text);
   snprintf(told, told_length, "%d %s", code, text);
 }
 
-/* Wrong calls, whose texts have other numbers and lengths for each worker and try, among right ones */
+/* Wrong calls, whose texts have other numbers and lengths for each worker and attempt, among valid ones */
 static void complain_all(int worker, transcript told) {
   int ire = worker + 1, icp = 1, k, n;
   for (k = 0; k < tries; k++) {
@@ -317,7 +317,7 @@ static void complain_all(int worker, transcript told) {
     double number = 0.1, list[6] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
     for (n = 7; digits > 0; digits--) n = 10 * n + k % 10;
     switch (k % 8) {
-      case 0: /* no such flag; a right one beside it */
+      case 0: /* no such flag, and a valid one */
         flag[0] = 3000 + worker, value[0] = n, flag[1] = 1984, value[1] = 0;
         cntc_setflags(&ire, &icp, &two, flag, value);
         break;
@@ -344,7 +344,7 @@ static void complain_all(int worker, transcript told) {
       case 6: /* wrong order: no results yet */
         stresses(ire, icp);
         break;
-      default: /* nothing to tell; another method without a solution */
+      default: /* no message; another method without a solution */
         cntc_setpenetration(&ire, &icp, &number);
         n = 2 + k % 2;
         list[0] = -1.0 - k;
@@ -360,7 +360,7 @@ static void *complain_together(void *number) {
   return NULL;
 }
 
-/* Complaints of many problems at the same time are what each of them says alone */
+/* Messages of many problems at the same time are those of each of them alone */
 static void messages(void) {
   pthread_t thread[talkers];
   int number[talkers], k, i, round, told = 0, other = 0;
@@ -385,7 +385,7 @@ static void messages(void) {
   cntc_finalizelast();
 }
 
-/* More callers than calculations may run: each waits for its turn, nobody for long, and nothing is refused */
+/* More callers than calculations may run: each waits for its turn, none for long, and nothing is refused */
 enum { callers = 6, rounds_of_caller = 30 };
 static _Atomic int done_by[callers], in_line, first_end[callers], somebody_ended;
 static double of_callers[callers][4];
@@ -426,10 +426,10 @@ static void turns(void) {
   for (k = 0; k < callers; k++) {
     same(code_of_caller[k], 0, "a caller who waits gets results");
     check(memcmp(of_callers[k], alone_force, sizeof alone_force) == 0, "and the same as alone");
-    /* the system, too, may keep a thread waiting, but not for long */
+    /* the system may delay a thread as well, but not for long */
     check(first_end[k] >= 3, "nobody is left behind");
   }
-  /* a child has nobody to wait for */
+  /* a child has no other thread to wait for */
   const pid_t child = fork();
   if (child == 0) {
     alarm(60);
@@ -440,7 +440,7 @@ static void turns(void) {
   cntc_finalizelast();
 }
 
-/* Cases of both modules, different for each worker; what they gave as one number per case */
+/* Cases of both modules, different for each worker; their results as one number per case */
 enum { mixed_workers = 8 };
 static int mixed_cases;
 static unsigned long long *mixed_alone, *mixed_together;
