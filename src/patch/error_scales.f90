@@ -81,7 +81,7 @@ module contact_patch_error_scales
       real(wp) :: mean_across = 1.0_wp
       !> Root mean square deviation of the coefficient of friction, relative to its mean, if it depends on slip velocity [-]
       real(wp) :: falling = 0.0_wp
-      !> Turning of the slip direction across the contact, for the second order in steady rolling, at most half a turn [rad]
+      !> Turning of the slip direction across the contact, for the second order in rolling, at most half a turn [rad]
       real(wp) :: turning = 0.0_wp
       !> Frictional power minus power of the motion; difference of the levels in the power of the motion [W]
       real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
@@ -161,7 +161,8 @@ contains
       scale%is_moment_alone = problem%n_forces == 2
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
-      if (problem%motion == motion%steady_rolling .and. order == 2) scale%turning = min(pi, scale%mean_across &
+      if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2) &
+         & scale%turning = min(pi, scale%mean_across &
          & *sqrt(result%grid%dx*result%grid%dy*turns(result)/max(scale%force, tiny(extent))))
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
