@@ -20,7 +20,7 @@ module contact_tangential_second_order
 
    !> Edge terms of a tangential problem, and whether its slip is turned
    type :: second_order
-      !> Elements with a term, column and row, shape (2, n): the leading ones, then those behind them
+      !> Elements with a term, column and row, shape (2, n): the leading ones, then the second and third of their rows
       integer, allocatable :: at(:, :)
       !> How far surfaces are apart in the element ahead of a leading one [mm], negative where that is unknown, shape (mx, my)
       real(wp), allocatable :: gap(:, :)
@@ -56,6 +56,10 @@ module contact_tangential_second_order
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
    real(wp), parameter :: outermost = 1.7_wp
+   !> Factor of the terms behind an oblique edge. Their effect goes with the distance from the edge, by the root of it in the
+   !> tractions and in the adjoint: on the average over places of the edge d0 + 1/2 for a term in the second element, for which they
+   !> were fitted, and d0 + 1 wherever the edge lies for one that is shared by the second and the third
+   real(wp), parameter :: behind_edge = (d0 + 0.5_wp)/(d0 + 1.0_wp)
    !> Terms above this part of the compliance of an element are stiff; chosen
    real(wp), parameter :: stiff_share = 0.5_wp
 
@@ -85,13 +89,13 @@ contains
       type(second_order), intent(inout) :: second
       !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
       integer, allocatable :: at(:, :), first(:)
-      logical, allocatable :: is_alone(:)
+      integer, allocatable :: length(:)
       real(wp), allocatable :: place(:), share(:)
-      real(wp) :: slope, nx, ny, scale, mean
-      integer :: ix, iy, k, n, last, behind
+      real(wp) :: slope, nx, ny, scale, unit, mean, part(2), oblique(3)
+      integer :: ix, iy, k, n, last, behind, j
 
       n = count_edges(contact, direction)
-      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), is_alone(n))
+      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), length(n))
       n = 0
       do iy = 1, size(contact, 2)
          first(iy) = n + 1
@@ -108,12 +112,12 @@ contains
             end do
             n = n + 1
             at(:, n) = [ix, iy]
-            is_alone(n) = abs(ix - last) < 2
+            length(n) = abs(ix - last)
             share(n) = 0.0_wp
             if (is_root) then
                share(n) = root_share(pn(ix:last + direction:-direction, iy))
-            else if (abs(ix - last) > 1) then
-               share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), abs(ix - last))
+            else if (length(n) > 1) then
+               share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), length(n))
             end if
             place(n) = direction*ix + d0 - share(n)/(1.0_wp + share(n))
             ix = last
@@ -121,7 +125,7 @@ contains
       end do
       first(size(contact, 2) + 1) = n + 1
 
-      call fit(second, size(contact, 1), size(contact, 2), n + count(.not. is_alone))
+      call fit(second, size(contact, 1), size(contact, 2), n + count(length > 1) + count(length > 2))
       second%gap = gap
       behind = n
       do k = 1, n
@@ -130,25 +134,28 @@ contains
          slope = edge_slope(place, first, iy, place(k))
          nx = 1.0_wp/sqrt(1.0_wp + (slope*dx/dy)**2)
          ny = -slope*dx/dy*nx
-         if (gap(ix, iy) >= 0.0_wp) then
-            scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
-         else
-            scale = 2.0_wp/gg*dx*nx*e0*share(k)
-         end if
+         unit = 2.0_wp/gg*dx*nx*e0
+         scale = unit*share(k)
+         if (gap(ix, iy) >= 0.0_wp) scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
          second%at(:, k) = at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
-         if (is_alone(k)) cycle
-         behind = behind + 1
-         second%at(:, behind) = [ix - direction, iy]
-         second%kappa(:, behind) = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
-         second%stiff(behind) = .false.
+         ! the terms behind move from element to element as the edge does, so that forces are continuous
+         part(1) = behind_edge*unit/(unit + max(scale, 0.0_wp))
+         part(2) = behind_edge - part(1)
+         oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
+         do j = 1, min(2, length(k) - 1)
+            behind = behind + 1
+            second%at(:, behind) = [ix - j*direction, iy]
+            second%kappa(:, behind) = part(j)*oblique
+            second%stiff(behind) = .false.
+         end do
       end do
    end subroutine find_edge_terms
 
-   !> Terms xx, yy, xy behind a leading element of an oblique edge, relative to nu 2/G h
+   !> Terms xx, yy, xy of the second element of a row at an oblique edge, relative to nu 2/G h
    pure function oblique_terms(slope, ratio) result(terms)
       !> Elements along x per row by which the edge goes forward
       real(wp), intent(in) :: slope

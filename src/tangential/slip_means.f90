@@ -29,7 +29,8 @@ module contact_tangential_slip_means
       real(wp) :: share(3) = [0.0_wp, 1.0_wp, 0.0_wp]
       !> Factor of the slip behind in the mean of two; zero without a neighbour behind
       real(wp) :: of_behind = 0.0_wp
-      !> Part of the bend that counts; zero without neighbours on both sides, and at a border of adhesion
+      !> Part of the bend that counts; zero without neighbours on both sides, at a border of adhesion, and in the three elements at
+      !> the leading edge
       real(wp) :: bends = 0.0_wp
    end type local_mean
 
@@ -50,7 +51,7 @@ contains
       real(wp), intent(in) :: slip(mx, my, 2)
       !> The element
       integer, intent(in) :: ix, iy
-      logical :: has_behind, has_ahead
+      logical :: has_behind, has_ahead, is_inside
       real(wp) :: a, b, c
       integer :: behind, ahead
 
@@ -60,6 +61,9 @@ contains
       if (has_behind) has_behind = contact(behind, iy)
       has_ahead = ahead >= 1 .and. ahead <= mx
       if (has_ahead) has_ahead = contact(ahead, iy)
+      ! near the leading edge the bend would appear or vanish with an element that enters or leaves the contact, and forces would jump
+      is_inside = has_ahead .and. ahead + 2*direction >= 1 .and. ahead + 2*direction <= mx
+      if (is_inside) is_inside = contact(ahead + direction, iy) .and. contact(ahead + 2*direction, iy)
       if (.not. has_behind) behind = ix
       if (.not. has_ahead) ahead = ix
       mean%behind = behind
@@ -71,7 +75,7 @@ contains
             mean%of_behind = 3.0_wp*a/(a + 2.0_wp*b)
             mean%share = [mean%of_behind, 1.0_wp, 0.0_wp]/(1.0_wp + mean%of_behind)
             c = slip(ahead, iy, 1)**2 + slip(ahead, iy, 2)**2
-            if (has_ahead .and. c > 0.0_wp) then
+            if (is_inside .and. c > 0.0_wp) then
                mean%bends = c/(c + half_way*a)
                mean%share = mean%share - of_bend*mean%bends*[2.0_wp*a/(a + b), -2.0_wp, 2.0_wp*a/(a + c)]
             end if
