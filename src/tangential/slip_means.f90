@@ -61,7 +61,7 @@ contains
       if (has_behind) has_behind = contact(behind, iy)
       has_ahead = ahead >= 1 .and. ahead <= mx
       if (has_ahead) has_ahead = contact(ahead, iy)
-      ! near the leading edge the bend would appear or vanish with an element that enters or leaves the contact, and forces would jump
+      ! near the leading edge the bend would appear or vanish with an element that enters or leaves the contact: forces would jump
       is_inside = has_ahead .and. ahead + 2*direction >= 1 .and. ahead + 2*direction <= mx
       if (is_inside) is_inside = contact(ahead + direction, iy) .and. contact(ahead + 2*direction, iy)
       if (.not. has_behind) behind = ix

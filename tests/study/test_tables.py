@@ -146,7 +146,7 @@ def test_what_is_wrong_is_told(table, file, tmp_path):
     whole = file.read_bytes()
     bad = tmp_path / "bad.table"
     turned = whole[:5000] + bytes([whole[5000] ^ 1]) + whole[5001:]
-    for content, words in ((whole[:-100], "damaged"), (turned, "checksum"), (b"x" * 300, "begin")):
+    for content, words in ((whole[:-100], "damaged"), (turned, "checksum"), (b"x" * 300, "start")):
         bad.write_bytes(content)
         with pytest.raises(contact.ContactError, match=words) as told:
             Table(bad)
@@ -179,7 +179,9 @@ def test_nodes_are_solved_where_they_are_needed(tmp_path, monkeypatch):
                   tell=told.append)
     nodes = np.prod([int(count) for count in re.search(r"solutions, (.*) nodes", told[-2])[1].split(" x ")])
     assert max(facts.error) <= 0.003 and facts.points == 3000
-    assert solved[-1] < 0.7 * nodes
+    # points of the checks are no results of the table; how many checks there are depends on round-off
+    checked = facts.points * sum("checked at" in line for line in told)
+    assert solved[-1] - checked < 0.7 * nodes
 
 
 def test_few_elements_where_most_slides():
