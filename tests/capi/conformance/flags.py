@@ -38,7 +38,7 @@ def values_of(low, high):
 def documents():
     """The manual names the flags that take another value than the one that is given"""
     with open(os.path.join(SOURCE, "doc/user/library.md"), encoding="utf-8") as file:
-        told = file.read().split("These flags take the nearest", 1)[1].split("Each time", 1)[0].split(":", 1)[1]
+        told = file.read().split("replaced by the nearest valid value", 1)[1].split(".", 1)[0].split(":", 1)[1]
     near, zero = (re.sub(r", 3 becomes 2", "", part).replace(" and ", ", ").split(",") for part in told.split(";"))
     with open(os.path.join(SOURCE, "src/capi/interface.txt"), encoding="utf-8") as file:
         letters = dict(re.findall(r"^CNTC_(ic_\w+) = \d+  ([A-Z]\d?): ", file.read(), re.MULTILINE))
