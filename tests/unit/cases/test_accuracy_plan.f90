@@ -55,16 +55,18 @@ contains
    subroutine kinds(suite)
       type(test_suite), intent(inout) :: suite
       type(case_spec) :: spec
+      !> With fewer elements all kinds have the same first grid
+      real(wp), parameter :: sharp = 0.1_wp*asked
       real(wp) :: plain
 
       spec%motion = motion%steady_rolling
       spec%material%poiss = 0.28_wp
       spec%material%gg = 82000.0_wp
-      plain = expected_across(expected_law(spec), asked)
+      plain = expected_across(expected_law(spec), sharp)
       spec%force = force_control%fx_and_fy
-      call suite%check(expected_across(expected_law(spec), asked) > plain, "forces prescribed")
+      call suite%check(expected_across(expected_law(spec), sharp) > plain, "forces prescribed")
       spec%force = force_control%creepages
       spec%material%gg = [82000.0_wp, 20000.0_wp]
-      call suite%check(expected_across(expected_law(spec), asked) > plain, "unlike bodies")
+      call suite%check(expected_across(expected_law(spec), sharp) > plain, "unlike bodies")
    end subroutine kinds
 end program test_accuracy_plan
