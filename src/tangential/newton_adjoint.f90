@@ -200,11 +200,14 @@ contains
       real(wp), contiguous, intent(inout) :: v(:)
       !> Components along the columns
       real(wp), contiguous, intent(inout) :: share(:)
+      ! an expression as argument would be a block of the heap in each call
+      real(wp) :: minus(4)
       integer :: j
 
       do j = 1, k - 3, 4
          call inner_four(n, size(q, 1), q(:, j:j + 3), v, share(j:j + 3))
-         call add_four(n, size(q, 1), -share(j:j + 3), q(:, j:j + 3), v)
+         minus = -share(j:j + 3)
+         call add_four(n, size(q, 1), minus, q(:, j:j + 3), v)
       end do
       do j = 4*(k/4) + 1, k
          share(j) = inner(n, q(:, j), v)

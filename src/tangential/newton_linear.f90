@@ -200,12 +200,15 @@ contains
       real(wp), intent(in) :: part(:)
       !> Square sum of the remainder
       real(wp), intent(out) :: left
+      ! an expression as argument would be a block of the heap in each call
+      real(wp) :: minus(4)
       integer :: first, k, length
 
       first = one*(piece - 1) + 1
       length = min(one, n + 1 - first)
       do k = 1, j - 3, 4
-         call add_four(length, rows, -part(k:k + 3), v(first, k), v(first, j + 1))
+         minus = -part(k:k + 3)
+         call add_four(length, rows, minus, v(first, k), v(first, j + 1))
       end do
       do k = 4*(j/4) + 1, j
          call add(length, -part(k), v(first, k), v(first, j + 1))
