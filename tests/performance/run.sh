@@ -3,7 +3,8 @@
 #
 #   --large    also 201,000 elements, and the prototype on 320 x 320
 #   --quick    smallest sizes only, tables of 100 cases
-#   --write    puts the result into doc/validation/performance.md
+#   --write    puts the tables of cases, and of wheel on rail, into their blocks of doc/validation/performance.md: all sections,
+#              or rail alone
 #   sections   setup normal rolling shift classical line table rail; without any: all of them, the
 #              whole program, requests to the heap, and the comparison with the prototype
 # BENCH_BUILD names an up-to-date build folder to be used instead of building.
@@ -25,6 +26,13 @@ for argument; do
     *) fail "usage: sh tests/performance/run.sh [--large] [--quick] [--write] [section ...]" ;;
   esac
 done
+# a part of a table must not replace the whole one
+if [ $write = yes ]; then
+  case $options$sections in
+    "" | " --large") ;;
+    *) fail "--write needs all sections, or rail alone, without --quick" ;;
+  esac
+fi
 programs=${BENCH_BUILD:-}
 if [ -z "$programs" ]; then
   install_missing
@@ -45,34 +53,35 @@ measure_rail() {
   return $status
 }
 
-# shellcheck disable=SC2086,SC2016  # marks of Markdown
-measure() {
-  printf '# Computing times\n\n'
-  printf 'Written by `sh tests/performance/run.sh --write`; columns and repetition: [how to measure speed](../develop/performance.md).\n\n'
+# Title of a part in Markdown
+title() { printf '\n## %s\n\n' "$1"; }
+
+# shellcheck disable=SC2086  # options are words
+measure_cases() {
   printf 'Commit %s, %s, %s processors, %s.\n\n' \
     "$(git -C "$top" rev-parse --short HEAD 2>/dev/null || echo unknown)" "$(date -u +%Y-%m-%d)" \
     "$(getconf _NPROCESSORS_ONLN)" "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)"
-  if [ $rail = no ] || [ -n "$sections" ]; then
-    "$bench" $options $sections || return 1
-    [ -n "$sections" ] && [ $rail = no ] && return 0
-  fi
-  printf '\n## Wheel on rail\n\n'
-  measure_rail || return 1
-  printf '\n## A wheel in a time loop\n\n'
+  "$bench" $options $sections
+}
+
+measure_vehicle() {
   printf 'Eight wheels, 1 ms per step, S1002 on 60E1, EPS = 1e-5, P = 2; processor time of a call of the library on one thread, ms.\n\n'
   steps=500
   case $options in *--quick*) steps=60 ;; esac
-  "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps || return 1
-  [ $rail = yes ] && return 0
-  printf '\n## The whole program\n\n'
+  "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps
+}
+
+# What the document has in its own words
+measure_others() {
+  title "The whole program"
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
-  printf '\n## Inputs as users write them\n\n'
+  title "Inputs as users write them"
   python3 "$here/asked_inputs.py" "$programs/bin/contact" "$top"
-  printf '\n## Files for other programs\n\n'
+  title "Files for other programs"
   python3 "$here/exports.py" "$programs/bin/contact"
-  printf '\n## Requests to the heap in repeated cases, 11 x 11\n\n'
+  title "Requests to the heap in repeated cases, 11 x 11"
   "$bench" --allocations | python3 "$here/name_places.py" "$bench"
-  printf '\n## Against the numpy prototype\n\n'
+  title "Against the numpy prototype"
   case $options in
     *--quick*) echo "Omitted by --quick." ;;
     *--large*) python3 "$here/prototype.py" --large "$bench" "$prototype" ;;
@@ -81,13 +90,22 @@ measure() {
   return 0
 }
 
-if [ $write = no ]; then
-  measure
-  exit $?
-fi
-mkdir -p "$top/doc/validation"
+# Print the output of a command, and put it into its block of the document on request: block NAME COMMAND
+block() {
+  "$2" >"$result" || fail "The benchmark failed: $(tail -3 "$result")"
+  cat "$result"
+  [ $write = no ] || sh "$here/put_block.sh" "$1" "$result" "$top/doc/validation/performance.md" || exit 1
+}
+
 result=$(mktemp) || exit 1
 trap 'rm -f "$result"' EXIT
-measure >"$result" || fail "The benchmark failed: $(tail -3 "$result")"
-cat "$result"
-cp "$result" "$top/doc/validation/performance.md"
+if [ $rail = no ] || [ -n "$sections" ]; then
+  block cases measure_cases
+  [ -n "$sections" ] && [ $rail = no ] && exit 0
+fi
+title "Wheel on rail"
+block rail measure_rail
+title "A wheel in a time loop"
+measure_vehicle || exit 1
+[ $rail = yes ] && exit 0
+measure_others
