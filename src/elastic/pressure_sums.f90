@@ -3,6 +3,7 @@
 !> For a few displacements no transforms are needed, and no spectra for a window whose size changes from one solution to the
 !> next: coefficients are kept for the largest window so far.
 module contact_elastic_pressure_sums
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : fill_coefficients
    use contact_elastic_halfspace, only : kernel_table
@@ -10,13 +11,16 @@ module contact_elastic_pressure_sums
    implicit none (type, external)
    private
 
-   public :: pressure_sums
+   public :: displacements_by_sums, pressure_sums
 
    !> Coefficients of normal displacements due to pressures
    type :: pressure_sums
       private
       type(kernel_table) :: table
       type(elastic_model) :: model
+      !> Workspace: ranges of elements, and displacements [mm]
+      integer, allocatable :: ranges(:, :)
+      real(wp), allocatable :: u(:)
    contains
       !> Does a single table of coefficients describe all elements of such bodies?
       procedure, nopass :: suits
@@ -27,6 +31,23 @@ module contact_elastic_pressure_sums
       !> Displacements where there are pressures
       procedure :: displace
    end type pressure_sums
+
+   interface
+      !> Displacements of ranges of elements in each row, as sums over ranges of pressures
+      pure subroutine sums_over_rows(mx, my, ranges, nx, ny, nn, p, u) bind(c, name="contact_sums_displace")
+         import :: c_double, c_int
+         !> Size of the window
+         integer(c_int), value :: mx, my
+         !> For each row, elements before and up to the end of the range of pressures, and of that of displacements
+         integer(c_int), intent(in) :: ranges(4, my)
+         !> Largest offsets of the table of coefficients, and the coefficients [mm3/N]
+         integer(c_int), value :: nx, ny
+         real(c_double), intent(in) :: nn(-nx:nx, -ny:ny)
+         !> Pressures [N/mm2], and displacements [mm]; others are not changed
+         real(c_double), intent(in) :: p(mx, my)
+         real(c_double), intent(inout) :: u(mx, my)
+      end subroutine sums_over_rows
+   end interface
 
 contains
 
@@ -61,81 +82,97 @@ contains
    end subroutine prepare
 
    !> Sum of weight times displacement [mm]
-   pure real(wp) function weighted(self, weight, p) result(total)
-      class(pressure_sums), intent(in) :: self
+   subroutine weighted(self, weight, p, total)
+      class(pressure_sums), intent(inout) :: self
       !> Weights, few of them non-zero [-], and pressures [N/mm2]; both of the shape of the window
       real(wp), contiguous, intent(in) :: weight(:, :), p(:, :)
-      real(wp) :: here, row(4)
-      integer :: ix, iy, k, l, m, first(size(p, 2)), last(size(p, 2))
+      !> The sum [mm]
+      real(wp), intent(out) :: total
+      integer :: ix, iy, mx
 
-      do l = 1, size(p, 2)
-         first(l) = size(p, 1) + 1
-         last(l) = 0
-         do k = 1, size(p, 1)
-            if (p(k, l) <= 0.0_wp) cycle
-            first(l) = min(first(l), k)
-            last(l) = k
-         end do
-      end do
+      mx = size(p, 1)
+      call find_ranges(p, weight, self%ranges)
+      if (allocated(self%u)) then
+         if (size(self%u) < size(p)) deallocate(self%u)
+      end if
+      if (.not. allocated(self%u)) allocate(self%u(2*size(p)))
+      call sums_over_rows(mx, size(p, 2), self%ranges, self%table%nx, self%table%ny, self%table%nn, p, self%u)
       total = 0.0_wp
       do iy = 1, size(p, 2)
-         do ix = 1, size(p, 1)
-            if (.not. weight(ix, iy) > 0.0_wp) cycle
-            here = 0.0_wp
-            do l = 1, size(p, 2)
-               ! four independent sums avoid waiting for the previous addition; coefficients are even in both directions
-               row = 0.0_wp
-               do k = first(l), last(l) - 3, 4
-                  do m = 0, 3
-                     row(m + 1) = row(m + 1) + self%table%nn(k + m - ix, l - iy)*p(k + m, l)
-                  end do
-               end do
-               do m = k, last(l)
-                  row(1) = row(1) + self%table%nn(m - ix, l - iy)*p(m, l)
-               end do
-               here = here + sum(row)
-            end do
-            total = total + weight(ix, iy)*here
+         do ix = self%ranges(3, iy) + 1, self%ranges(4, iy)
+            if (weight(ix, iy) > 0.0_wp) total = total + weight(ix, iy)*self%u(ix + mx*(iy - 1))
          end do
       end do
-   end function weighted
+   end subroutine weighted
 
    !> Displacements of the elements with pressures [mm]; 0 in the others
-   pure subroutine displace(self, p, u)
-      class(pressure_sums), intent(in) :: self
+   subroutine displace(self, p, u)
+      class(pressure_sums), intent(inout) :: self
       !> Pressures [N/mm2], of the shape of the window
       real(wp), contiguous, intent(in) :: p(:, :)
       !> Positive where the surfaces move apart, of the same shape
       real(wp), contiguous, intent(inout) :: u(:, :)
-      real(wp) :: row(4)
-      integer :: ix, iy, k, l, m, first, last
+      integer :: ix, iy
 
+      call find_ranges(p, p, self%ranges)
       u = 0.0_wp
-      do l = 1, size(p, 2)
-         last = 0
-         first = 0
-         do k = 1, size(p, 1)
-            if (p(k, l) <= 0.0_wp) cycle
-            if (first == 0) first = k
-            last = k
-         end do
-         if (last == 0) cycle
-         do iy = 1, size(p, 2)
-            do ix = 1, size(p, 1)
-               if (p(ix, iy) <= 0.0_wp) cycle
-               ! four sums at once do not wait for each other; coefficients are even in both directions
-               row = 0.0_wp
-               do k = first, last - 3, 4
-                  do m = 0, 3
-                     row(m + 1) = row(m + 1) + self%table%nn(k + m - ix, l - iy)*p(k + m, l)
-                  end do
-               end do
-               do m = k, last
-                  row(1) = row(1) + self%table%nn(m - ix, l - iy)*p(m, l)
-               end do
-               u(ix, iy) = u(ix, iy) + sum(row)
-            end do
+      call sums_over_rows(size(p, 1), size(p, 2), self%ranges, self%table%nx, self%table%ny, self%table%nn, p, u)
+      do iy = 1, size(p, 2)
+         do ix = self%ranges(1, iy) + 1, self%ranges(2, iy)
+            if (.not. p(ix, iy) > 0.0_wp) u(ix, iy) = 0.0_wp
          end do
       end do
    end subroutine displace
+
+   !> Displacements of all elements of a window [mm]
+   subroutine displacements_by_sums(table, p, ranges, u)
+      !> Coefficients, even in both directions, for the offsets of the window
+      type(kernel_table), intent(in) :: table
+      !> Pressures [N/mm2], of the shape of the window
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Workspace
+      integer, allocatable, intent(inout) :: ranges(:, :)
+      !> Positive where the surfaces move apart, of the same shape
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      call find_ranges(p, p, ranges)
+      ranges(3, :size(p, 2)) = 0
+      ranges(4, :size(p, 2)) = size(p, 1)
+      call sums_over_rows(size(p, 1), size(p, 2), ranges, table%nx, table%ny, table%nn, p, u)
+   end subroutine displacements_by_sums
+
+   !> Ranges of the elements with positive values in each row of two fields
+   pure subroutine find_ranges(a, b, ranges)
+      !> Fields of the same shape
+      real(wp), contiguous, intent(in) :: a(:, :), b(:, :)
+      !> Number of elements before and up to the end of the range of a (1, 2) and of b (3, 4) in each row, 0 if there are none; at
+      !> least as many columns as the fields
+      integer, allocatable, intent(inout) :: ranges(:, :)
+      integer :: iy
+
+      if (allocated(ranges)) then
+         if (size(ranges, 2) < size(a, 2)) deallocate(ranges)
+      end if
+      if (.not. allocated(ranges)) allocate(ranges(4, 2*size(a, 2)))
+      do iy = 1, size(a, 2)
+         call find_range(a(:, iy), ranges(1, iy), ranges(2, iy))
+         call find_range(b(:, iy), ranges(3, iy), ranges(4, iy))
+      end do
+   end subroutine find_ranges
+
+   !> Range of the positive values of a row
+   pure subroutine find_range(row, before, end)
+      real(wp), contiguous, intent(in) :: row(:)
+      !> Number of elements before the range, and up to its end; 0 if there are none
+      integer, intent(out) :: before, end
+
+      before = 0
+      do end = size(row), 1, -1
+         if (row(end) > 0.0_wp) exit
+      end do
+      do while (before < end)
+         if (row(before + 1) > 0.0_wp) exit
+         before = before + 1
+      end do
+   end subroutine find_range
 end module contact_elastic_pressure_sums

@@ -37,7 +37,7 @@ contains
       !> Prepared for the window if `sums` do not suit the bodies
       class(compliance), allocatable, intent(inout) :: operator
       !> Prepared for the window if they suit the bodies
-      type(pressure_sums), allocatable, intent(in) :: sums
+      type(pressure_sums), allocatable, intent(inout) :: sums
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: pn(:, :)
       !> Outcome; transforms are added to the present count
@@ -69,18 +69,20 @@ contains
       type(potential_contact), intent(in) :: grid
       real(wp), contiguous, intent(in) :: gap(:, :)
       class(compliance), allocatable, intent(inout) :: operator
-      type(pressure_sums), allocatable, intent(in) :: sums
+      type(pressure_sums), allocatable, intent(inout) :: sums
       real(wp), contiguous, intent(inout) :: pn(:, :)
       type(solve_report), intent(inout) :: report
       real(wp), allocatable :: un(:, :)
       real(wp), allocatable :: weight(:, :)
+      real(wp) :: displacement
 
       allocate(weight, mold=pn)
       call kpec_shape(grid, gap, pn, weight)
       if (.not. any(pn > 0.0_wp)) return
       if (allocated(sums)) then
          ! displacements of the deepest elements only
-         pn = pn*(-sum(weight*gap)/sums%weighted(weight, pn))
+         call sums%weighted(weight, pn, displacement)
+         pn = pn*(-sum(weight*gap)/displacement)
          return
       end if
       allocate(un, mold=pn)

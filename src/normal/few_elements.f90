@@ -13,7 +13,9 @@ module contact_normal_few_elements
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
-   use contact_normal_problem, only : approach_scale, normal_problem, pressure_displacement
+   use contact_elastic_pressure_sums, only : displacements_by_sums
+   use contact_normal_factor_loops, only : factorize, solve_backward, solve_forward
+   use contact_normal_problem, only : approach_scale, normal_problem
    implicit none (type, external)
    private
 
@@ -42,6 +44,8 @@ module contact_normal_few_elements
       real(wp), allocatable, private :: lower(:, :), x(:)
       !> Displacements and residuals on the window [mm], shape (mx, my)
       real(wp), allocatable, private :: u(:, :)
+      !> Workspace of direct sums
+      integer, allocatable, private :: ranges(:, :)
       !> Parameters of the factor
       real(wp), private :: dx = 0.0_wp, dy = 0.0_wp
       type(elastic_model), private :: model
@@ -94,7 +98,7 @@ contains
             p(factor%place(1, k), factor%place(2, k)) = max(0.0_wp, factor%x(k))
          end do
          if (any(factor%x(:factor%n) <= 0.0_wp)) cycle
-         call pressure_displacement(problem, operator, p, factor%u)
+         call displacements_by_sums(operator%table, p, factor%ranges, factor%u)
          worst = 0.0_wp
          do iy = 1, problem%my
             do ix = 1, problem%mx
@@ -318,7 +322,7 @@ contains
       integer, intent(in) :: n, kept
       !> Is the matrix positive definite?
       logical, intent(out) :: fits
-      integer :: i, j, k
+      integer :: j, k
 
       associate (lower => self%lower, x => self%x, place => self%place, nn => operator%table%nn)
          do k = kept + 1, n
@@ -330,12 +334,7 @@ contains
             do j = 1, kept
                x(j) = nn(place(1, k) - place(1, j), place(2, k) - place(2, j))
             end do
-            do j = 1, kept
-               x(j) = x(j)/lower(j, j)
-               do i = j + 1, kept
-                  x(i) = x(i) - x(j)*lower(i, j)
-               end do
-            end do
+            call solve_forward(kept, most, lower, x)
             lower(k, :kept) = x(:kept)
          end do
          do j = kept + 1, n
@@ -344,59 +343,15 @@ contains
             end do
          end do
       end associate
-      call factorize(self%lower, n, kept + 1, fits)
+      fits = factorize(n, kept, most, self%lower, self%x) > 0
    end subroutine extend
-
-   !> Cholesky factorisation in place, by blocks of four columns
-   pure subroutine factorize(a, n, first, is_positive)
-      !> On entry the lower triangle of a symmetric matrix, on exit that of its factor
-      real(wp), contiguous, intent(inout) :: a(:, :)
-      !> Size of the matrix, and first column that is not yet factorised on entry
-      integer, intent(in) :: n, first
-      !> Is the matrix positive definite?
-      logical, intent(out) :: is_positive
-      real(wp) :: t(4)
-      integer :: i, j, k
-
-      is_positive = .false.
-      do j = first, n
-         do k = 1, j - 4, 4
-            t = a(j, k:k + 3)
-            do i = j, n
-               a(i, j) = a(i, j) - (t(1)*a(i, k) + t(2)*a(i, k + 1) + t(3)*a(i, k + 2) + t(4)*a(i, k + 3))
-            end do
-         end do
-         do k = 4*((j - 1)/4) + 1, j - 1
-            t(1) = a(j, k)
-            do i = j, n
-               a(i, j) = a(i, j) - t(1)*a(i, k)
-            end do
-         end do
-         if (.not. a(j, j) > 0.0_wp) return
-         t(1) = 1.0_wp/sqrt(a(j, j))
-         do i = j, n
-            a(i, j) = t(1)*a(i, j)
-         end do
-      end do
-      is_positive = .true.
-   end subroutine factorize
 
    !> Forward and backward substitution
    pure subroutine substitute(self)
       class(area_factor), intent(inout) :: self
-      integer :: i, j
 
-      associate (n => self%n, x => self%x, lower => self%lower)
-         do j = 1, n
-            x(j) = x(j)/lower(j, j)
-            do i = j + 1, n
-               x(i) = x(i) - x(j)*lower(i, j)
-            end do
-         end do
-         do j = n, 1, -1
-            x(j) = (x(j) - dot_product(lower(j + 1:n, j), x(j + 1:n)))/lower(j, j)
-         end do
-      end associate
+      call solve_forward(self%n, most, self%lower, self%x)
+      call solve_backward(self%n, most, self%lower, self%x)
    end subroutine substitute
 
    !> Derivative of the pressures with respect to the approach for a fixed area, if the factor is that of the area
