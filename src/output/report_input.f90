@@ -1,14 +1,16 @@
 !> Echo of the input of a case in the .out file (output level 2 and higher)
 module contact_output_report_input
-   use contact_base_choices, only : force_control, grid_form, is_fastrip, material_model, motion, normal_control, pressure_model, &
-      & solver_choice, variation
+   use contact_base_choices, only : force_control, grid_form, is_fastrip, is_rolling, is_simplified, material_model, motion, &
+      & normal_control, pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_spec, only : case_spec, kinematics_spec, part_source
+   use contact_cases_collector, only : collector
+   use contact_cases_inputs, only : visit_kinematics, visit_rolling
+   use contact_cases_spec, only : case_spec, kinematics_spec, part_source, rolling_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value
    use contact_control_translation, only : digits_of
-   use contact_output_formats, only : fixed, generals, heading, smart, smarts, whole
-   use contact_output_report_materials, only : write_between, write_friction, write_material_model
+   use contact_output_formats, only : fixed, generals, heading, smarts, whole
+   use contact_output_report_materials, only : show, write_constants, write_friction, write_material_model
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
    private
@@ -104,40 +106,34 @@ contains
    subroutine write_problem(log, spec)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
+      character(len=:), allocatable :: text
 
-      if (spec%pressure == pressure_model%full) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", FULL SOLUTION")
-      else if (spec%pressure == pressure_model%kpec) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", APPROXIMATE KPEC SOLUTION")
-      else if (spec%pressure == pressure_model%analyn) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", APPROXIMATE ANALYN SOLUTION")
-      else if (spec%pressure == pressure_model%elliptical) then
-         call log%result(" NORMAL PROBLEM SKIPPED, ELLIPTICAL TRACTION BOUND")
-      else if (spec%pressure == pressure_model%parabolical) then
-         call log%result(" NORMAL PROBLEM SKIPPED, PARABOLICAL TRACTION BOUND")
-      else if (spec%pressure == pressure_model%sdec) then
-         call log%result(" NORMAL PROBLEM SKIPPED, SDEC TRACTION BOUND")
-      end if
+      text = "WITH PRESCRIBED " // trim(prescribed(spec)) // ", "
+      select case (spec%pressure)
+      case (pressure_model%kpec); text = text // "APPROXIMATE KPEC SOLUTION"
+      case (pressure_model%analyn); text = text // "APPROXIMATE ANALYN SOLUTION"
+      case (pressure_model%elliptical); text = "SKIPPED, ELLIPTICAL TRACTION BOUND"
+      case (pressure_model%parabolical); text = "SKIPPED, PARABOLICAL TRACTION BOUND"
+      case (pressure_model%sdec); text = "SKIPPED, SDEC TRACTION BOUND"
+      case default; text = text // "FULL SOLUTION"
+      end select
+      if (spec%pressure /= pressure_model%thin_sheet) call log%result(" NORMAL PROBLEM " // text)
       if (spec%motion == motion%none) return
 
-      if (spec%material_model == material_model%fastsim_single .or. spec%material_model == material_model%fastsim) then
-         call log%result(' STEADY STATE ROLLING,  "FASTSIM APPROACH"')
-      else if (is_fastrip(spec%material_model)) then
-         call log%result(' STEADY STATE ROLLING,  "FASTRIP APPROACH"')
+      text = "STEADY STATE ROLLING"
+      if (is_simplified(spec%material_model)) then
+         text = text // ',  "' // merge("FASTRIP", "FASTSIM", is_fastrip(spec%material_model)) // ' APPROACH"'
       else if (spec%motion == motion%shift) then
-         call log%result(" SHIFT TRANSIENT")
+         text = "SHIFT TRANSIENT"
       else if (spec%motion == motion%transient_rolling) then
-         call log%result(" TRANSIENT ROLLING")
-      else
-         call log%result(" STEADY STATE ROLLING")
+         text = "TRANSIENT ROLLING"
       end if
-      if (spec%force == force_control%creepages) then
-         call log%result(" CREEPAGE PRESCRIBED")
-      else if (spec%force == force_control%fx_and_ceta) then
-         call log%result(" X-FORCE,  Y-CREEPAGE PRESCRIBED")
-      else
-         call log%result(" TANGENTIAL FORCE PRESCRIBED")
-      end if
+      call log%result(" " // text)
+      select case (spec%force)
+      case (force_control%creepages); call log%result(" CREEPAGE PRESCRIBED")
+      case (force_control%fx_and_ceta); call log%result(" X-FORCE,  Y-CREEPAGE PRESCRIBED")
+      case default; call log%result(" TANGENTIAL FORCE PRESCRIBED")
+      end select
       call write_outer_iteration(log, spec%iteration%maxout)
    end subroutine write_problem
 
@@ -231,14 +227,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
 
-      call log%result("")
-      call log%result(" MATERIAL CONSTANTS")
-      call log%result(heading([character(len=9) :: "NU", "G", "AK", "EPS"]))
-      call log%result("  " // generals([result%nu, result%gg, result%ak, spec%iteration%eps]))
-      call log%result("")
-      call log%result("    POISS(1)    POISS(2)     GG(1)       GG(2)")
-      call log%result("  " // generals([spec%material%poiss, spec%material%gg]))
-      call write_between(log, spec, with_plastic_work=.false.)
+      call write_constants(log, spec, [result%nu, result%gg, result%ak])
       if (spec%material_model == material_model%elastic) return
       if (spec%motion == motion%none) then
          call write_material_model(log, spec%material_model, spec%material, spec%rolling%veloc)
@@ -252,39 +241,39 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      character(len=12) :: first_name, second_name
-      type(kinematics_spec) :: given
-      real(wp) :: first, second
+      type(collector) :: given, step
+      type(kinematics_spec) :: kinematics
+      type(rolling_spec) :: rolling
+      character(len=:), allocatable :: names
 
-      given = spec%kinematics
-      first_name = "   CKSI"
-      second_name = "   CETA"
-      first = given%cksi
-      second = given%ceta
-      if (spec%force >= force_control%fx_and_ceta) then
-         first_name = " FX/FSTAT/FN"
-         if (spec%variation == variation%by_row) first_name = "   FX/FN"
-         first = given%fx
-      end if
-      if (spec%force == force_control%fx_and_fy) then
-         second_name = " FY/FSTAT/FN"
-         if (spec%variation == variation%by_row) second_name = "   FY/FN"
-         second = given%fy
-      end if
-
+      kinematics = spec%kinematics
+      rolling = spec%rolling
+      call visit_kinematics(given, kinematics, spec%normal, spec%force)
+      call visit_rolling(step, rolling, spec%material_model)
+      names = "VELOC    " // title(given%names(2)) // title(given%names(3)) // "   " // given%names(4)
       call log%result("")
       call log%result(" KINEMATIC CONSTANTS")
-      if (spec%motion == motion%none .or. spec%motion == motion%shift) then
-         call log%result("     DT          VELOC    " // first_name // second_name // "   CPHI")
-         call log%result("  " // fixed(result%dt, 8, 3) // "    " // smarts([result%veloc, first, second, given%cphi]))
+      if (is_rolling(spec%motion)) then
+         call log%result("     CHI         DQ          " // trim(names))
+         call log%result("  " // generals(step%values(:2)) // smarts([step%values(3), given%values(2:4)]))
       else
-         call log%result("     CHI         DQ          VELOC    " // first_name // second_name // "   CPHI")
-         call log%result("  " // generals([spec%rolling%chi, spec%rolling%dq]) &
-            & // smart(spec%rolling%veloc, 12, 4, 4) // smarts([first, second, given%cphi]))
+         call log%result("     DT          " // trim(names))
+         call log%result("  " // fixed(result%dt, 8, 3) // "    " // smarts([result%veloc, given%values(2:4)]))
       end if
-      if (given%spinxo == 0.0_wp .and. given%spinyo == 0.0_wp) return
+      if (.not. any(abs(given%values(5:)) > 0.0_wp)) return
       call log%result("")
-      call log%result(heading([character(len=9) :: "SPINXO", "SPINYO"]))
-      call log%result("  " // generals([given%spinxo, given%spinyo]))
+      call show(log, given, "GG", first=5)
+
+   contains
+
+      !> Title of a creepage, or of a force relative to its bound
+      pure character(len=12) function title(name)
+         !> CKSI, CETA, FX or FY
+         character(len=*), intent(in) :: name
+
+         title = "   " // name
+         if (name(:1) == "F" .and. spec%variation == variation%by_row) title = "   " // trim(name) // "/FN"
+         if (name(:1) == "F" .and. spec%variation /= variation%by_row) title = " " // trim(name) // "/FSTAT/FN"
+      end function title
    end subroutine write_kinematics
 end module contact_output_report_input

@@ -10,27 +10,38 @@ module contact_output_report_materials
    implicit none (type, external)
    private
 
-   public :: show, write_between, write_flexibilities, write_friction, write_material_model
+   public :: formatted, show, write_constants, write_flexibilities, write_friction, write_material_model
 
    !> Below this output level the middle of a friction table per row is omitted
    integer, parameter :: full_friction_table = 4
 
 contains
 
-   !> Write thin sheet, damping, heat
-   subroutine write_between(log, spec, with_plastic_work)
+   !> Write elastic constants, thin sheet, damping, heat
+   subroutine write_constants(log, spec, combined)
       !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> The case, with material constants of both bodies and of the thin sheet between them
       type(case_spec), intent(in) :: spec
-      !> Write the fraction of plastic work that is converted to heat?
-      logical, intent(in) :: with_plastic_work
+      !> Combined Poisson's ratio [-], shear modulus [N/mm2] and difference parameter [-]
+      real(wp), intent(in) :: combined(3)
       character(len=9), parameter :: names(5) = [character(len=9) :: "BKTEMP", "HEATCP", "LAMBDA", "DENSITY", "BETAPL"]
       type(damping_spec) :: damping
       type(collector) :: rates, sheet
       type(material_spec) :: material
-      integer :: body, k
+      character :: a, b, form
+      integer :: body, n
 
+      a = merge("R", "1", allocated(spec%wheel_rail))
+      b = merge("W", "2", allocated(spec%wheel_rail))
+      form = merge("S", "G", allocated(spec%wheel_rail))
+      call log%result("")
+      call log%result(" MATERIAL CONSTANTS")
+      call log%result(heading([character(len=3) :: "NU", "G", "AK", "EPS"]))
+      call log%result("  " // formatted([combined, spec%iteration%eps], "G" // form // "G" // form))
+      call log%result("")
+      call log%result("    POISS(" // a // ")    POISS(" // b // ")     GG(" // a // ")       GG(" // b // ")")
+      call log%result("  " // formatted([spec%material%poiss, spec%material%gg], "GG" // form // form))
       if (spec%pressure == pressure_model%thin_sheet) then
          call log%result("")
          call log%result(" ELASTIC THIN SHEET PARAMETERS")
@@ -46,14 +57,15 @@ contains
       end if
       if (.not. spec%has_heat) return
       call log%result("")
-      call log%result(heading(names(:merge(5, 4, with_plastic_work))))
+      n = merge(5, 4, allocated(spec%wheel_rail) .and. spec%material_model == material_model%interfacial_layer)
+      call log%result(heading(names(:n)))
       associate (heat => spec%heat)
          do body = 1, 2
-            call log%result("  " // generals([heat%bktemp(body), heat%heatcp(body), heat%lambda(body), heat%dens(body), &
-               & [(heat%betapl, k=1, merge(1, 0, with_plastic_work .and. body == 1))]]))
+            call log%result("  " // formatted([heat%bktemp(body), heat%heatcp(body), heat%lambda(body), heat%dens(body), &
+               & heat%betapl], repeat("G", merge(n, 4, body == 1))))
          end do
       end associate
-   end subroutine write_between
+   end subroutine write_constants
 
    !> Write constants of material models other than elastic
    subroutine write_material_model(log, model, material, velocity, flexibilities, factor)
@@ -174,25 +186,37 @@ contains
       type(log_type), intent(inout) :: log
       !> Names and values in the order of the input
       type(collector), intent(in) :: numbers
-      !> One letter for each number that is written: G: general, S: smart, F: fixed with four decimals
+      !> One letter for each number that is written, as for `formatted`
       character(len=*), intent(in) :: forms
       !> Index of the first number that is written; default 1
       integer, intent(in), optional :: first
-      character(len=12*len(forms)) :: line
-      integer :: before, k
+      integer :: before
 
       before = 0
       if (present(first)) before = first - 1
+      call log%result(heading(numbers%names(before + 1:before + len(forms))))
+      call log%result("  " // formatted(numbers%values(before + 1:before + len(forms)), forms))
+   end subroutine show
+
+   !> Values in 12 columns each
+   pure function formatted(values, forms) result(line)
+      !> Values in internal units
+      real(wp), intent(in) :: values(:)
+      !> One letter for each value: G: general, S: smart, L: smart with six digits, F: fixed with four decimals, P: with seven
+      character(len=*), intent(in) :: forms
+      character(len=12*len(forms)) :: line
+      integer :: k
+
       do k = 1, len(forms)
-         associate (value => numbers%values(before + k), field => line(12*k - 11:12*k))
+         associate (value => values(k), field => line(12*k - 11:12*k))
             select case (forms(k:k))
             case ("S"); field = smart(value, 12, 4, 4)
+            case ("L"); field = smart(value, 12, 4, 6)
             case ("F"); field = fixed(value, 12, 4)
+            case ("P"); field = fixed(value, 12, 7)
             case default; field = general(value, 12, 4)
             end select
          end associate
       end do
-      call log%result(heading(numbers%names(before + 1:before + len(forms))))
-      call log%result("  " // line)
-   end subroutine show
+   end function formatted
 end module contact_output_report_materials

@@ -5,13 +5,14 @@ module contact_output_report_wheel_rail_input
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_collector, only : collector
-   use contact_cases_rail_inputs, only : visit_deviations, visit_flexibility, visit_search
+   use contact_cases_rail_inputs, only : visit_deviations, visit_flexibility, visit_position, visit_search, &
+      & visit_velocity
    use contact_cases_spec, only : case_spec, part_source
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
-   use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
+   use contact_output_formats, only : fixed, generals, heading, whole
    use contact_output_report_input, only : digit_words, write_last_digits, write_outer_iteration
-   use contact_output_report_materials, only : show, write_between, write_friction, write_material_model
+   use contact_output_report_materials, only : formatted, show, write_constants, write_friction, write_material_model
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : profile_spec, rail_spec, search_spec, wheel_rail_spec, wheelset_spec
    implicit none (type, external)
@@ -113,15 +114,7 @@ contains
       !> Result, for the combined constants
       type(wheel_rail_result), intent(in) :: result
 
-      call log%result("")
-      call log%result(" MATERIAL CONSTANTS")
-      call log%result(heading([character(len=9) :: "NU", "G", "AK", "EPS"]))
-      call log%result("  " // general(result%nu, 12, 4) // smarts([result%gg]) // general(result%ak, 12, 4) &
-         & // smarts([spec%iteration%eps]))
-      call log%result("")
-      call log%result("    POISS(R)    POISS(W)     GG(R)       GG(W)")
-      call log%result("  " // generals(spec%material%poiss) // smarts(spec%material%gg))
-      call write_between(log, spec, with_plastic_work=spec%material_model == material_model%interfacial_layer)
+      call write_constants(log, spec, [result%nu, result%gg, result%ak])
       associate (model => spec%material_model)
          if (model == material_model%elastic) return
          if (spec%motion == motion%none .and. model /= material_model%viscoelastic) return
@@ -176,12 +169,12 @@ contains
       associate (track => pair%track)
          if (track%gaught > 0.0_wp) then
             call log%result("    GAUGHT      GAUGWD        CANT        CURV")
-            call log%result(fixed(track%gaught, 10, 3) // fixed(track%gaugwd, 12, 3) // fixed(track%cant, 12, 4) &
-               & // smart(track%curvature, 12, 4, 4))
+            call log%result(fixed(track%gaught, 10, 3) // fixed(track%gaugwd, 12, 3) // formatted([track%cant, track%curvature], &
+               & "FS"))
          else
             call log%result("    GAUGHT      RAILY0      RAILZ0        CANT        CURV")
-            call log%result(fixed(track%gaught, 10, 3) // fixed(track%raily0, 12, 4) // fixed(track%railz0, 12, 4) &
-               & // fixed(track%cant, 12, 4) // smart(track%curvature, 12, 4, 4))
+            call log%result(fixed(track%gaught, 10, 3) // formatted([track%raily0, track%railz0, track%cant, track%curvature], &
+               & "FFFS"))
          end if
       end associate
    end subroutine write_track
@@ -206,8 +199,8 @@ contains
          call log%result(" ")
          call log%result(" MASSLESS RAIL DEFLECTION")
          call log%result(heading([character(len=9) :: "KY_RAIL", "DY_DEFL", "FY_RAIL", "KZ_RAIL", "DZ_DEFL", "FZ_RAIL"]))
-         call log%result("  " // fixed(rail%ky, 12, 4) // fixed(merge(-1, 1, spec%wheel_rail%left)*result%dy_defl, 12, 4) &
-            & // smarts([rail%fy]) // fixed(rail%kz, 12, 4) // fixed(result%dz_defl, 12, 4) // smarts([rail%fz]))
+         call log%result("  " // formatted([rail%ky, merge(-1, 1, spec%wheel_rail%left)*result%dy_defl, rail%fy, rail%kz, &
+            & result%dz_defl, rail%fz], "FFSFFS"))
       end associate
    end subroutine write_rail
 
@@ -216,36 +209,33 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(wheel_rail_result), intent(in) :: result
-      type(collector) :: shown
+      type(collector) :: place, rates, flexible
       type(wheelset_spec) :: copy
 
-      associate (w => spec%wheel_rail%wheelset, roller => spec%wheel_rail%roller)
+      copy = spec%wheel_rail%wheelset
+      associate (roller => spec%wheel_rail%roller)
+         call visit_position(place, copy, roller, with_force=.false.)
+         call visit_velocity(rates, copy, roller, with_force=.false.)
          call log%result("")
          call log%result(" WHEEL-SET POSITION AND VELOCITY")
-         call log%result("     " // trim(merge("X_WS", "S_WS", roller)) &
-            & // "        Y_WS        Z_WS        ROLL_WS     YAW_WS      PITCH_WS")
-         if (roller) then
-            call log%result("  " // smarts([w%x, w%y]) // fixed(result%z_ws, 12, 4) // smarts([w%roll, w%yaw, w%pitch]))
-         else
-            call log%result("  " // smart(w%s, 12, 4, 6) // smarts([w%y]) // fixed(result%z_ws, 12, 4) &
-               & // smarts([w%roll, w%yaw, w%pitch]))
-         end if
+         place%names(4:) = [character(len=8) :: "ROLL_WS", "YAW_WS", "PITCH_WS"]
+         place%values(3) = result%z_ws
+         call show(log, place, merge("S", "L", roller) // "SFSSS")
          call log%result("")
+         rates%values(6) = result%vpitch
          if (roller) then
             call log%result("  VPITCH_ROL    VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
-            call log%result("  " // fixed(w%rpitch, 12, 7) // smarts([w%vy, w%vz, w%vroll, w%vyaw]) // fixed(result%vpitch, 12, 7))
          else
             call log%result("     VX_WS       VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
-            call log%result("  " // smarts([w%vs, w%vy, w%vz, w%vroll, w%vyaw]) // fixed(result%vpitch, 12, 7))
          end if
-         call log%result("")
-         if (.not. any(abs([w%flexible, w%flexible_rate]) > no_deviation)) return
-         call log%result(" FLEXIBLE WHEEL-SET DEVIATIONS")
-         copy = w
-         call visit_flexibility(shown, copy)
-         call show(log, shown, "SSSSSS")
-         call show(log, shown, "SSSSSS", first=7)
+         call log%result("  " // formatted(rates%values, merge("P", "S", roller) // "SSSSP"))
          call log%result("")
       end associate
+      if (.not. any(abs([copy%flexible, copy%flexible_rate]) > no_deviation)) return
+      call log%result(" FLEXIBLE WHEEL-SET DEVIATIONS")
+      call visit_flexibility(flexible, copy)
+      call show(log, flexible, "SSSSSS")
+      call show(log, flexible, "SSSSSS", first=7)
+      call log%result("")
    end subroutine write_wheelset
 end module contact_output_report_wheel_rail_input
