@@ -22,11 +22,13 @@ module contact_capi_caller
       character(len=6) :: name
       real(wp) :: least
    end type raised_number
-   !> Coefficients of friction, factors of slope reduction [-], slip velocities [mm/s], curvatures [1/mm], thickness [mm]
+   !> Coefficients of friction, factors of slope reduction [-], slip velocities [mm/s], curvatures [1/mm], thickness [mm], step of
+   !> depths [mm]
    type(raised_number), parameter :: raised_numbers(*) = [raised_number("FSTAT", 1.0e-6_wp), raised_number("FKIN", 1.0e-6_wp), &
       & raised_number("FREF", 1.0e-6_wp), raised_number("SABSH1", 1.0e-4_wp), raised_number("SABSH2", 1.0e-4_wp), &
       & raised_number("K0_MF", 1.0e-6_wp), raised_number("ALFAMF", 1.0e-6_wp), raised_number("BETAMF", 1.0e-6_wp), &
-      & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp)]
+      & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp), &
+      & raised_number("DZ", 1.0e-9_wp)]
 
    !> Arrays of the caller, accessed in place and never written to
    type :: integer_list
@@ -86,6 +88,7 @@ module contact_capi_caller
       procedure :: end_line => set_line
       procedure :: list => set_list
       procedure :: tell => tell_of_number
+      procedure :: fail => refuse_number
       procedure :: check => check_number
       !> Return a list, or one number per result; lists are truncated to the size of the buffer
       generic :: give => give_numbers, give_integers
@@ -277,6 +280,14 @@ contains
          call warn(self%call_of, trim(self%shown(name)) // text)
       end if
    end subroutine tell_of_number
+
+   !> Refuse the call because of a number
+   subroutine refuse_number(self, name, text)
+      class(caller), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      call self%tell(.true., name, text)
+   end subroutine refuse_number
 
    !> Check the bounds of a number that was read before
    subroutine check_number(self, name, bounds)

@@ -4,33 +4,32 @@ module contact_capi_subsurface
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of, raised
+   use contact_capi_arguments, only : give, integer_of
    use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, count_fits, first_refusal, fits, library_log
+   use contact_capi_messages, only : complain, count_fits, first_refusal, library_log
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface_inputs, only : block_option, longest_list, visit_block, visit_option
    use contact_control_library_codes, only : library_code
-   use contact_control_units, only : inward, outward, quantity
+   use contact_control_units, only : outward, quantity
    use contact_output_finished_file, only : case_file_name
    use contact_output_report, only : write_subsurface
    use contact_output_subs_file, only : write_subs_file
    use contact_patch_result, only : patch_result, subsurface_result
-   use contact_subsurface_points, only : depth_range, point_block, point_selection
+   use contact_subsurface_points, only : point_block
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 
    public :: add_block, get_block, get_block_size, subs_calculate
 
-   !> Maximum number of blocks of a problem, and of points of a block in one direction
-   integer, parameter :: max_blocks = 10, longest_list = 9999
-   !> Minimum step of depths [mm]
-   real(wp), parameter :: min_step = 1.0e-9_wp
+   !> Maximum number of blocks of a problem
+   integer, parameter :: max_blocks = 10
    !> Number of columns, and value of unknown ones
    integer, parameter :: max_columns = 21
    real(wp), parameter :: no_column = -999.0_wp
@@ -43,24 +42,70 @@ contains
    !>
    !> Points may belong to a single patch of wheel and rail.
    subroutine add_block(a, problem)
-      type(caller), intent(in) :: a
+      type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
-      type(point_block) :: block
-      logical :: accepted
+      type(point_block), target :: block
+      real(wp), allocatable, target :: numbers(:)
+      integer, target :: option
 
-      associate (this => a%call_of, number => a%single(1))
-         accepted = .true.
-         if (number > 0) call make_block(this, a%single(2), a%numbers(1)%v, a%numbers(2)%v, a%numbers(3)%v, &
-            & inward(problem%units, quantity%length), block, accepted)
-         if (.not. accepted) return
-         if (problem%module_number == 1 .and. this%icp > 0) then
-            call store_block(this, number, block, problem%blocks(this%icp)%list)
-            if (number == 0 .and. allocated(problem%blocks(this%icp)%list)) deallocate(problem%blocks(this%icp)%list)
+      associate (number => a%single(1), patch => a%call_of%icp)
+         if (number > 0) then
+            call arrange_as_in_files(a, numbers)
+            if (.not. a%is_good) return
+            a%numbers(1)%v => numbers
+            call visit_option(a, option)
+            call visit_block(a, option, block)
+            if (.not. a%is_good) return
+         end if
+         if (problem%module_number == 1 .and. patch > 0) then
+            call store_block(a%call_of, number, block, problem%blocks(patch)%list)
+            if (number == 0 .and. allocated(problem%blocks(patch)%list)) deallocate(problem%blocks(patch)%list)
          else
-            call store_block(this, number, block, problem%spec%subsurface%blocks)
+            call store_block(a%call_of, number, block, problem%spec%subsurface%blocks)
          end if
       end associate
    end subroutine add_block
+
+   !> Option and lists of a block in the order of input files, each list after its length; ranges have three numbers instead
+   subroutine arrange_as_in_files(a, numbers)
+      !> Call with the option as second integer; refused if a range has not three numbers
+      type(caller), intent(inout) :: a
+      !> Values in the units of the caller
+      real(wp), allocatable, intent(out) :: numbers(:)
+      real(wp) :: lengths(3)
+      integer :: k, n(3)
+
+      associate (option => a%single(2), x => a%numbers(1)%v, y => a%numbers(2)%v, z => a%numbers(3)%v)
+         do k = 1, 3
+            if (.not. is_range(option, k)) cycle
+            a%is_good = count_fits(a%call_of, option, size(a%numbers(k)%v), 3, 3)
+            if (.not. a%is_good) return
+         end do
+         lengths = real([size(x), size(y), size(z)], wp)
+         ! longer lists are refused by their lengths
+         n = min([size(x), size(y), size(z)], longest_list)
+         numbers = [real(option, wp)]
+         select case (option)
+         case (block_option%ranges_by_step, block_option%ranges); numbers = [numbers, x, y]
+         case (block_option%lists_by_step, block_option%lists); numbers = [numbers, lengths(:2), x(:n(1)), y(:n(2))]
+         case (block_option%free); numbers = [numbers, lengths, x(:n(1)), y(:n(2))]
+         end select
+         if (.not. is_range(option, 3) .and. option /= block_option%free) numbers = [numbers, lengths(3)]
+         numbers = [numbers, z(:n(3))]
+      end associate
+   end subroutine arrange_as_in_files
+
+   !> Is a list of a block a range of three numbers?
+   pure logical function is_range(option, list)
+      !> Member of block_option, and list: 1 columns, 2 rows, 3 depths
+      integer, intent(in) :: option, list
+
+      if (list == 3) then
+         is_range = any(option == [block_option%all_by_step, block_option%ranges_by_step, block_option%lists_by_step])
+      else
+         is_range = any(option == [block_option%ranges_by_step, block_option%ranges])
+      end if
+   end function is_range
 
    !> Store a block in a list
    subroutine store_block(this, number, block, list)
@@ -83,85 +128,6 @@ contains
       if (number > 0) longer(number) = block
       call move_alloc(longer, list)
    end subroutine store_block
-
-   !> Create a block from the arguments
-   subroutine make_block(this, option, x, y, z, length, block, accepted)
-      type(entry_type), intent(in) :: this
-      !> Option ISUBS of the block
-      integer, intent(in) :: option
-      real(wp), intent(in) :: x(:), y(:), z(:)
-      !> Unit of length of the caller [mm]
-      real(wp), intent(in) :: length
-      type(point_block), intent(out) :: block
-      logical, intent(out) :: accepted
-      real(wp) :: depths(size(z))
-
-      accepted = .false.
-      if (.not. any(option == [1, 2, 3, 5, 6, 7, 9])) then
-         call complain(this, "there is no kind " // integer_text(option) // " of blocks; 1, 2, 3, 5, 6, 7 and 9 are")
-         return
-      end if
-      if (option /= 1 .and. option /= 5) then
-         if (.not. count_fits(this, option, size(x), merge(3, 1, option == 2 .or. option == 6), &
-            & merge(3, longest_list, option == 2 .or. option == 6))) return
-         if (.not. count_fits(this, option, size(y), merge(3, 1, option == 2 .or. option == 6), &
-            & merge(3, longest_list, option == 2 .or. option == 6))) return
-         if (option == 9) then
-            if (.not. fits(this, "X", x*length)) return
-            if (.not. fits(this, "Y", y*length)) return
-         else
-            if (.not. fits(this, "IX", x)) return
-            if (.not. fits(this, "IY", y)) return
-         end if
-      end if
-      if (.not. count_fits(this, option, size(z), merge(3, 1, option <= 3), merge(3, longest_list, option <= 3))) return
-      depths = z*length
-      if (option <= 3) then
-         depths(1) = anint(z(1))
-         depths(3) = raised(depths(3), min_step)
-         if (.not. fits(this, "NZ ZL DZ", depths)) return
-      else
-         if (.not. fits(this, "Z", depths)) return
-      end if
-      select case (option)
-      case (1, 5)
-         block%selection = point_selection%all_elements
-      case (2, 6)
-         block%selection = point_selection%ranges
-         call take_range(x, block%ixl, block%ixinc, block%ixh)
-         call take_range(y, block%iyl, block%iyinc, block%iyh)
-      case (3, 7)
-         block%selection = point_selection%lists
-         block%ix = whole(x)
-         block%iy = whole(y)
-      case (9)
-         block%selection = point_selection%free
-         block%x = x*length
-         block%y = y*length
-      end select
-      if (option <= 3) then
-         block%z = depth_range(nint(depths(1)), depths(2), depths(3))
-      else
-         block%z = depths
-      end if
-      accepted = .true.
-   end subroutine make_block
-
-   !> Read first, step and last column or row
-   pure subroutine take_range(values, low, step, high)
-      real(wp), intent(in) :: values(3)
-      integer, intent(out) :: low, step, high
-
-      low = max(1, whole(values(1)))
-      step = max(1, whole(values(2)))
-      high = whole(values(3))
-   end subroutine take_range
-
-   !> Nearest integer, within bounds that exceed any grid
-   elemental integer function whole(value)
-      real(wp), intent(in) :: value
-      whole = nint(max(-1.0e9_wp, min(1.0e9_wp, value)))
-   end function whole
 
    !> Calculate displacements and stresses in the blocks of points, after a calculation
    subroutine subs_calculate(ire, icp, ierror) bind(c, name="inside_subs_calculate")

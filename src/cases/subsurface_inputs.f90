@@ -10,10 +10,10 @@ module contact_cases_subsurface_inputs
    implicit none (type, external)
    private
 
-   public :: visit_stress_output, visit_blocks
+   public :: visit_block, visit_blocks, visit_option, visit_stress_output
 
    !> Maximum number of coordinates of a block in one direction
-   integer, parameter :: longest_list = 9999
+   integer, parameter, public :: longest_list = 9999
    !> Maximum number of a column or row
    integer, parameter :: largest_index = 999999
 
@@ -24,7 +24,7 @@ module contact_cases_subsurface_inputs
       integer :: all = 5, ranges = 6, lists = 7, free = 9
    end type block_option_list
    !> Option of a block (ISUBS); 0 ends the list of blocks
-   type(block_option_list), parameter :: option = block_option_list()
+   type(block_option_list), parameter, public :: block_option = block_option_list()
 
 contains
 
@@ -49,11 +49,11 @@ contains
       if (.not. a%is_reading) then
          do k = 1, size(subsurface%blocks)
             kind_of_block = option_of(subsurface%blocks(k)%selection)
-            call visit_option(kind_of_block)
+            call visit_option(a, kind_of_block)
             call visit_block(a, kind_of_block, subsurface%blocks(k))
          end do
          kind_of_block = 0
-         call visit_option(kind_of_block)
+         call visit_option(a, kind_of_block)
          return
       end if
 
@@ -61,7 +61,7 @@ contains
       n = 0
       allocate(blocks(4))
       do
-         call visit_option(kind_of_block)
+         call visit_option(a, kind_of_block)
          if (.not. a%is_good .or. kind_of_block <= 0) exit
          if (n == size(blocks)) then
             allocate(longer(2*n))
@@ -76,17 +76,17 @@ contains
       if (.not. a%is_good) return
       if (allocated(subsurface%blocks)) deallocate(subsurface%blocks)
       subsurface%blocks = blocks(:n)
-
-   contains
-
-      !> Option of the next block
-      subroutine visit_option(value)
-         integer, intent(inout), target :: value
-
-         call a%integer("ISUBS", value, unchecked=.true.)
-         call a%end_line()
-      end subroutine visit_option
    end subroutine visit_blocks
+
+   !> Option of the next block
+   subroutine visit_option(a, value)
+      class(case_archive), intent(inout) :: a
+      !> Member of block_option; 0 ends the list of blocks
+      integer, intent(inout), target :: value
+
+      call a%integer("ISUBS", value, unchecked=.true.)
+      call a%end_line()
+   end subroutine visit_option
 
    !> The option with a list of depths
    pure integer function option_of(selection)
@@ -94,18 +94,19 @@ contains
       integer, intent(in) :: selection
 
       select case (selection)
-      case (point_selection%ranges); option_of = option%ranges
-      case (point_selection%lists); option_of = option%lists
-      case (point_selection%free); option_of = option%free
-      case default; option_of = option%all
+      case (point_selection%ranges); option_of = block_option%ranges
+      case (point_selection%lists); option_of = block_option%lists
+      case (point_selection%free); option_of = block_option%free
+      case default; option_of = block_option%all
       end select
    end function option_of
 
    !> One block: columns and rows, then depths; or coordinates in all directions
    subroutine visit_block(a, kind_of_block, block)
       class(case_archive), intent(inout) :: a
-      !> Member of option
+      !> Member of block_option
       integer, intent(in) :: kind_of_block
+      !> Points, from which the numbers are taken or in which they are stored
       type(point_block), intent(inout), target :: block
       real(wp), target :: first_depth, step
       integer, target :: nx, ny, nz
@@ -114,13 +115,13 @@ contains
       nz = 0
       if (allocated(block%z)) nz = size(block%z)
       select case (kind_of_block)
-      case (option%all_by_step, option%all)
+      case (block_option%all_by_step, block_option%all)
          block%selection = point_selection%all_elements
-      case (option%ranges_by_step, option%ranges)
+      case (block_option%ranges_by_step, block_option%ranges)
          block%selection = point_selection%ranges
          call visit_range(a, "IX", block%ixl, block%ixinc, block%ixh)
          call visit_range(a, "IY", block%iyl, block%iyinc, block%iyh)
-      case (option%lists_by_step, option%lists)
+      case (block_option%lists_by_step, block_option%lists)
          block%selection = point_selection%lists
          nx = 0
          ny = 0
@@ -133,7 +134,7 @@ contains
          call require_length(a, "NY", ny)
          call visit_indices(a, nx, "IX", block%ix)
          call visit_indices(a, ny, "IY", block%iy)
-      case (option%free)
+      case (block_option%free)
          block%selection = point_selection%free
          nx = 0
          ny = 0
@@ -151,19 +152,19 @@ contains
          call visit_sorted(a, nz, "Z", block%z)
          return
       case default
-         call a%fail("ISUBS", " is not a known option; allowed are 1, 2, 3, 5, 6, 7 and 9, and 0 to end the blocks")
+         call a%fail("ISUBS", " is not a known option; allowed are 1, 2, 3, 5, 6, 7 and 9, and in files 0 to end the blocks")
          return
       end select
 
       call a%integer("NZ", nz, unchecked=.true.)
-      if (kind_of_block <= option%lists_by_step) then
+      if (kind_of_block <= block_option%lists_by_step) then
          call a%real("ZL", first_depth)
          call a%real("DZ", step)
       end if
       call a%end_line()
       call require_length(a, "NZ", nz)
       if (.not. a%is_good) return
-      if (kind_of_block <= option%lists_by_step) then
+      if (kind_of_block <= block_option%lists_by_step) then
          block%z = [(first_depth + (k - 1)*step, k = 1, nz)]
       else
          call visit_sorted(a, nz, "Z", block%z)
@@ -214,7 +215,7 @@ contains
       integer :: k, kept
 
       if (allocated(list)) values = real(list, wp)
-      call a%list(name, values, n)
+      call a%list(name, values, n, units=["-"])
       if (.not. (a%is_reading .and. a%is_good)) return
       values = min(values, real(largest_index, wp))
       call sort(values)

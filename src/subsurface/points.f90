@@ -5,7 +5,7 @@ module contact_subsurface_points
    implicit none (type, external)
    private
 
-   public :: point_selection, point_block, point_set, expand_points, list_points, depth_range
+   public :: point_selection, point_block, point_set, expand_points, list_points
    public :: stepped_depth, stepped_points
 
    type :: point_selection_list
@@ -145,18 +145,6 @@ contains
 
       n = size(self%x, kind=long)*size(self%y, kind=long)*size(self%z, kind=long)
    end function number_of_points
-
-   !> Depths zl, zl + dz, ... [mm]
-   pure function depth_range(nz, zl, dz) result(z)
-      !> Number of depths
-      integer, intent(in) :: nz
-      !> First depth and step [mm]
-      real(wp), intent(in) :: zl, dz
-      real(wp), allocatable :: z(:)
-      integer :: iz
-
-      z = [(zl + (iz - 1)*dz, iz = 1, nz)]
-   end function depth_range
 
    !> Values first, first + increment, ... up to last that are within 1...m
    pure function range_within(first, increment, last, m) result(numbers)

@@ -166,6 +166,55 @@ def stresses():
     check(told in log_text(), "a warning of points near the surface")
 
 
+def points_below():
+    """Blocks of points by each option: coordinates in two conventions; what an input file refuses is refused"""
+    lists = {1: ([], [], [2, 0.5, 0.25]), 2: ([2, 3, 9], [30, 0, 33], [2, 0.5, 0.25]), 3: ([5, 2, 8, 5], [33, 1], [2, 0.5, 0.25]),
+             5: ([], [], [0.75, 0.5]), 6: ([2, 3, 9], [30, 0, 33], [0.75, 0.5]), 7: ([8.2, 2, 5], [1, 33], [0.75, 0.5]),
+             9: ([1.5, -2.0], [0.5, 0.0, 3.0], [0.75, 0.5])}
+    for ire, (units, big) in enumerate((("un_cntc", 1.0), ("un_si", 1e-3)), 1):
+        start(ire)
+        case_a(ire, 1, units)
+        same(cntc.calculate(ire, 1), 0, f"{units}: error code")
+        mx, my, xc1, yc1, dx, dy = cntc.getpotcontact(ire, 1)[:6]
+        centres = xc1 + dx * np.arange(int(mx)), yc1 + dy * np.arange(int(my))
+        for option, (x, y, z) in lists.items():
+            if option == 9:
+                coordinates, given = [np.sort(x) * big, np.sort(y) * big], [np.array(x) * big, np.array(y) * big]
+            else:
+                chosen = [(slice(None), slice(None)), (slice(1, 9, 3), slice(29, 33)), ([1, 4, 7], [0, 32])][option % 4 - 1]
+                coordinates, given = [centre[which] for centre, which in zip(centres, chosen)], [x, y]
+            depths = [2, z[1] * big, z[2] * big] if option <= 3 else np.array(z) * big
+            cntc.subs_addblock(ire, 1, 1, option, *given, depths)
+            same(cntc.subs_calculate(ire, 1), 0, f"{units}, option {option}: error code")
+            expected = np.meshgrid([0.5 * big, 0.75 * big], coordinates[1], coordinates[0], indexing="ij")
+            same(cntc.subs_getblocksize(ire, 1, 1), expected[0].shape[::-1], f"{units}, option {option}: size of the block")
+            for name, found, values in zip("xyz", cntc.subs_getresults(ire, 1, 1, [1, 2, 3]), expected[::-1]):
+                close(found, values.reshape(-1), 1e-12 * big, f"{units}, option {option}: {name}")
+    start()
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "error code")
+    good = ([1, 1, 2], [1, 1, 2], [2, 0.0, 1.0])
+    for option, (x, y, z), words in ((4, good, "ISUBS = 4 is not a known option"),
+                                     (2, ([1, 2], *good[1:]), "needs 3 values, not 2"),
+                                     (1, ([], [], [1, 2]), "needs 3 values, not 2"),
+                                     (2, ([-1, 1, 2], *good[1:]), "IXL = -1 is outside its range 1 to"),
+                                     (2, ([3, 1, 2], *good[1:]), "IXH = 2 is outside its range 3 to"),
+                                     (3, ([], *good[1:]), "NX = 0 is outside its range 1 to 9999"),
+                                     (1, ([], [], [0, 0.0, 1.0]), "NZ = 0 is outside its range 1 to 9999"),
+                                     (1, ([], [], [2, 0.0, -1.0]), "DZ = -1 is below"),
+                                     (5, ([], [], np.zeros(10000)), "NZ = 10000 is outside its range 1 to 9999"),
+                                     (7, ([1.0, np.inf], [1], [0.0]), "IX(2) is infinite"),
+                                     (9, ([0.0], [1e7], [0.0]), "Y(1) = 1.00000E+07 is above its upper bound")):
+        cntc.subs_addblock(1, 1, 1, option, x, y, z)
+        text = last_error(1, 1)[1]
+        check(words in text and "nothing is stored" in text or "needs 3" in words and words in text, f"{option}: {words}: {text}")
+        same(cntc.subs_calculate(1, 1), -99, f"{option}: {words}: no stresses")
+    cntc.subs_addblock(1, 1, 1, 1, [], [], [2, 0.0, 0.0])
+    same(cntc.subs_calculate(1, 1), 0, "a step of zero is raised")
+    cntc.subs_addblock(1, 1, 1, 3, [0, 2, 2], [1], [1, 0.5, 1.0])
+    check("2 of the 3 numbers of IX are dropped" in last_error(1, 1)[1], "what is dropped is reported")
+
+
 def sensitivities():
     """Derivatives of forces: figures of version 25.2.0, and differences of two runs"""
     start()
@@ -768,8 +817,8 @@ if __name__ == "__main__":
     for stale in os.listdir("."):
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
-    scenarios = (conventions, variations, materials, stresses, sensitivities, codes, wrong_counts, clamps, refusals, separate,
-                 continued, case_number, replay, second_run, timers, array_lengths, kalker, names, grids)
+    scenarios = (conventions, variations, materials, stresses, points_below, sensitivities, codes, wrong_counts, clamps, refusals,
+                 separate, continued, case_number, replay, second_run, timers, array_lengths, kalker, names, grids)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))

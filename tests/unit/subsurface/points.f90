@@ -2,7 +2,7 @@
 program test_subsurface_points
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_subsurface_points, only : depth_range, expand_points, list_points, point_block, point_selection, point_set
+   use contact_subsurface_points, only : expand_points, list_points, point_block, point_selection, point_set
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    type(test_suite) :: suite
@@ -21,7 +21,7 @@ contains
       integer :: nx, ny, nz
 
       grid = potential_contact(mx=5, my=3, xl=-5.0_wp, yl=0.0_wp, dx=2.0_wp, dy=1.0_wp)
-      block%z = depth_range(2, 0.5_wp, 0.25_wp)
+      block%z = [0.5_wp, 0.75_wp]
       call expand(block, grid, nx, ny, nz, position)
       call suite%check(all([nx, ny, nz, size(position, 2)] == [5, 3, 2, 30]), "all elements")
       call suite%close_to(position(:, 1), [-4.0_wp, 0.5_wp, 0.5_wp], 1e-14_wp, "first point")
