@@ -15,6 +15,7 @@ module contact_patch_derivatives
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
    use contact_tangential_nested, only : traction_adjoint
    use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_second_order, only : is_known
    implicit none (type, external)
    private
 
@@ -228,7 +229,7 @@ contains
       type(tangential_problem), intent(in) :: t
       !> Compliance of the grid
       class(compliance), intent(inout) :: window
-      !> [mm per unit], shape of the box
+      !> [mm per unit], zero where distances are not known, shape of the box
       real(wp), intent(out) :: gap(:, :)
       !> Values ahead of one, two and three equidistant ones
       real(wp), parameter :: extension(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 2.0_wp, -1.0_wp, 0.0_wp, 3.0_wp, -3.0_wp, &
@@ -242,7 +243,7 @@ contains
       do iy = 1, t%my
          jy = box%iy0 + iy - 1
          do ix = 1, t%mx
-            if (t%second%gap(ix, iy) < 0.0_wp) cycle
+            if (.not. is_known(t%second%gap(ix, iy))) cycle
             jx = box%ix0 + ix - 1
             n = 1
             do while (n < size(extension, 1) .and. ix - n*t%direction >= 1 .and. ix - n*t%direction <= t%mx)

@@ -12,7 +12,7 @@ module contact_patch_order
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_workspace, only : patch_workspace, prepare_window
    use contact_tangential_problem, only : tangential_problem
-   use contact_tangential_second_order, only : find_edge_terms, second_order
+   use contact_tangential_second_order, only : find_edge_terms, second_order, unknown_gap
    implicit none (type, external)
    private
 
@@ -22,8 +22,9 @@ module contact_patch_order
    real(wp), parameter :: middle = 0.5_wp
    !> Steps that differ by less than this part of an element are one element long: the edge is off by that part of it; chosen
    real(wp), parameter :: step_slack = 0.01_wp
-   !> Central differences of edge terms, as a part of the largest pressure: the formula is smooth, errors are those of rounding
-   real(wp), parameter :: pressure_step = 1.0e-6_wp
+   !> Largest change of pressures in central differences of edge terms, and the smallest one, which rounding requires, as fractions
+   !> of the largest pressure; largest change as a fraction of a pressure at the edge, as terms are quotients by it; chosen
+   real(wp), parameter :: pressure_step = 1.0e-6_wp, least_step = 1.0e-10_wp, edge_step = 1.0e-3_wp
 
 contains
 
@@ -127,7 +128,7 @@ contains
          end if
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-         allocate(gap(t%mx, t%my), source=-1.0_wp)
+         allocate(gap(t%mx, t%my), source=unknown_gap)
          if (.not. is_root(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
          call find_edge_terms(t%contact, workspace%box_pn, gap, is_root(problem), t%dx, t%dy, t%direction, &
             & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), t%second)
@@ -179,7 +180,7 @@ contains
       real(wp), intent(in) :: p(:, :, :)
       !> Pressures [N/mm2] and how they change with some input, shape (mx, my)
       real(wp), intent(in) :: pressure(:, :), change(:, :)
-      !> How distances in the elements ahead change with it [mm per unit], shape (mx, my)
+      !> How distances in the elements ahead change with it [mm per unit], zero where they are not known, shape (mx, my)
       real(wp), intent(in) :: gap_change(:, :)
       !> [mm per unit of the input], shape (mx, my, 2)
       real(wp), intent(out) :: slip(:, :, :)
@@ -189,7 +190,7 @@ contains
 
       slip = 0.0_wp
       if (.not. any(abs(change) > 0.0_wp)) return
-      step = pressure_step*maxval(pressure)/maxval(abs(change))
+      step = step_of(pressure, change, tangential%second)
       do k = 1, 2
          side = real(2*k - 3, wp)*step
          call find_edge_terms(tangential%contact, pressure + side*change, tangential%second%gap + side*gap_change, &
@@ -204,4 +205,23 @@ contains
          end associate
       end do
    end subroutine edge_slip
+
+   !> Step of the input for central differences of edge terms [unit]
+   pure real(wp) function step_of(pressure, change, second) result(step)
+      !> Pressures [N/mm2] and their derivatives, not all zero, shape (mx, my)
+      real(wp), intent(in) :: pressure(:, :), change(:, :)
+      !> Edge terms: the elements whose pressures they depend on
+      type(second_order), intent(in) :: second
+      real(wp) :: largest, p, d
+      integer :: k
+
+      largest = maxval(pressure)/maxval(abs(change))
+      step = pressure_step*largest
+      do k = 1, size(second%at, 2)
+         p = pressure(second%at(1, k), second%at(2, k))
+         d = abs(change(second%at(1, k), second%at(2, k)))
+         if (step*d > edge_step*p) step = edge_step*p/d
+      end do
+      step = max(step, least_step*largest)
+   end function step_of
 end module contact_patch_order

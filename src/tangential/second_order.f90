@@ -16,13 +16,13 @@ module contact_tangential_second_order
    implicit none (type, external)
    private
 
-   public :: second_order, find_edge_terms
+   public :: find_edge_terms, is_known, second_order, unknown_gap
 
    !> Edge terms of a tangential problem, and whether its slip is turned
    type :: second_order
       !> Elements with a term, column and row, shape (2, n): the leading ones, then the second and third of their rows
       integer, allocatable :: at(:, :)
-      !> How far surfaces are apart in the element ahead of a leading one [mm], negative where that is unknown, shape (mx, my)
+      !> Distance of the surfaces in the element ahead of a leading one [mm], `unknown_gap` where it is not known, shape (mx, my)
       real(wp), allocatable :: gap(:, :)
       !> Their terms xx, yy, xy [mm/(N/mm2)], shape (3, n)
       real(wp), allocatable :: kappa(:, :)
@@ -43,6 +43,8 @@ module contact_tangential_second_order
       procedure :: turn_round
    end type second_order
 
+   !> Gap that is not known [mm]. Known gaps are not negative, but their changes may take them below zero
+   real(wp), parameter :: unknown_gap = -huge(1.0_wp)
    !> Constants of the half-plane with piecewise constant tractions and steps of one element, by the factorisation of its symbol.
    !> Tractions grow as sqrt(n + d0) behind the edge, n elements from the first one; e0 = exp(l0) scales a term there;
    !> 3/2 - l1 is the ratio of the second to the first traction. l0, l1: Fourier coefficients of the logarithm of the even factor
@@ -71,8 +73,8 @@ contains
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
-      !> How far surfaces are apart in the element ahead [mm], shape (mx, my); negative where that is unknown. Only values in
-      !> leading elements count
+      !> Distance of the surfaces in the element ahead [mm], shape (mx, my); `unknown_gap` where it is not known. Only values of
+      !> leading elements are used. The terms are smooth functions of known gaps, also where these pass zero
       real(wp), intent(in) :: gap(:, :)
       !> Are pressures a semi-ellipse in each row, at the centres of elements, and not a solution of the contact conditions with
       !> piecewise constant pressures?
@@ -91,7 +93,7 @@ contains
       integer, allocatable :: at(:, :), first(:)
       integer, allocatable :: length(:)
       real(wp), allocatable :: place(:), share(:)
-      real(wp) :: slope, nx, ny, scale, unit, mean, part(2), oblique(3)
+      real(wp) :: slope, nx, ny, scale, excess, unit, mean, part(2), oblique(3)
       integer :: ix, iy, k, n, last, behind, j
 
       n = count_edges(contact, direction)
@@ -136,14 +138,18 @@ contains
          ny = -slope*dx/dy*nx
          unit = 2.0_wp/gg*dx*nx*e0
          scale = unit*share(k)
-         if (gap(ix, iy) >= 0.0_wp) scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
+         excess = max(scale, 0.0_wp)
+         if (is_known(gap(ix, iy))) then
+            scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
+            excess = scale
+         end if
          second%at(:, k) = at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
          ! the terms behind move from element to element as the edge does, so that forces are continuous
-         part(1) = behind_edge*unit/(unit + max(scale, 0.0_wp))
+         part(1) = behind_edge*unit/(unit + excess)
          part(2) = behind_edge - part(1)
          oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
          do j = 1, min(2, length(k) - 1)
@@ -154,6 +160,14 @@ contains
          end do
       end do
    end subroutine find_edge_terms
+
+   !> Is a gap known?
+   elemental logical function is_known(gap)
+      !> [mm]
+      real(wp), intent(in) :: gap
+
+      is_known = gap > 0.5_wp*unknown_gap
+   end function is_known
 
    !> Terms xx, yy, xy of the second element of a row at an oblique edge, relative to nu 2/G h
    pure function oblique_terms(slope, ratio) result(terms)
