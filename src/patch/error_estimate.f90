@@ -18,7 +18,7 @@ module contact_patch_error_estimate
    use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
-   use contact_patch_quantities, only : error_law, total, total_list
+   use contact_patch_quantities, only : error_law, error_scale, total, total_list
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
@@ -219,8 +219,8 @@ contains
          power = 1.0_wp
       case (error_law%friction)
          power = 0.0_wp
-         if (row%unit == "N") power = 1.0_wp
-         if (row%unit == "N mm") power = 4.0_wp/3.0_wp
+         if (row%scale == error_scale%force) power = 1.0_wp
+         if (row%scale == error_scale%moment) power = 4.0_wp/3.0_wp
       case (error_law%energy)
          power = 5.0_wp/3.0_wp
       case (error_law%peak)

@@ -6,7 +6,7 @@ module contact_patch_level_errors
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_error_scales, only : first_order, normal_order, scale_type
    use contact_patch_peak, only : peak_of
-   use contact_patch_quantities, only : error_law, total
+   use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_result, only : error_estimate, patch_result
    use contact_patch_step_errors, only : energy_of_forces, force_error, power_error
    implicit none (type, external)
@@ -94,10 +94,14 @@ contains
 
       unit = abs(row%value)
       if (row%law == error_law%creepage) unit = scale%creep
-      if (row%law /= error_law%friction) return
-      unit = 1.0_wp
-      if (row%unit == "N") unit = scale%force
-      if (row%unit == "N mm") unit = scale%moment
+      select case (row%scale)
+      case (error_scale%force)
+         unit = scale%force
+      case (error_scale%moment)
+         unit = scale%moment
+      case (error_scale%ratio)
+         unit = 1.0_wp
+      end select
    end function scale_of
 
    !> Error of one total in its unit
@@ -127,7 +131,7 @@ contains
          e = e + by_heat(scale, part, difference, unit)
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
          floor = scale%adhesion
-         if (row%unit == "N mm" .and. scale%order > first_order) floor = max(least_adhesion, floor)
+         if (row%scale == error_scale%moment .and. scale%order > first_order) floor = max(least_adhesion, floor)
          floor = driven_floor(scale, floor) + turning_floor*scale%turning/scale%mean_across**2
          if (scale%is_moment_alone .and. row%law == error_law%friction) floor = moment_alone*floor
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))

@@ -8,7 +8,7 @@ module contact_patch_quantities
    implicit none (type, external)
    private
 
-   public :: element_field, error_law, is_lateral, orientation, total, total_list
+   public :: element_field, error_law, error_scale, is_lateral, orientation, total, total_list
 
    type :: orientation_list
       !> Independent of the body and of the side of the track
@@ -28,7 +28,7 @@ module contact_patch_quantities
       integer :: none = 0
       !> Determined by the pressures; relative to its own value
       integer :: normal = 1
-      !> Force, moment or ratio determined by the tangential tractions; relative to the maximum frictional force
+      !> Force, moment or ratio determined by the tangential tractions; relative to its error_scale
       integer :: friction = 2
       !> Creepage or shift determined by prescribed forces; relative to the larger one of both
       integer :: creepage = 3
@@ -45,6 +45,18 @@ module contact_patch_quantities
    end type error_law_list
    !> Law of the error of a total, see contact_patch_error_estimate
    type(error_law_list), parameter :: error_law = error_law_list()
+
+   type :: error_scale_list
+      !> Its own value, or what its law says
+      integer :: own = 0
+      !> Maximum frictional force, maximum frictional moment
+      integer :: force = 1
+      integer :: moment = 2
+      !> Ratio of a force to the maximum frictional force: 1
+      integer :: ratio = 3
+   end type error_scale_list
+   !> Reference value of the relative error of a total that tangential tractions determine
+   type(error_scale_list), parameter :: error_scale = error_scale_list()
 
    !> One total
    type :: total
@@ -65,6 +77,8 @@ module contact_patch_quantities
       logical :: in_files = .true.
       !> Member of error_law
       integer :: law = error_law%none
+      !> Member of error_scale
+      integer :: scale = error_scale%own
    end type total
 
    !> Totals in the order in which they are written
@@ -81,8 +95,9 @@ module contact_patch_quantities
    contains
       !> Make the list empty
       procedure :: start
-      !> Add a real number, an integer
+      !> Add a real number; one that tangential tractions determine; an integer
       procedure :: add
+      procedure :: add_friction
       procedure :: count
       !> Index of the row with a given name, and values by name
       procedure :: place_of
@@ -183,6 +198,20 @@ contains
          if (present(law)) row%law = law
       end associate
    end subroutine add
+
+   !> Add a force, moment or ratio that tangential tractions determine, with error_law%friction
+   pure subroutine add_friction(self, name, unit, meaning, value, along, scale)
+      class(total_list), intent(inout) :: self
+      !> See total
+      character(len=*), intent(in) :: name, unit, meaning
+      !> Value on body 1 of a pair on the right side
+      real(wp), intent(in) :: value
+      !> Members of orientation and of error_scale
+      integer, intent(in) :: along, scale
+
+      call self%add(name, unit, meaning, value, along, law=error_law%friction)
+      if (.not. self%only_judges) self%rows(self%length)%scale = scale
+   end subroutine add_friction
 
    !> Add an integer
    pure subroutine count(self, name, meaning, value)

@@ -8,7 +8,7 @@ module contact_patch_result
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_quantities, only : element_field, error_law, is_lateral, orientation, total_list
+   use contact_patch_quantities, only : element_field, error_law, error_scale, is_lateral, orientation, total_list
    implicit none (type, external)
    private
 
@@ -248,12 +248,14 @@ contains
 
       call list%start(left)
       call list%add("fn", "N", "normal force", self%fn, law=error_law%normal)
-      call list%add("fx", "N", "longitudinal force on body 1", self%fx, orientation%along, law=error_law%friction)
-      call list%add("fy", "N", "lateral force on body 1", self%fy, orientation%across, law=error_law%friction)
-      call list%add("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the contact &
-         &reference", self%mz, orientation%across, law=error_law%friction)
-      call list%add("fx_rel", "-", "FX over friction coefficient times FN", self%fx_rel, orientation%along, law=error_law%friction)
-      call list%add("fy_rel", "-", "FY over friction coefficient times FN", self%fy_rel, orientation%across, law=error_law%friction)
+      call list%add_friction("fx", "N", "longitudinal force on body 1", self%fx, orientation%along, error_scale%force)
+      call list%add_friction("fy", "N", "lateral force on body 1", self%fy, orientation%across, error_scale%force)
+      call list%add_friction("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the &
+         &contact reference", self%mz, orientation%across, error_scale%moment)
+      call list%add_friction("fx_rel", "-", "FX over friction coefficient times FN", self%fx_rel, orientation%along, &
+         & error_scale%ratio)
+      call list%add_friction("fy_rel", "-", "FY over friction coefficient times FN", self%fy_rel, orientation%across, &
+         & error_scale%ratio)
       call list%add("mu_scal", "-", "friction coefficient of the relative forces", self%mu_scal)
       call list%add("pen", "mm", "approach of the bodies", self%pen, law=error_law%normal)
       call list%add("pmax", "N/mm2", "largest pressure", self%pmax, law=error_law%peak)

@@ -9,7 +9,7 @@ module contact_wheelrail_result
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_set
    use contact_base_choices, only : motion
-   use contact_patch_quantities, only : error_law, orientation, total_list
+   use contact_patch_quantities, only : error_law, error_scale, orientation, total_list
    use contact_patch_result, only : patch_result
    use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
@@ -126,31 +126,31 @@ contains
       type(total_list), intent(inout) :: list
 
       call list%start(pair%left)
-      call list%add("fx_tr", "N", "force on the rail along the track", self%force_track(1), orientation%along, &
-         & law=error_law%friction)
-      call list%add("fy_tr", "N", "lateral force on the rail in track coordinates", self%force_track(2), orientation%across, &
-         & law=error_law%friction)
-      call list%add("fz_tr", "N", "vertical force on the rail in track coordinates", self%force_track(3), orientation%along, &
-         & law=error_law%friction)
-      call list%add("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", self%force_wheelset(1), &
-         & orientation%along, law=error_law%friction)
-      call list%add("fy_ws", "N", "lateral force on the rail in wheelset coordinates", self%force_wheelset(2), orientation%across, &
-         & law=error_law%friction)
-      call list%add("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), orientation%along, &
-         & law=error_law%friction)
+      call list%add_friction("fx_tr", "N", "force on the rail along the track", self%force_track(1), orientation%along, &
+         & error_scale%force)
+      call list%add_friction("fy_tr", "N", "lateral force on the rail in track coordinates", self%force_track(2), &
+         & orientation%across, error_scale%force)
+      call list%add_friction("fz_tr", "N", "vertical force on the rail in track coordinates", self%force_track(3), &
+         & orientation%along, error_scale%force)
+      call list%add_friction("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", self%force_wheelset(1), &
+         & orientation%along, error_scale%force)
+      call list%add_friction("fy_ws", "N", "lateral force on the rail in wheelset coordinates", self%force_wheelset(2), &
+         & orientation%across, error_scale%force)
+      call list%add_friction("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), &
+         & orientation%along, error_scale%force)
       ! moments are axial vectors: mirroring changes the sign of their x and z components
-      call list%add("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), orientation%across, &
-         & law=error_law%friction)
-      call list%add("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), orientation%along, &
-         & law=error_law%friction)
-      call list%add("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", self%moment_rail(3), orientation%across, &
-         & law=error_law%friction)
-      call list%add("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", self%moment_wheel(1), &
-         & orientation%across, law=error_law%friction)
-      call list%add("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", self%moment_wheel(2), &
-         & orientation%along, law=error_law%friction)
-      call list%add("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", self%moment_wheel(3), &
-         & orientation%across, law=error_law%friction)
+      call list%add_friction("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), &
+         & orientation%across, error_scale%moment)
+      call list%add_friction("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), &
+         & orientation%along, error_scale%moment)
+      call list%add_friction("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", self%moment_rail(3), &
+         & orientation%across, error_scale%moment)
+      call list%add_friction("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", self%moment_wheel(1), &
+         & orientation%across, error_scale%moment)
+      call list%add_friction("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", self%moment_wheel(2), &
+         & orientation%along, error_scale%moment)
+      call list%add_friction("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", self%moment_wheel(3), &
+         & orientation%across, error_scale%moment)
       call list%add("s_ws", "mm", "position of the wheelset along the track", pair%wheelset%s)
       call list%add("y_ws", "mm", "lateral position of the wheelset", pair%wheelset%y)
       call list%add("z_ws", "mm", "height of the wheelset, given or found", self%z_ws, law=error_law%normal)

@@ -8,7 +8,7 @@ module judged_estimate
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_patch_error_estimate, only : coarse_level, estimate_errors, release_coarse_level, solve_coarse_level
-   use contact_patch_quantities, only : error_law, total_list
+   use contact_patch_quantities, only : error_law, error_scale, total_list
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
@@ -57,8 +57,8 @@ contains
                   if (row%law == error_law%creepage) scale = max(abs(result%cksi), abs(result%ceta))
                   if (row%law == error_law%friction) then
                      scale = 1.0_wp
-                     if (row%unit == "N") scale = bound
-                     if (row%unit == "N mm") scale = bound*sqrt(result%contact_area())
+                     if (row%scale == error_scale%force) scale = bound
+                     if (row%scale == error_scale%moment) scale = bound*sqrt(result%contact_area())
                   end if
                   true_error = abs(row%value - exact%rows(k)%value)
                   if (true_error <= small*scale) cycle
