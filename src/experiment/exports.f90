@@ -170,23 +170,25 @@ contains
    end subroutine write_failure
 
    !> Write a solved case of module 3
-   subroutine write_contact(self, head, spec, contact, error)
+   subroutine write_contact(self, head, given, spec, contact, error)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
+      !> The case as given and as solved
+      type(case_spec), intent(in) :: given, spec
       type(patch_result), intent(in) :: contact
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(self%json)) call self%json%write_contact(head, spec, contact)
-      if (allocated(self%hdf5)) call self%hdf5%write_contact(head, spec, contact)
+      if (allocated(self%hdf5)) call self%hdf5%write_contact(head, given, spec, contact)
       if (allocated(self%vtk)) call self%vtk%write_contact(head, spec, contact, error)
    end subroutine write_contact
 
    !> Write a solved case of module 1
-   subroutine write_wheel_rail(self, head, spec, session, pair, error)
+   subroutine write_wheel_rail(self, head, given, spec, session, pair, error)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
+      !> The case as given and as solved
+      type(case_spec), intent(in) :: given, spec
       !> Session with the profiles
       type(wheel_rail_session), target, intent(in) :: session
       type(wheel_rail_result), intent(in) :: pair
@@ -211,7 +213,7 @@ contains
          call take_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
          call take_section(problem%wheel, problem%wheel_surface, &
             & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch, wheel)
-         call self%hdf5%write_wheel_rail(head, spec, pair, rail, wheel)
+         call self%hdf5%write_wheel_rail(head, given, spec, pair, rail, wheel)
       end associate
    end subroutine write_wheel_rail
 end module contact_experiment_exports

@@ -590,9 +590,9 @@ contains
       end if
       if (state%exports%has_any()) then
          if (this%module_number == 1) then
-            call state%exports%write_wheel_rail(head, solved, slot%wheel_rail, slot%wheel_rail_result, error)
+            call state%exports%write_wheel_rail(head, this%spec, solved, slot%wheel_rail, slot%wheel_rail_result, error)
          else
-            call state%exports%write_contact(head, solved, slot%result, error)
+            call state%exports%write_contact(head, this%spec, solved, slot%result, error)
          end if
          if (allocated(error)) call report_error(state, error)
       end if

@@ -131,25 +131,27 @@ contains
    end subroutine write_failure
 
    !> Write a solved case of module 3
-   subroutine write_contact(self, head, spec, contact)
+   subroutine write_contact(self, head, given, spec, contact)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
+      !> The case as given, and as solved: an accuracy chooses grid, order and tolerance
+      type(case_spec), intent(in) :: given, spec
       type(patch_result), intent(in) :: contact
 
       call begin(self, head)
       call self%enter("inputs")
-      call describe_input(self, spec)
+      call describe_input(self, given)
       call self%leave()
       call write_patch(self, head, 1, spec, contact)
       call self%end_case(head%finished)
    end subroutine write_contact
 
    !> Write a solved case of module 1
-   subroutine write_wheel_rail(self, head, spec, pair, rail, wheel)
+   subroutine write_wheel_rail(self, head, given, spec, pair, rail, wheel)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
+      !> The case as given, and as solved: an accuracy chooses grid, order and tolerance
+      type(case_spec), intent(in) :: given, spec
       type(wheel_rail_result), intent(in) :: pair
       !> Profiles, or sections at the first contact, in their own axes for a right-hand pair
       type(profile_curve), intent(in), optional :: rail, wheel
@@ -160,7 +162,7 @@ contains
       call note_profile(self, spec%wheel_rail%wheel_profile, spec%limits)
       call begin(self, head)
       call self%enter("inputs")
-      call describe_input(self, spec)
+      call describe_input(self, given)
       call self%leave()
       call describe_wheel_rail(self, spec, pair)
       call pair%markers(spec%wheel_rail%left, markers)

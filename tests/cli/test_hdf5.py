@@ -294,6 +294,27 @@ class Hdf5(unittest.TestCase):
             self.assertEqual(groups[1]["order"][()], 1)
             self.assertFalse({"accuracy", "allow"} & set(groups[1]))
 
+    def test_inputs_with_an_accuracy(self):
+        """The inputs are as given, with the accuracy; grid, order and tolerance that were chosen are in the group accuracy"""
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), self.path("profiles"))
+        for name, group in (("falling_friction", "case_0001/patch_1"), ("manchester", "case_0001")):
+            with self.subTest(name):
+                with open(os.path.join(EXAMPLES, name + ".toml"), encoding="utf-8") as file:
+                    text = "\n[[case]]".join(file.read().split("\n[[case]]")[:2])
+                with open(self.path(name + ".toml"), "w", encoding="utf-8") as file:
+                    file.write(text)
+                inputs = []
+                for options in ((), ("--accuracy", "0.02")):
+                    self.run_program("--hdf5", *options, "2", name)
+                    with h5py.File(self.path(name + ".h5")) as file:
+                        inputs.append({f"{key}/{one}": str(values[one][()]) for key, values in file["case_0001/inputs"].items()
+                                       for one in values})
+                        if options:
+                            self.assertEqual(file[group + "/accuracy/order"][()], 2)
+                self.assertEqual(inputs[1].pop("iteration/accuracy"), "0.02")
+                self.assertEqual(inputs[1], inputs[0])
+                self.assertEqual(inputs[0]["iteration/order"], "1")
+
     def same_input(self, group, key, value):
         """The value of a key, or the values of sets of friction; how many were compared"""
         if key == "set":
