@@ -21,6 +21,9 @@ module contact_output_toml_writer
    !> Column of remarks, and width of lines of long lists [characters]
    integer, parameter :: remark_column = 34, line_width = 100
    character(len=*), parameter :: line_feed = achar(10)
+   !> Groups whose tables are left out if they have no keys: without them a case keeps the same values. Empty tables of other groups
+   !> have a meaning, such as a new grid, or the rail and wheelset in the .out file
+   character(len=10), parameter :: left_out_if_empty(*) = [character(len=10) :: "iteration", "kinematics", "velocity"]
 
    !> Texts of values, by "group.key"
    type :: remembered_texts
@@ -172,7 +175,7 @@ contains
       class(toml_writer), intent(inout) :: self
 
       if (.not. self%is_recording) then
-         if (self%group /= "stress_points" .and. (len(self%body) > 0 .or. self%group /= "kinematics")) &
+         if (self%group /= "stress_points" .and. (len(self%body) > 0 .or. all(left_out_if_empty /= self%group))) &
             & self%case_text = self%case_text // line_feed // "[case." // trim(self%group) // "]" // line_feed // &
             & self%body
          self%case_text = self%case_text // self%parts
