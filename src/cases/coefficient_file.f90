@@ -17,7 +17,8 @@ module contact_cases_coefficient_file
    use contact_text_bounds, only : bounds_of, bounds_table, describe_breach
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
-   use contact_text_lexer, only : input_lexer, input_value, printable
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_line_words, only : printable
    use contact_text_words, only : integer_text, real_text, to_real, word_state
    implicit none (type, external)
    private

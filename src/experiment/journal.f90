@@ -9,7 +9,8 @@ module contact_experiment_journal
    use contact_base_error, only : error_type
    use contact_base_kinds, only : long, wp
    use contact_base_output_file, only : output_file, remove_file
-   use contact_text_lexer, only : add_to_hash, empty_hash, input_lexer
+   use contact_text_file_text, only : add_to_hash, empty_hash
+   use contact_text_lexer, only : input_lexer
    implicit none (type, external)
    private
 

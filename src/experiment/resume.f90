@@ -19,7 +19,7 @@ module contact_experiment_resume
    use contact_experiment_state, only : apply_settings, as_input_says, counted, experiment_state, find_slot, numbered_slot, &
       & run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
-   use contact_text_lexer, only : empty_hash
+   use contact_text_file_text, only : empty_hash
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private

@@ -18,7 +18,7 @@ module contact_input_toml_case
    use contact_input_problems, only : problem_list, severity
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : integer_text
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text

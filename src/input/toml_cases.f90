@@ -2,7 +2,7 @@
 module contact_input_toml_cases
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : integer_text, real_text
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text

@@ -5,7 +5,7 @@ module contact_input_toml_tables
    use contact_control_words, only : key_length, words_of
    use contact_input_problems, only : problem_list, severity
    use contact_text_bounds, only : bounds_of
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : capital
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text

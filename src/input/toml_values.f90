@@ -5,7 +5,7 @@ module contact_input_toml_values
    use contact_input_problems, only : severity
    use contact_input_toml_tables, only : leaves_of, list_of, sets_of, toml_tables
    use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, is_within
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_toml_document, only : toml_kind
    use contact_toml_quantities, only : read_quantity
    implicit none (type, external)

@@ -3,7 +3,7 @@ module contact_profile_line
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_text_bounds, only : bounds_of, bounds_table, describe_breach
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_text_words, only : to_real, word_state
    implicit none (type, external)
    private

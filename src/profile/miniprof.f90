@@ -10,7 +10,8 @@ module contact_profile_miniprof
    use contact_profile_line, only : end_of_values, file_place, leading_numbers, max_columns, point_list, read_row, &
       & split_assignment
    use contact_profile_request, only : profile_file
-   use contact_text_lexer, only : input_lexer, printable
+   use contact_text_lexer, only : input_lexer
+   use contact_text_line_words, only : printable
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private

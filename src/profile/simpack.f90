@@ -9,7 +9,8 @@ module contact_profile_simpack
    use contact_base_log, only : log_type
    use contact_profile_line, only : end_of_values, file_place, max_columns, point_list, read_row, split_assignment
    use contact_profile_request, only : profile_file, profile_side
-   use contact_text_lexer, only : input_lexer, printable
+   use contact_text_lexer, only : input_lexer
+   use contact_text_line_words, only : printable
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private

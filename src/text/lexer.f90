@@ -1,19 +1,18 @@
 !> Lexer of input files: lines into words, words into groups of values
 !>
-!> The file is read into memory once. A group starts on a new line and extends over as many lines as its mandatory values need.
-!> Optional values follow on the line of the last mandatory one; the first word that cannot be read as the next optional value
-!> ends the group without an error.
+!> The file is read into memory once, see contact_text_file_text; contact_text_line_words divides its lines into words. A group
+!> starts on a new line and extends over as many lines as its mandatory values need. Optional values follow on the line of the last
+!> mandatory one; the first word that cannot be read as the next optional value ends the group without an error.
 module contact_text_lexer
-   use, intrinsic :: iso_c_binding, only : c_int
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
-   use contact_base_system, only : close_descriptor, open_input, read_input
+   use contact_text_file_text, only : add_to_hash, empty_hash, read_text
+   use contact_text_line_words, only : find_word, printable, quote, word_place
    use contact_text_words, only : columns_of, integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    private
 
-   public :: add_to_hash, empty_hash, input_lexer, input_value, printable
+   public :: input_lexer, input_value
 
    !> One value of a group
    type :: input_value
@@ -57,24 +56,7 @@ module contact_text_lexer
       procedure, private :: refuse_end
    end type input_lexer
 
-   !> Place of a word
-   type :: word_place
-      !> First and last character in the text, without quotes; first = 0 when there is none
-      integer :: first = 0, last = 0
-      !> Position after the word
-      integer :: next = 0
-      !> Is it quoted, and was the closing quote found?
-      logical :: quoted = .false., closed = .false.
-   end type word_place
-
-   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13)
-   !> Separators of words: blank, tab, comma, equals sign, and control characters
-   character(len=*), parameter :: separators = " ,=" // achar(9) // carriage_return // achar(11) // achar(12) // achar(0)
-   character(len=*), parameter :: quote = "'", comment = "%"
-   !> Hash of an empty text
-   integer(long), parameter :: empty_hash = 2166136261_long
-   !> Maximum length of a line quoted in messages
-   integer, parameter :: longest_echo = 80
+   character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
@@ -88,50 +70,10 @@ contains
       character(len=*), intent(in), optional :: below
       character(len=:), allocatable :: text
 
-      call read_whole(file, text, error, below)
+      call read_text(file, text, error, below)
       if (allocated(error)) return
       call self%open_text(text, file)
    end subroutine open_file
-
-   !> All bytes of a file
-   subroutine read_whole(file, text, error, below)
-      character(len=*), intent(in) :: file
-      character(len=:), allocatable, intent(out) :: text
-      type(error_type), allocatable, intent(out) :: error
-      character(len=*), intent(in), optional :: below
-      !> Maximum file size [MB], normally and in a confined run
-      integer(long), parameter :: longest = 1000, longest_confined = 100
-      character(len=:), allocatable :: reason
-      integer(c_int) :: descriptor
-      integer :: status
-      integer(long) :: length, done, allowed
-
-      call open_input(file, descriptor, length, reason, below)
-      if (allocated(reason)) then
-         call fatal_error(error, "the file cannot be opened: " // reason, error_kind%file, file)
-         return
-      end if
-      allowed = merge(longest_confined, longest, present(below))
-      if (length > 1000000_long*allowed) then
-         call fatal_error(error, "the file is larger than " // integer_text(int(allowed)) // " MB", error_kind%file, file)
-      else
-         call expect_refusals(.true.)
-         allocate(character(len=length) :: text, stat=status)
-         call expect_refusals(.false.)
-         if (status /= 0) then
-            call fatal_error(error, "not enough memory for the text of the file", error_kind%memory, file)
-         else
-            call read_input(descriptor, text, done, reason)
-            if (allocated(reason)) then
-               call fatal_error(error, "the file cannot be read: " // reason, error_kind%file, file)
-            else if (done < length) then
-               ! the file was shortened while it was read
-               text = text(:done)
-            end if
-         end if
-      end if
-      call close_descriptor(descriptor)
-   end subroutine read_whole
 
    !> Open a text that is already in memory
    subroutine open_text(self, text, name)
@@ -202,20 +144,6 @@ contains
       call add_to_hash(self%text, hash)
       hash = ieor(hash, int(len(self%text), long))
    end function fingerprint
-
-   !> Update a hash (FNV-1a with 32 bits)
-   pure subroutine add_to_hash(text, hash)
-      !> Bytes to add, in order
-      character(len=*), intent(in) :: text
-      !> Hash so far; empty_hash at the start
-      integer(long), intent(inout) :: hash
-      integer(long), parameter :: prime = 16777619_long, mask = 4294967295_long
-      integer :: i
-
-      do i = 1, len(text)
-         hash = iand(ieor(hash, int(iachar(text(i:i)), long))*prime, mask)
-      end do
-   end subroutine add_to_hash
 
    !> Update a hash with some lines of the text, without line ends
    pure subroutine hash_lines(self, first, last, hash)
@@ -354,36 +282,6 @@ contains
       end do
    end function next_line
 
-   !> Next word of a line, from a given position on
-   pure type(word_place) function find_word(text, from) result(place)
-      !> The text up to the end of the line
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: from
-      integer :: k
-
-      do k = from, len(text)
-         if (scan(text(k:k), separators) == 0) exit
-      end do
-      if (k > len(text)) return
-      if (text(k:k) == comment) return
-
-      if (text(k:k) == quote) then
-         place%quoted = .true.
-         place%first = k + 1
-         k = index(text(place%first:), quote)
-         place%closed = k > 0
-         place%last = merge(place%first + k - 2, len(text), place%closed)
-         place%next = place%last + 2
-         return
-      end if
-      place%first = k
-      do k = place%first, len(text)
-         if (scan(text(k:k), separators // comment) > 0) exit
-      end do
-      place%last = k - 1
-      place%next = k
-   end function find_word
-
    !> Parse a word as a value of the given type
    subroutine parse(self, place, letter, value, state)
       class(input_lexer), intent(in) :: self
@@ -481,28 +379,6 @@ contains
       lower = letter
       if (letter >= "A" .and. letter <= "Z") lower = achar(iachar(letter) + 32)
    end function lower
-
-   !> A piece of a line without control characters, shortened for a message; padded with blanks
-   pure function echo(piece) result(text)
-      character(len=*), intent(in) :: piece
-      character(len=longest_echo + 3) :: text
-      integer :: k
-
-      text = adjustl(piece)
-      if (len_trim(adjustl(piece)) > longest_echo) text(longest_echo + 1:) = "..."
-      do k = 1, len(text)
-         if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) text(k:k) = " "
-      end do
-   end function echo
-
-   !> The same without trailing blanks
-   pure function printable(piece) result(text)
-      !> Part of an input
-      character(len=*), intent(in) :: piece
-      character(len=len_trim(echo(piece))) :: text
-
-      text = echo(piece)
-   end function printable
 
    !> Assign the names of a group to its values, and reset the values
    pure subroutine name_values(names, values)

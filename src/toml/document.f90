@@ -1,7 +1,7 @@
 !> Content of a TOML text: a tree of tables, arrays and values, each with its position in the text
 module contact_toml_document
    use contact_base_kinds, only : long, wp
-   use contact_text_lexer, only : add_to_hash, empty_hash
+   use contact_text_file_text, only : add_to_hash, empty_hash
    implicit none (type, external)
    private
 

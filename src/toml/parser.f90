@@ -4,7 +4,7 @@
 !> accepted has the same meaning as in other parsers of TOML 1.0; a test compares it with Python's.
 module contact_toml_parser
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_text_lexer, only : printable
+   use contact_text_line_words, only : printable
    use contact_text_words, only : integer_text
    use contact_toml_document, only : toml_document, toml_kind, toml_node
    use contact_toml_numbers, only : read_number

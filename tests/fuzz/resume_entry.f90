@@ -5,7 +5,7 @@ module contact_fuzz_resume_entry
    use contact_base_kinds, only : long
    use contact_capi_arguments, only : give_message
    use contact_experiment_run, only : run_experiment, run_settings
-   use contact_text_lexer, only : add_to_hash, empty_hash
+   use contact_text_file_text, only : add_to_hash, empty_hash
    implicit none (type, external)
    private
 
