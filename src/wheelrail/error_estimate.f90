@@ -19,6 +19,15 @@ module contact_wheelrail_error_estimate
 
    public :: estimate_wheel_rail_errors
 
+   !> Errors of the forces and moments of wheel and rail, in track coordinates
+   type :: pair_error
+      !> Of the force on the rail [N], and of the moments about the reference of the rail and of the wheel [N mm]
+      real(wp), dimension(3) :: force = 0.0_wp, on_rail = 0.0_wp, on_wheel = 0.0_wp
+   contains
+      !> Add an independent error
+      procedure :: add
+   end type pair_error
+
 contains
 
    !> Estimate the errors of all patches, and of the totals of wheel and rail
@@ -52,7 +61,7 @@ contains
                & "transient cases of wheel and rail have no history on a coarser level"
             if (slot%result%errors%reason /= "") cycle
             missing = missing + vertical(slot, slot%result%fn) - vertical(slot, slot%coarse%result%fn)
-            stiffness = stiffness + slot%plane%axes(3, 3)*vertical(slot, normal_stiffness(slot%result))
+            stiffness = stiffness + stiffness_of(slot)
          end associate
       end do
       change = 0.0_wp
@@ -91,60 +100,128 @@ contains
       if (slot%result%fn > 0.0_wp) vertical = fn*dot_product(slot%plane%axes(3, :), slot%force/slot%result%fn)
    end function vertical
 
-   !> Errors of forces and moments of all patches: errors of the patches are added
+   !> Derivative of the vertical force of a patch with respect to the height [N/mm]
+   pure real(wp) function stiffness_of(slot) result(stiffness)
+      type(patch_slot), intent(in) :: slot
+
+      stiffness = slot%plane%axes(3, 3)*vertical(slot, normal_stiffness(slot%result))
+   end function stiffness_of
+
+   !> Errors of forces and moments of all patches
    subroutine add_up(problem, memory, result)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
       type(wheel_rail_result), intent(inout) :: result
       type(total_list) :: pair, patch
-      real(wp) :: force(3), on_rail(3), on_wheel(3), local(3), turned(3), spin(3), height
-      integer :: k, first
+      type(pair_error) :: e
+      real(wp), parameter :: none(3) = 0.0_wp
+      real(wp) :: local(3), moment(3), spin, height, stiffness, total
+      integer :: k, i, first
 
       if (memory%used == 0) return
-      force = 0.0_wp
-      on_rail = 0.0_wp
-      on_wheel = 0.0_wp
       height = 0.0_wp
+      total = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
             if (slot%result%errors%reason /= "") return
             call slot%result%totals(patch)
             associate (value => slot%result%errors%value)
                local = [value(patch%place_of("fx")), value(patch%place_of("fy")), value(patch%place_of("fn"))]
+               spin = value(patch%place_of("mz"))
                ! without relative motion there are no tangential forces and no errors of them
-               where (.not. local >= 0.0_wp) local = 0.0_wp
-               turned = matmul(abs(slot%plane%axes), local)
-               force = force + turned
-               local = [0.0_wp, 0.0_wp, value(patch%place_of("mz"))]
-               where (.not. local >= 0.0_wp) local = 0.0_wp
-               spin = matmul(abs(slot%plane%axes), local)
-               on_rail = on_rail + spin + with_lever(slot%plane%origin - memory%geometry%placement%rail%origin, turned)
-               on_wheel = on_wheel + spin + with_lever(slot%plane%origin - memory%geometry%placement%wheel%origin, turned)
-               if (problem%force_prescribed) height = max(height, value(patch%place_of("pen"))/abs(slot%plane%axes(3, 3)))
+               do i = 1, 3
+                  if (local(i) > 0.0_wp) call add_force(problem, memory, k, i, local(i), e)
+               end do
+               moment = merge(spin, 0.0_wp, spin > 0.0_wp)*slot%plane%axes(:, 3)
+               call e%add(problem%force_prescribed, none, moment, moment)
+               ! the height follows from the approaches of all patches, each weighted with its stiffness
+               stiffness = stiffness_of(slot)
+               total = total + stiffness
+               height = height + stiffness*value(patch%place_of("pen"))/abs(slot%plane%axes(3, 3))
             end associate
          end associate
       end do
       call result%totals(problem%spec, pair)
       first = pair%place_of("fx_tr")
-      result%errors(first:first + 1) = force(1:2)
-      if (.not. problem%force_prescribed) result%errors(first + 2) = force(3)
+      result%errors(first:first + 1) = e%force(1:2)
+      if (.not. problem%force_prescribed) result%errors(first + 2) = e%force(3)
       first = pair%place_of("fx_ws")
-      result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), force)
+      result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%force)
       first = pair%place_of("mx_r_tr")
-      result%errors(first:first + 2) = on_rail
+      result%errors(first:first + 2) = e%on_rail
       first = pair%place_of("mx_w_ws")
-      result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), on_wheel)
-      if (problem%force_prescribed) result%errors(pair%place_of("z_ws")) = height
+      result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%on_wheel)
+      if (problem%force_prescribed .and. total > 0.0_wp) result%errors(pair%place_of("z_ws")) = height/total
    end subroutine add_up
 
-   !> Maximum moment of errors of forces with unknown signs [N mm]
-   pure function with_lever(lever, force) result(moment)
-      !> Position relative to the reference of the moment [mm]
-      real(wp), intent(in) :: lever(3)
-      !> Errors of the force components, not negative [N]
-      real(wp), intent(in) :: force(3)
-      real(wp) :: moment(3)
+   !> Add the effect of an error of one force of a patch. If the vertical force is prescribed, the height changes until all patches
+   !> carry it again, so that other patches are loaded or unloaded; a single patch keeps its normal force but for the vertical
+   !> part of friction
+   pure subroutine add_force(problem, memory, k, component, error, e)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Patch; component of its force: 1, 2 tangential, 3 normal
+      integer, intent(in) :: k, component
+      !> Error of this component [N]
+      real(wp), intent(in) :: error
+      type(pair_error), intent(inout) :: e
+      real(wp), dimension(3, memory%used) :: change, per_height
+      real(wp), dimension(3) :: force, on_rail, on_wheel
+      integer :: m
 
-      moment = abs(cshift(lever, 1))*cshift(force, 2) + abs(cshift(lever, 2))*cshift(force, 1)
-   end function with_lever
+      change = 0.0_wp
+      change(:, k) = error*memory%slot(k)%plane%axes(:, component)
+      if (problem%force_prescribed) then
+         do m = 1, memory%used
+            associate (slot => memory%slot(m))
+               per_height(:, m) = 0.0_wp
+               if (.not. slot%result%fn > 0.0_wp) cycle
+               ! friction changes in proportion to the normal force
+               per_height(:, m) = matmul(slot%plane%axes, slot%force/slot%result%fn)
+               if (m == k .and. component == 3) change(:, m) = error*per_height(:, m)
+               per_height(:, m) = normal_stiffness(slot%result)*slot%plane%axes(3, 3)*per_height(:, m)
+            end associate
+         end do
+         if (sum(per_height(3, :)) > 0.0_wp) change = change - sum(change(3, :))/sum(per_height(3, :))*per_height
+      end if
+      on_rail = 0.0_wp
+      on_wheel = 0.0_wp
+      do m = 1, memory%used
+         force = change(:, m)
+         associate (origin => memory%slot(m)%plane%origin, placement => memory%geometry%placement)
+            on_rail = on_rail + cross(origin - placement%rail%origin, force)
+            on_wheel = on_wheel + cross(origin - placement%wheel%origin, force)
+         end associate
+      end do
+      force = sum(change, dim=2)
+      call e%add(problem%force_prescribed, force, on_rail, on_wheel)
+   end subroutine add_force
+
+   !> Add an independent error
+   pure subroutine add(self, in_balance, force, on_rail, on_wheel)
+      class(pair_error), intent(inout) :: self
+      !> Is the vertical force prescribed? Otherwise errors of the normal forces of all patches have the same sign, and absolute
+      !> values are added
+      logical, intent(in) :: in_balance
+      !> Effect on the force [N], and on the moments [N mm]
+      real(wp), intent(in) :: force(3), on_rail(3), on_wheel(3)
+
+      if (in_balance) then
+         self%force = hypot(self%force, force)
+         self%on_rail = hypot(self%on_rail, on_rail)
+         self%on_wheel = hypot(self%on_wheel, on_wheel)
+      else
+         self%force = self%force + abs(force)
+         self%on_rail = self%on_rail + abs(on_rail)
+         self%on_wheel = self%on_wheel + abs(on_wheel)
+      end if
+   end subroutine add
+
+   !> Vector product
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+
+      c = cshift(a, 1)*cshift(b, 2) - cshift(a, 2)*cshift(b, 1)
+   end function cross
 end module contact_wheelrail_error_estimate

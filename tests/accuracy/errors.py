@@ -1,4 +1,4 @@
-"""Estimated against true errors of random contacts: python3 errors.py [--count N] [--seed S] [--kinds a,b] [--check [further]]
+"""Estimated against true errors of random contacts: python3 errors.py [--count N] [--seed S] [--kinds a,b] [--check [KIND]]
 
 Each contact is solved with --errors on a grid of random size and offset, and on grids of 3 and 6 times as many elements along each
 side, whose totals are extrapolated. The output is the distribution of the effectivity, the estimated over the true error, by kind
@@ -32,6 +32,8 @@ FURTHER_BOUNDS = {"forces": (0.1, math.inf, 0.5), "pen": (0.1, math.inf, 0.5), "
                   "max_mises": (0.25, math.inf, 0.6), "max_tresca": (0.25, math.inf, 0.6)}
 #: The same for contacts whose estimates were once too small: tractions due to pressures of dissimilar bodies, layers, relaxation
 COUPLED_BOUNDS = {"forces": (0.3, 10.0, 0.9), "friction_power": (0.3, 20.0, 0.8)}
+#: The same for wheels, among them contact on the flange and with two and three patches; the seed and the number of wheels
+WHEEL_BOUNDS, WHEELS = {"forces": (0.3, 9.0, 0.8), "height": (0.3, 10.0, 0.8)}, (31101, 15)
 #: Their kinds, and numbers among the first sixty with their seed
 COUPLED, COUPLED_SEED = ("layer", "layer_spin", "viscoelastic", "viscoelastic_spin", "dissimilar", "dissimilar_spin"), 8101
 THOSE_THAT_LIED = (16, 22, 23, 59)
@@ -250,8 +252,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
-    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled"),
-                        help="contacts on small grids: usual ones, extreme ones, or dissimilar bodies; fail if bounds are missed")
+    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels"),
+                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, or wheels; fail if bounds are "
+                        "missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
@@ -264,6 +267,8 @@ def main():
     elif asked.check == "further":
         asked.count, asked.seed, asked.sizes = 32, 12, "15,24"
         asked.kinds, asked.order = "unlike,extreme,warm,steps", ("--order", "2")
+    elif asked.check == "wheels":
+        asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
     elif asked.check:
         asked.count, asked.seed, asked.sizes, asked.places = 60, COUPLED_SEED, "16,30", 2
         asked.kinds, asked.order = ",".join(COUPLED), ("--order", "2")
@@ -301,6 +306,8 @@ def main():
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), BOUNDS) or 0)
     elif asked.check == "coupled":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), COUPLED_BOUNDS) or 0)
+    elif asked.check == "wheels":
+        sys.exit(misses(by_total, sum(not places for _, _, places in rows), WHEEL_BOUNDS) or 0)
     elif asked.check:
         most_unsolved = 2 * asked.count // 3
         unsolved = sum(not places for _, _, places in rows)
