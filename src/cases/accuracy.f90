@@ -11,11 +11,13 @@ module contact_cases_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, set_elements, stay_below
+   use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, no_direction, set_elements, &
+      & stay_below
    use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, take_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
       & smaller_tolerance, solver_tolerance, stopping_share, time_is_left
+   use contact_cases_accuracy_series, only : has_history
    use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
@@ -30,8 +32,9 @@ module contact_cases_accuracy
 
    public :: solve_contact_case
 
-   !> Number of elements of a side that represents plane strain, and is not refined
-   integer, parameter :: no_direction = 2
+   !> A finer grid of a case that continues others is designed for this fraction of the accuracy: later cases may need it, and each
+   !> repetition solves all cases again; chosen
+   real(wp), parameter :: series_share = 0.7_wp
 
 contains
 
@@ -215,8 +218,8 @@ contains
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. result%tangential%order /= 2) law = first_order_alone(law)
-         if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), fixed, &
-            & next%counts)
+         if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
+            & merge(series_share, 1.0_wp, has_history(spec))*report%asked, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
             report%reason = "more than " // integer_text(product(next%counts)) // " elements are not allowed"

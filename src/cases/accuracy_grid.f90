@@ -4,14 +4,14 @@ module contact_cases_accuracy_grid
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : grid_form
    use contact_base_kinds, only : wp
-   use contact_cases_accuracy_plan, only : finer_across, shorten_aspect
+   use contact_cases_accuracy_plan, only : finer_across, shorten_aspect, sides_of_window
    use contact_cases_spec, only : grid_spec
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: first_counts, is_worth, level_grid, next_counts, set_elements, sides_of_window, stay_below
+   public :: first_counts, is_worth, level_grid, next_counts, no_direction, set_elements, stay_below
 
    !> A grid and its solver tolerance
    type :: level_grid
@@ -22,37 +22,21 @@ module contact_cases_accuracy_grid
       real(wp) :: eps = 0.0_wp
    end type level_grid
 
-   !> Fraction of a given potential contact, along each side, that contact is assumed to fill before the first solution
-   real(wp), parameter :: usual_share = 0.75_wp
+   !> Number of elements of a side that represents plane strain, and is not refined
+   integer, parameter :: no_direction = 2
    !> Minimum ratio of the number of elements to that of the previous grid; otherwise a new grid is not worth its cost
-   real(wp), parameter :: worth = 1.3_wp
+   real(wp), parameter :: worth = 1.1_wp
 
 contains
 
-   !> Sides of a given potential contact; 0 if it follows from Hertz's solution
-   pure function sides_of_window(grid) result(lengths)
-      !> Grid of the case
-      type(grid_spec), intent(in) :: grid
-      !> Sides [mm]
-      real(wp) :: lengths(2)
-
-      lengths = 0.0_wp
-      select case (grid%form)
-      case (grid_form%corner_and_sides, grid_form%centre_and_sides)
-         lengths = [grid%mx*grid%dx, grid%my*grid%dy]
-      case (grid_form%corners)
-         lengths = [grid%xh - grid%xl, grid%yh - grid%yl]
-      case (grid_form%centres)
-         lengths = [grid%mx*(grid%xcm - grid%xc1)/max(1, grid%mx - 1), grid%my*(grid%ycm - grid%yc1)/max(1, grid%my - 1)]
-      end select
-   end function sides_of_window
-
    !> Numbers of elements along both sides of the first grid
-   pure subroutine first_counts(grid, across, lengths, counts)
+   pure subroutine first_counts(grid, across, contact, lengths, counts)
       !> Grid of the case
       type(grid_spec), intent(in) :: grid
       !> Requested number of elements across the contact
       real(wp), intent(in) :: across
+      !> Expected sides of the contact [mm]
+      real(wp), intent(in) :: contact(2)
       !> Sides of the potential contact [mm], 0 if not yet known
       real(wp), intent(out) :: lengths(2)
       !> Numbers of elements along x and y
@@ -61,7 +45,7 @@ contains
 
       lengths = sides_of_window(grid)
       if (maxval(lengths) > 0.0_wp) then
-         call shorten_aspect(usual_share*lengths, across, sides)
+         call shorten_aspect(contact, across, sides)
          counts = ceiling(lengths/sides)
       else
          counts = ceiling(across*max(1.0_wp, grid%scale))
@@ -69,13 +53,15 @@ contains
    end subroutine first_counts
 
    !> Numbers of elements of the next grid, from the position of the contact area
-   pure subroutine next_counts(result, report, order, fixed, counts)
+   pure subroutine next_counts(result, report, order, asked, fixed, counts)
       !> Result on the present grid
       type(patch_result), intent(in) :: result
-      !> Its estimated error, and the requested one
+      !> Its estimated error
       type(accuracy_report), intent(in) :: report
       !> Order of the error
       real(wp), intent(in) :: order
+      !> Accuracy for which it is designed [-]
+      real(wp), intent(in) :: asked
       !> Numbers of elements that must not change, 0 for others
       integer, intent(in) :: fixed(2)
       !> Numbers of elements along x and y
@@ -90,7 +76,7 @@ contains
          across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
       end if
       if (any(fixed > 0)) across = maxval(across, mask=fixed == 0)
-      call shorten_aspect(across*size, finer_across(minval(across), report%estimated, report%asked, order), sides)
+      call shorten_aspect(across*size, finer_across(minval(across), report%estimated, asked, order), sides)
       ! a direction with many elements keeps its number
       sides = min(sides, size)
       counts = ceiling([result%grid%mx, result%grid%my]*size/sides)

@@ -6,7 +6,8 @@ module contact_cases_accuracy_level
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : first_counts, level_grid, set_elements, stay_below
-   use contact_cases_accuracy_plan, only : accuracy_law, first_across, most_elements, prepare_level, solver_tolerance
+   use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, first_across, most_elements, prepare_level, &
+      & solver_tolerance
    use contact_cases_accuracy_series, only : has_history
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
@@ -48,13 +49,15 @@ contains
       integer, intent(in) :: fixed(2)
       !> First grid, not finer than limits allow
       type(level_grid), intent(out) :: grid
+      real(wp) :: contact(2)
 
       if (has_history(spec)) then
          grid = session%series%grid
          grid%eps = min(grid%eps, solver_tolerance(spec%iteration%accuracy))
       else
          grid%eps = solver_tolerance(spec%iteration%accuracy)
-         call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), grid%lengths, grid%counts)
+         call contact_sides(spec, contact)
+         call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), contact, grid%lengths, grid%counts)
          where (fixed > 0) grid%counts = fixed
       end if
       call stay_below(most_elements(spec%limits), fixed, grid%counts)

@@ -6,7 +6,8 @@ module contact_cases_accuracy_series
    use contact_base_choices, only : motion, time_link
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_cases_accuracy_grid, only : level_grid, set_elements, sides_of_window
+   use contact_cases_accuracy_grid, only : level_grid, set_elements
+   use contact_cases_accuracy_plan, only : sides_of_window
    use contact_cases_spec, only : case_spec, grid_spec
    implicit none (type, external)
    private

@@ -9,9 +9,9 @@ module contact_cases_estimate
    use contact_base_choices, only : force_control, material_model, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
-   use contact_cases_accuracy_plan, only : accuracy_law, expected_across, expected_law, most_elements
+   use contact_cases_accuracy_grid, only : first_counts, no_direction
+   use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, most_elements
    use contact_cases_approximate_methods, only : approximate_method, choose_method
-   use contact_cases_distance, only : distance_form
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
    use contact_elastic_material, only : combine, combined_material
@@ -45,21 +45,18 @@ module contact_cases_estimate
    integer, parameter :: turns = 8
    !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
-   !> All grids of a case with an accuracy, time per element of the usual last grid [s]: pressures; with tractions of shifts; of
-   !> rolling; of a wheel, whose height is searched. Time of each case, of files of profiles, and of each value of a profile [s].
-   !> Ratio of the number of elements of that grid to those of the first one, since some contacts need a second
-   real(wp), parameter :: accurate_pressures = 2.0e-6_wp, accurate_shift = 3.5e-6_wp, accurate_rolling = 4.2e-6_wp, &
-      & accurate_wheel = 8.0e-6_wp, accurate_case = 1.7e-3_wp, accurate_profiles = 4.0e-3_wp, accurate_value = 2.0e-6_wp, &
-      & more_elements = 1.05_wp
+   !> All grids of a case with an accuracy, time per element of the usual last grid [s]: pressures; with tractions; of a wheel,
+   !> whose height is searched. Time of each case, of files of profiles, and of each value of a profile [s]. Ratio of the number of
+   !> elements of that grid to those of the expected one, since some contacts need a finer one
+   real(wp), parameter :: accurate_pressures = 3.8e-6_wp, accurate_tractions = 8.5e-6_wp, accurate_wheel = 1.5e-5_wp, &
+      & accurate_case = 3.0e-3_wp, accurate_profiles = 6.0e-3_wp, accurate_value = 3.0e-6_wp, more_elements = 1.05_wp
    !> Simplified methods, if allowed: time of one march per element [s]; number of marches that determine creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
-   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; elements of profiles, which are
-   !> bumpy or touch in two positions; friction that varies with slip
-   real(wp), parameter :: accurate_turns = 2.0_wp, remembering = 2.4_wp, accurate_trials = 1.4_wp, uneven = 2.0_wp, falling = 2.0_wp
+   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; potential contacts of profiles, of
+   !> which contact covers a smaller part
+   real(wp), parameter :: accurate_turns = 1.7_wp, remembering = 1.7_wp, accurate_trials = 1.1_wp, partly_covered = 0.8_wp
    !> Factor and order of the estimates of unlike bodies in steady rolling, which decrease more slowly than expected by a search
-   real(wp), parameter :: unlike_factor = 0.37_wp, unlike_order = 1.45_wp
-   !> Fraction of a window along each side that is covered by contact
-   real(wp), parameter :: usual_share = 0.75_wp
+   real(wp), parameter :: unlike_factor = 0.045_wp, unlike_order = 1.25_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
 
@@ -121,14 +118,15 @@ contains
       if (material%coupled()) cost%seconds = cost%seconds + trials*tangential
    end subroutine estimate_cost
 
-   !> A case with an accuracy, by the general errors of contacts: single contacts take half or twice the time, bumpy ones more
+   !> A case with an accuracy, by the general errors of its kind of contact: single contacts take half or twice the time
    subroutine estimate_accurate(spec, cost)
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(inout) :: cost
       type(potential_contact) :: grid
       type(approximate_method) :: chosen
       type(accuracy_law) :: law
-      real(wp) :: n, most, rate
+      real(wp) :: n, most, rate, sides(2), lengths(2)
+      integer :: counts(2)
       logical :: remembers
 
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
@@ -145,9 +143,16 @@ contains
          law%factor = unlike_factor
          law%order = unlike_order
       end if
-      n = (expected_across(law, spec%iteration%accuracy)/usual_share)**2*more_elements
+      if (allocated(spec%wheel_rail)) then
+         n = (margin*expected_across(law, spec%iteration%accuracy))**2
+      else
+         call contact_sides(spec, sides)
+         call first_counts(spec%grid, expected_across(law, spec%iteration%accuracy), sides, lengths, counts)
+         n = product(real(min(counts, merge([spec%grid%mx, spec%grid%my], counts, &
+            & [spec%grid%mx, spec%grid%my] <= no_direction)), wp))
+      end if
+      n = more_elements*n
       remembers = spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none
-      if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile) n = uneven*n
       most = most_elements(spec%limits)
       if (allocated(spec%wheel_rail)) most = min(most, real(spec%iteration%npot_max, wp))
       cost%at_most = n > most
@@ -156,15 +161,14 @@ contains
       grid%mx = nint(sqrt(n))
       grid%my = grid%mx
       cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
-      rate = accurate_shift
+      rate = accurate_tractions
       if (spec%motion == motion%none) rate = accurate_pressures
-      if (spec%motion == motion%steady_rolling) rate = accurate_rolling
       if (allocated(spec%wheel_rail)) rate = accurate_wheel
       if (is_dissimilar(spec)) rate = accurate_turns*rate
       if (remembers) rate = remembering*rate
-      if (is_varying_law(spec%friction_law) .and. spec%motion /= motion%none) rate = falling*rate
       if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
          & rate = accurate_trials*rate
+      if (allocated(spec%geometry%profile)) rate = partly_covered*rate
       cost%seconds = accurate_case + rate*n
       if (allocated(spec%wheel_rail)) cost%seconds = cost%seconds + accurate_profiles
       if (allocated(spec%geometry%profile)) cost%seconds = cost%seconds + accurate_value*size(spec%geometry%profile)

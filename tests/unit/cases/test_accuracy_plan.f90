@@ -1,6 +1,6 @@
 !> How an accuracy is sought: when a grid will do, and the order that estimates of two grids show
 program test_accuracy_plan
-   use contact_base_choices, only : force_control, motion
+   use contact_base_choices, only : force_control, grid_form, motion
    use contact_base_kinds, only : wp
    use contact_cases_accuracy_plan, only : accuracy_law, expected_across, expected_law, finer_across, first_order_alone, &
       & is_near_enough, observed_order
@@ -57,12 +57,26 @@ contains
       type(case_spec) :: spec
       !> With fewer elements all kinds have the same first grid
       real(wp), parameter :: sharp = 0.1_wp*asked
-      real(wp) :: plain
+      real(wp) :: plain, spinning
 
       spec%motion = motion%steady_rolling
       spec%material%poiss = 0.28_wp
       spec%material%gg = 82000.0_wp
+      spec%grid%form = grid_form%corner_and_sides
+      spec%grid%mx = 20
+      spec%grid%my = 20
+      spec%grid%dx = 0.5_wp
+      spec%grid%dy = 0.5_wp
+      spec%kinematics%cksi = 1.0e-3_wp
       plain = expected_across(expected_law(spec), sharp)
+      spec%kinematics%cphi = 1.0e-4_wp
+      spinning = expected_across(expected_law(spec), sharp)
+      call suite%check(spinning > plain, "some spin")
+      spec%kinematics%cphi = 1.0e-2_wp
+      call suite%check(expected_across(expected_law(spec), sharp) > spinning, "spin beyond the creepage")
+      spec%kinematics%cphi = 1.0e2_wp
+      call suite%check(expected_across(expected_law(spec), sharp) < 2.0_wp*plain, "spin alone: the turn is limited")
+      spec%kinematics%cphi = 0.0_wp
       spec%force = force_control%fx_and_fy
       call suite%check(expected_across(expected_law(spec), sharp) > plain, "forces prescribed")
       spec%force = force_control%creepages
