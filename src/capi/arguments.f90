@@ -10,7 +10,7 @@ module contact_capi_arguments
    implicit none (type, external)
    private
 
-   public :: no_number, integer_of, real_of, path_of, integers_of, raised, give, give_message, take_text
+   public :: no_number, integer_of, real_of, path_of, integers_of, raised, give, give_message, copy_text
 
    !> Value of an integer that was not given; no code, index or count is as large
    integer, parameter :: no_number = -huge(1)
@@ -109,7 +109,7 @@ contains
    end subroutine give
 
    !> Convert a null-terminated text to a Fortran text, "" for a null pointer
-   subroutine take_text(pointer, text)
+   subroutine copy_text(pointer, text)
       !> Text of the caller
       type(c_ptr), intent(in) :: pointer
       !> Text without the null
@@ -124,7 +124,7 @@ contains
       do i = 1, size(letters)
          text(i:i) = letters(i)
       end do
-   end subroutine take_text
+   end subroutine copy_text
 
    !> Copy a text to the buffer of the caller, truncated to its size and null-terminated
    subroutine give_message(text, buffer, length)

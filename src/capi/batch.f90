@@ -4,7 +4,7 @@ module contact_capi_batch
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
-   use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
+   use contact_capi_arguments, only : copy_text, first_failure, give_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_batch, only : batch_field, batch_room, case_batch, close_batch, find_field, open_batch, &
       & solve_cases, solve_variations
@@ -178,8 +178,8 @@ contains
 
       call c_f_pointer(data, request)
       associate (job => request%job)
-         call take_text(job%text, text)
-         call take_text(job%folder, folder)
+         call copy_text(job%text, text)
+         call copy_text(job%folder, folder)
          if (len(folder) > 0 .and. index(folder, "/", back=.true.) < len(folder)) folder = folder // "/"
          call c_f_pointer(job%values, room%values, [job%room_columns, job%room_rows])
          call c_f_pointer(job%places, room%places, [2, int(job%room_rows)])
@@ -188,7 +188,7 @@ contains
          if (job%numbers == 0) then
             call solve_cases(request%open%batch, text, folder, room, request%error)
          else
-            call take_text(job%names, list)
+            call copy_text(job%names, list)
             call split(list, int(job%numbers), names)
             call c_f_pointer(job%given, sets, [job%numbers, job%sets])
             if (allocated(names)) then
@@ -341,7 +341,7 @@ contains
       character(len=:), allocatable :: name
 
       call c_f_pointer(data, request)
-      call take_text(request%name, name)
+      call copy_text(request%name, name)
       call find_field(request%open%batch, request%patch, name, request%field)
    end subroutine find_inside
 end module contact_capi_batch

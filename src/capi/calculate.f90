@@ -14,7 +14,7 @@ module contact_capi_calculate
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type
    use contact_control_digits, only : case_digits
    use contact_control_library_codes, only : code_text
-   use contact_control_translation, only : take_digits
+   use contact_control_translation, only : apply_digits
    implicit none (type, external)
    private
 
@@ -130,7 +130,7 @@ contains
       problem%spec%kinematics = problem%stored%kinematics
       problem%spec%rolling = problem%stored%rolling
       if (problem%module_number == 1) problem%spec%wheel_rail%wheelset = problem%stored%wheelset
-      call take_digits(digits, problem%module_number, problem%spec)
+      call apply_digits(digits, problem%module_number, problem%spec)
    end subroutine choose
 
    !> Distribute the time of wheel and rail over its patches, in proportion to their numbers of elements

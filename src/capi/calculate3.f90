@@ -66,18 +66,18 @@ contains
       type(case_status), intent(inout) :: status
       !> Member of library_code, or the number of elements in contact at the border of the grid
       integer, intent(out) :: code
-      type(case_spec) :: told
+      type(case_spec) :: solved
 
       if (problem%spec%solve) then
          status = problem%result%status
          problem%has_result = .true.
          call keep_solution(problem)
          ! the effective rolling direction and step are written
-         told = problem%spec
-         if (allocated(problem%solved)) told = problem%solved
-         told%rolling = problem%stored%rolling
-         call write_results(this, problem, told, log)
-         call dump_contact_case(problem, told)
+         solved = problem%spec
+         if (allocated(problem%solved)) solved = problem%solved
+         solved%rolling = problem%stored%rolling
+         call write_results(this, problem, solved, log)
+         call dump_contact_case(problem, solved)
       end if
       code = code_of_contact(status)
       if (code /= library_code%success) then

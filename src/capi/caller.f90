@@ -87,7 +87,7 @@ module contact_capi_caller
       procedure :: refuse_call
       procedure :: end_line => set_line
       procedure :: list => set_list
-      procedure :: tell => tell_of_number
+      procedure :: report => report_number
       procedure :: fail => refuse_number
       procedure :: check => check_number
       !> Return a list, or one number per result; lists are truncated to the size of the buffer
@@ -171,7 +171,7 @@ contains
 
       do k = 1, self%count
          if (.not. self%is_good) exit
-         call take(self, k, values(k))
+         call get_value(self, k, values(k))
       end do
       if (self%is_good .and. self%is_reading) then
          do k = 1, self%count
@@ -185,7 +185,7 @@ contains
    end subroutine set_line
 
    !> Value of an item in internal units
-   subroutine take(self, place, value)
+   subroutine get_value(self, place, value)
       class(caller), intent(inout) :: self
       !> Index in the line
       integer, intent(in) :: place
@@ -212,7 +212,7 @@ contains
          value = raised(value, min_value(item%name))
          if (.not. item%is_unchecked) call check_bounds(self, item%name(:len_trim(item%name)), value)
       end associate
-   end subroutine take
+   end subroutine get_value
 
    !> Minimum to which smaller values of a number are raised; -huge for numbers that are not raised
    pure real(wp) function min_value(name)
@@ -268,7 +268,7 @@ contains
    end subroutine set_list
 
    !> Report that a number cannot be used, is doubtful or was replaced
-   subroutine tell_of_number(self, is_error, name, text)
+   subroutine report_number(self, is_error, name, text)
       class(caller), intent(inout) :: self
       logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
@@ -279,14 +279,14 @@ contains
       else if (self%is_good) then
          call warn(self%call_of, trim(self%shown(name)) // text)
       end if
-   end subroutine tell_of_number
+   end subroutine report_number
 
    !> Refuse the call because of a number
    subroutine refuse_number(self, name, text)
       class(caller), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
-      call self%tell(.true., name, text)
+      call self%report(.true., name, text)
    end subroutine refuse_number
 
    !> Check the bounds of a number that was read before

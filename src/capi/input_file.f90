@@ -26,7 +26,7 @@ module contact_capi_input_file
 
    !> Digits that a file of Simpack does not change; differences in the first ones are reported
    character(len=2), parameter :: kept_digits(*) = [character(len=2) :: "P", "N", "F", "H", "S", "C1", "I"]
-   integer, parameter :: told = 5
+   integer, parameter :: n_reported = 5
 
 contains
 
@@ -52,9 +52,9 @@ contains
             if (file(:1) /= "/") file = folder // file
             select case (integer_of(inp_type))
             case (input_type%module_1)
-               call take_first_case(this, file, problem, error)
+               call read_first_case(this, file, problem, error)
             case (input_type%simpack)
-               call take_simpack_file(this, file, problem, error)
+               call read_simpack_file(this, file, problem, error)
             case default
                call fatal_error(error, "the kind " // integer_text(integer_of(inp_type)) // " of input files is not known; " // &
                   & "1988 and 1990 are")
@@ -70,7 +70,7 @@ contains
    end subroutine cntc_readinpfile
 
    !> Read the first case of a file of module 1
-   subroutine take_first_case(this, file, problem, error)
+   subroutine read_first_case(this, file, problem, error)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
       type(library_problem), intent(inout) :: problem
@@ -88,10 +88,10 @@ contains
       call first%problems%first_failure(error)
       if (allocated(error)) return
       call adopt(this, file, first%digits, first%spec, problem)
-   end subroutine take_first_case
+   end subroutine read_first_case
 
    !> Read a file of the Simpack user routine: some digits keep their values, regardless of the file
-   subroutine take_simpack_file(this, file, problem, error)
+   subroutine read_simpack_file(this, file, problem, error)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
       type(library_problem), intent(inout) :: problem
@@ -125,13 +125,13 @@ contains
       do k = 1, size(kept_digits)
          name = trim(kept_digits(k))
          digit = digit_value(problem%digits, name)
-         if (digit_value(found, name) /= digit .and. k <= told) call complain(this, "the digit " // name // " = " // &
+         if (digit_value(found, name) /= digit .and. k <= n_reported) call complain(this, "the digit " // name // " = " // &
             & integer_text(digit_value(found, name)) // " of the file is not used, it stays " // integer_text(digit), &
             & library_code%success)
          call put_digit(found, name, digit)
       end do
       call adopt(this, file, found, spec, problem)
-   end subroutine take_simpack_file
+   end subroutine read_simpack_file
 
    !> Read module number and case
    subroutine read_simpack_case(file, previous, spec, digits, problems, error)

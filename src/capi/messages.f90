@@ -6,7 +6,7 @@ module contact_capi_messages
    use contact_base_log, only : log_type
    use contact_capi_library, only : entry_type, existing_problem, library
    use contact_capi_problem, only : library_problem, refused_setting
-   use contact_control_digit_terms, only : tell_in_digits
+   use contact_control_digit_terms, only : translate_to_digits
    use contact_text_bounds, only : describe_breach
    use contact_control_library_codes, only : library_code
    use contact_text_words, only : integer_text
@@ -27,15 +27,15 @@ contains
       character(len=*), intent(in) :: text
       !> Member of library_code; default: other
       integer, intent(in), optional :: code
-      character(len=:), allocatable :: told
+      character(len=:), allocatable :: message
       integer :: number
 
-      call tell_in_digits(text, told)
+      call translate_to_digits(text, message)
       number = library_code%other
       if (present(code)) number = code
       !$omp critical (contact_registry)
-      if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // told, call_of)
-      call library%log%line(trim(prefix_of(call_of)) // " " // told)
+      if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // message, call_of)
+      call library%log%line(trim(prefix_of(call_of)) // " " // message)
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)
    end subroutine complain
@@ -97,7 +97,7 @@ contains
    type(log_type) function library_log() result(log)
       !$omp critical (contact_registry)
       log = library%log
-      log%terms => tell_in_digits
+      log%terms => translate_to_digits
       !$omp end critical (contact_registry)
    end function library_log
 

@@ -87,7 +87,7 @@ contains
             problem%digits%m = method
             spec%material_model = model
             spec%material = material
-            call settle_outer_iteration(model, material, spec%iteration)
+            call set_outer_iteration(model, material, spec%iteration)
             return
          end if
          problem%digits%m2 = method - no_damping
@@ -98,7 +98,7 @@ contains
    end subroutine set_materials
 
    !> Use an outer iteration for dissimilar bodies, and none for quasi-identical ones
-   pure subroutine settle_outer_iteration(model, material, iteration)
+   pure subroutine set_outer_iteration(model, material, iteration)
       !> Member of material_model
       integer, intent(in) :: model
       type(material_spec), intent(in) :: material
@@ -109,7 +109,7 @@ contains
       if (model == material_model%viscoelastic) unlike = unlike .or. material%relaxes_apart()
       if (iteration%maxout >= 2 .and. .not. unlike) iteration%maxout = 1
       if (iteration%maxout <= 1 .and. unlike) iteration%maxout = 10
-   end subroutine settle_outer_iteration
+   end subroutine set_outer_iteration
 
    !> Set surface temperatures (H)
    subroutine set_heat(a, problem)

@@ -66,8 +66,8 @@ contains
          flx = merge(material%laythk/material%gg3, material%flx, problem%digits%m == 4)
          k_eff = 0.0_wp
          if (problem%has_result) then
-            if (problem%module_number == 3) call take_flexibility(problem%result)
-            if (problem%module_number == 1) call take_flexibility(problem%wheel_rail_result%patches(icp)%contact)
+            if (problem%module_number == 3) call get_flexibility(problem%result)
+            if (problem%module_number == 1) call get_flexibility(problem%wheel_rail_result%patches(icp)%contact)
          end if
          list = [material%gg, both%gg, material%poiss, both%nu, both%ak, flx, material%k0_mf, material%alfamf, &
             & material%betamf, k_eff, material%gg3, material%laythk, material%tau_c0, material%k_tau, damping%cdampn, &
@@ -86,12 +86,12 @@ contains
    contains
 
       !> Flexibilities of simplified theory as used
-      subroutine take_flexibility(patch)
+      subroutine get_flexibility(patch)
          type(patch_result), intent(in) :: patch
 
          k_eff = patch%k_eff
          if (any(patch%flx > 0.0_wp)) flx = patch%flx
-      end subroutine take_flexibility
+      end subroutine get_flexibility
    end function material_constants
 
    !> L, number of points, memory; position and coefficients of each point, in internal units by contract

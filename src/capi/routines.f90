@@ -184,23 +184,23 @@ contains
             a%alone(alone) = real_at(arguments(place))
             a%numbers(1)%v => a%alone(:alone)
          case ("I")
-            call take_length()
+            call get_length()
             integer_lists = integer_lists + 1
             a%has_integers = .true.
             call c_f_pointer(arguments(place), integers, [length])
             a%integers(integer_lists)%v => integers
          case ("R", "P")
-            call take_length()
+            call get_length()
             real_lists = real_lists + 1
             call c_f_pointer(arguments(place), list, [length])
             a%numbers(real_lists)%v => list
          case ("T")
-            call take_length()
+            call get_length()
             call c_f_pointer(arguments(place), letters, [length])
             a%path = trim(path_of(letters, int(length, c_int)))
          case ("x", "X")
             length = merge(1, 0, c_associated(arguments(place)))
-            if (kinds(k) == "X") call take_length()
+            if (kinds(k) == "X") call get_length()
             answers = answers + 1
             a%answers(answers) = answer_place(arguments(place), length)
          end select
@@ -211,12 +211,12 @@ contains
    contains
 
       !> Number of elements of an array, from the argument that contains its length; 0 if the array is missing
-      subroutine take_length()
+      subroutine get_length()
          length = max(0, integer_at(arguments(1 + iachar(kinds(k + 1)) - iachar("0"))))
          if (.not. c_associated(arguments(place))) length = 0
          if (kinds(k) == "P") length = merge(2*length, 0, length <= most_points)
          k = k + 1
-      end subroutine take_length
+      end subroutine get_length
    end subroutine unpack_arguments
 
    !> An integer argument

@@ -7,7 +7,7 @@ module contact_capi_run
    use contact_base_guard, only : cause_text, do_guarded, guard_end
    use contact_base_kinds, only : long
    use contact_base_limits, only : case_limits, fill_limits
-   use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
+   use contact_capi_arguments, only : copy_text, first_failure, give_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
@@ -130,13 +130,13 @@ contains
       call do_guarded(do_inside, c_loc(request), 0, cause)
       if (cause /= guard_end%done) then
          request%status = first_failure + int(error_kind%memory, c_int)
-         call do_guarded(tell_want_of_memory, c_loc(request), 0, cause)
+         call do_guarded(report_want_of_memory, c_loc(request), 0, cause)
       end if
       call give_floats_back()
    end subroutine do_request
 
    !> Report why a task was abandoned
-   subroutine tell_want_of_memory(data) bind(c)
+   subroutine report_want_of_memory(data) bind(c)
       !> A request_type
       type(c_ptr), value :: data
       type(request_type), pointer :: request
@@ -147,7 +147,7 @@ contains
       else
          call give_message(trim(cause_text(guard_end%no_memory)), request%text, request%length)
       end if
-   end subroutine tell_want_of_memory
+   end subroutine report_want_of_memory
 
    !> Do a task
    recursive subroutine do_inside(data) bind(c)
@@ -155,28 +155,28 @@ contains
       type(c_ptr), value :: data
       type(request_type), pointer :: request
       type(error_type), allocatable :: error
-      type(text_buffer) :: told
+      type(text_buffer) :: answer
       character(len=:), allocatable :: experiment, folder, output, text
 
       call c_f_pointer(data, request)
-      call take_text(request%experiment, experiment)
-      call take_text(request%folder, folder)
+      call copy_text(request%experiment, experiment)
+      call copy_text(request%folder, folder)
       if (request%task == to_run) then
          call run(request, experiment, folder, error)
       else if (len_trim(experiment) == 0) then
          call fatal_error(error, "the name of the experiment is missing")
          request%status = wrong_call
       else if (request%task == to_explain) then
-         call explain_experiment(experiment, told, error)
+         call explain_experiment(experiment, answer, error)
       else
-         call convert_experiment(experiment, folder, request%overwrite, told, output, error)
+         call convert_experiment(experiment, folder, request%overwrite, answer, output, error)
       end if
       if (allocated(error)) then
-         call told%add(full_text(error))
-         if (request%task /= to_run) call told%add(new_line("a"))
+         call answer%add(full_text(error))
+         if (request%task /= to_run) call answer%add(new_line("a"))
          if (request%status == 0) request%status = first_failure + int(error%kind, c_int)
       end if
-      call told%get(text)
+      call answer%get(text)
       request%needed = int(len(text), c_int) + 1_c_int
       call give_message(text, request%text, request%length)
    end subroutine do_inside

@@ -275,7 +275,7 @@ contains
          values => a%numbers_at(1, int(rows, long)*size(columns))
          if (size(values) == 0) return
          do k = 1, size(columns)
-            call take_column(view, view%patch%subsurface(number), columns(k), column)
+            call get_column(view, view%patch%subsurface(number), columns(k), column)
             n = min(rows, size(column))
             values((k - 1)*rows + 1:(k - 1)*rows + n) = column(:n)
          end do
@@ -283,7 +283,7 @@ contains
    end subroutine get_block
 
    !> One column in the units of the caller
-   pure subroutine take_column(view, block, number, column)
+   pure subroutine get_column(view, block, number, column)
       type(result_view), intent(in) :: view
       type(subsurface_result), intent(in) :: block
       integer, intent(in) :: number
@@ -304,5 +304,5 @@ contains
          return
       end select
       if (number > 6) column = column*outward(view%units, quantity%pressure)
-   end subroutine take_column
+   end subroutine get_column
 end module contact_capi_subsurface

@@ -4,7 +4,7 @@ module contact_capi_table
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_error, only : error_type
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
-   use contact_capi_arguments, only : give_message, take_text
+   use contact_capi_arguments, only : copy_text, give_message
    use contact_tables_creep_table, only : creep_table, find_creep_force, lookup_status, max_spin
    use contact_tables_table_file, only : read_table
    implicit none (type, external)
@@ -68,7 +68,7 @@ contains
       character(len=:), allocatable :: file
 
       call c_f_pointer(data, request)
-      call take_text(request%file, file)
+      call copy_text(request%file, file)
       allocate(request%table)
       call read_table(file, request%table, request%error)
       if (allocated(request%error)) deallocate(request%table)

@@ -82,19 +82,19 @@ module contact_cases_archive
       !> A choice or a number that exists in the readable format but not in input files, in the current group or in the case itself
       procedure :: own_choice => ignore_choice
       procedure :: own_number => ignore_number
-      !> A number of the last line is wrong, doubtful or replaced: reported by `tell`, which does nothing if values are not set
+      !> A number of the last line is wrong, doubtful or replaced: reported by `report`, which does nothing if values are not set
       procedure :: refuse
       procedure :: warn
-      procedure :: tell => tell_nothing
+      procedure :: report => report_nothing
       !> Reading cannot continue, with the reason; the name is blank if no number of the last line is the cause
       procedure :: fail => say_nothing
       !> Begin and end a group of numbers; groups are not nested
       procedure :: open_group => ignore_name
       procedure :: close_group => ignore
-      !> The numbers of a group are inconsistent or doubtful: reported by `tell_of_group`, which does nothing if values are not set
+      !> The numbers of a group are inconsistent or doubtful: reported by `report_group`, which does nothing if values are not set
       procedure :: refuse_group
       procedure :: warn_of_group
-      procedure :: tell_of_group => tell_nothing_of_group
+      procedure :: report_group => report_nothing_of_group
       !> A remark on the current group for readers of a file
       procedure :: comment => ignore_name
       !> Add the position at which reading stopped, if it did
@@ -298,7 +298,7 @@ contains
       !> Message after its name and value
       character(len=*), intent(in) :: text
 
-      call self%tell(.true., name, text)
+      call self%report(.true., name, text)
    end subroutine refuse
 
    !> A number of the last line is doubtful or was replaced
@@ -309,7 +309,7 @@ contains
       !> Message after its name and value
       character(len=*), intent(in) :: text
 
-      call self%tell(.false., name, text)
+      call self%report(.false., name, text)
    end subroutine warn
 
    !> The numbers of the current group, or of previous groups, are inconsistent
@@ -318,7 +318,7 @@ contains
       !> Message of one sentence
       character(len=*), intent(in) :: text
 
-      call self%tell_of_group(.true., text)
+      call self%report_group(.true., text)
    end subroutine refuse_group
 
    !> The numbers of the current group are doubtful
@@ -327,7 +327,7 @@ contains
       !> Message of one sentence
       character(len=*), intent(in) :: text
 
-      call self%tell_of_group(.false., text)
+      call self%report_group(.false., text)
    end subroutine warn_of_group
 
    !> A choice among words; ignored by formats without keys of their own
@@ -372,7 +372,7 @@ contains
    end function own_word
 
    !> Nothing, since values that are not set are valid
-   subroutine tell_nothing(self, is_error, name, text)
+   subroutine report_nothing(self, is_error, name, text)
       class(case_archive), intent(inout) :: self
       !> Is the number invalid? Otherwise doubtful
       logical, intent(in) :: is_error
@@ -383,10 +383,10 @@ contains
 
       associate (unused => self, no_error => is_error, no_name => name, no_text => text)
       end associate
-   end subroutine tell_nothing
+   end subroutine report_nothing
 
    !> Nothing, since values that are not set are valid
-   subroutine tell_nothing_of_group(self, is_error, text)
+   subroutine report_nothing_of_group(self, is_error, text)
       class(case_archive), intent(inout) :: self
       !> Are its numbers inconsistent? Otherwise doubtful
       logical, intent(in) :: is_error
@@ -395,7 +395,7 @@ contains
 
       associate (unused => self, no_error => is_error, no_text => text)
       end associate
-   end subroutine tell_nothing_of_group
+   end subroutine report_nothing_of_group
 
    !> Nothing, since values that are not set are valid
    subroutine say_nothing(self, name, text)

@@ -85,7 +85,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call set_problem(spec, folder, session%problem, log, error)
-      call tell_hertz(session%problem, result)
+      call store_hertz(session%problem, result)
       if (allocated(error)) return
       if (session%refines) call interpolate_fields(session%problem%grid, session%state%now)
       call link_time_steps(session%problem, spec%link, session%state, error)
@@ -151,7 +151,7 @@ contains
    end subroutine refuse_direction
 
    !> Store the Hertz solution of the geometry, which is a result also of a case that is not solved
-   subroutine tell_hertz(problem, result)
+   subroutine store_hertz(problem, result)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
 
@@ -160,7 +160,7 @@ contains
       else if (allocated(result%hertz)) then
          deallocate(result%hertz)
       end if
-   end subroutine tell_hertz
+   end subroutine store_hertz
 
    !> Error of a case whose totals are infinite or not a number: it has no results
    subroutine refuse_nonsense(error)

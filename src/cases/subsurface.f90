@@ -50,9 +50,9 @@ contains
       mirror = .false.
       if (present(left)) mirror = left
       if (mirror) then
-         call take_load(mirrored(result))
+         call set_load(mirrored(result))
       else
-         call take_load(result)
+         call set_load(result)
       end if
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
@@ -73,13 +73,13 @@ contains
 
    contains
 
-      subroutine take_load(patch)
+      subroutine set_load(patch)
          type(patch_result), intent(in) :: patch
 
          call new_surface_load(load, patch%grid, patch%pn, patch%px, patch%py, spec%material%gg, spec%material%poiss, &
             & spec%kernel == kernel_model%bilinear)
          area = around_contact(patch)
-      end subroutine take_load
+      end subroutine set_load
    end subroutine subsurface_stresses
 
    !> Warn of points whose stresses are affected by the piecewise constant tractions

@@ -127,12 +127,12 @@ contains
       call visit_elastic(a, spec%material)
       if (spec%pressure == pressure_model%thin_sheet) call visit_sheet(a, spec%material)
       call visit_material_model(a, spec%material_model, spec%material)
-      if (a%is_reading .and. a%is_good) call settle_outer_iteration(a, spec)
+      if (a%is_reading .and. a%is_good) call set_outer_iteration(a, spec)
       call a%close_group()
    end subroutine visit_materials
 
    !> Set the maximum number of outer iterations: dissimilar bodies need them, similar bodies do not
-   subroutine settle_outer_iteration(a, spec)
+   subroutine set_outer_iteration(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
       real(wp) :: ak
@@ -159,13 +159,13 @@ contains
          call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar materials, AK = " // &
             & real_text(ak) // "; MAXOUT = 10 or more is recommended")
       else if (is_dissimilar_shape) then
-         call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar shapes, which their " // &
-            & "influence coefficients tell; MAXOUT = 10 or more is recommended")
+         call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar shapes, see their " // &
+            & "influence coefficients; MAXOUT = 10 or more is recommended")
       else if (relaxes_apart) then
          call a%warn_of_group(given // " means no outer iteration, but the viscoelastic bodies relax differently; " // &
             & "MAXOUT = 10 or more is recommended")
       end if
-   end subroutine settle_outer_iteration
+   end subroutine set_outer_iteration
 
    !> Kalker's difference parameter K of two bodies [-]
    pure real(wp) function difference_parameter(material)
@@ -241,13 +241,13 @@ contains
          call visit_grid(a, spec%grid)
       else
          call visit_grid(a, grid)
-         if (a%is_good) call take_grid(grid, spec)
+         if (a%is_good) call store_grid(grid, spec)
       end if
       call a%close_group()
    end subroutine visit_grid_group
 
    !> Read a new grid; if it brings its own geometry, it replaces the given one
-   subroutine take_grid(grid, spec)
+   subroutine store_grid(grid, spec)
       type(grid_spec), intent(in) :: grid
       type(case_spec), intent(inout) :: spec
 
@@ -257,7 +257,7 @@ contains
       if (grid%form /= grid_form%hertz_curvatures) return
       spec%geometry%b(1) = grid%a1
       spec%geometry%b(3) = grid%b1
-   end subroutine take_grid
+   end subroutine store_grid
 
    !> Undeformed distance and planform of grids that are not Hertzian
    subroutine visit_geometry_group(a, spec)

@@ -9,12 +9,12 @@ module contact_control_digit_terms
    implicit none (type, external)
    private
 
-   public :: tell_in_digits, tell_error_in_digits
+   public :: translate_to_digits, translate_error_to_digits
 
 contains
 
    !> Replace the choices in a message by digits
-   pure subroutine tell_in_digits(message, text)
+   pure subroutine translate_to_digits(message, text)
       !> Sentence with choices such as `sequence = "initiate"`
       character(len=*), intent(in) :: message
       !> The sentence with digits, `P = 2`
@@ -30,7 +30,7 @@ contains
          if (mark == 0) exit
          mark = done + mark
          first = done + verify(message(done + 1:mark - 1), key_letters, back=.true.) + 1
-         call take_words(message, message(first:mark - 1), mark + len(before) - 1, figures, last)
+         call convert_words(message, message(first:mark - 1), mark + len(before) - 1, figures, last)
          if (len(figures) > 0) then
             text = text // message(done + 1:first - 1) // figures
          else
@@ -39,10 +39,10 @@ contains
          done = last
       end do
       text = text // message(done + 1:)
-   end subroutine tell_in_digits
+   end subroutine translate_to_digits
 
    !> Digits for the words of a key, "G = 2, 3 or 5"
-   pure subroutine take_words(message, key, at, figures, last)
+   pure subroutine convert_words(message, key, at, figures, last)
       character(len=*), intent(in) :: message
       !> Key, such as iteration.solver, and position of the quotation mark before its first word
       character(len=*), intent(in) :: key
@@ -76,7 +76,7 @@ contains
          separator = between(k)(:length)
          next = last + length + 1
       end do
-   end subroutine take_words
+   end subroutine convert_words
 
    !> Find the digit of a word, in either module
    pure subroutine find_choice(key, word, name, digit)
@@ -100,14 +100,14 @@ contains
    end subroutine find_choice
 
    !> Replace the choices in the message of an error by digits
-   pure subroutine tell_error_in_digits(error)
+   pure subroutine translate_error_to_digits(error)
       !> Unchanged if unallocated
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: text
 
       if (.not. allocated(error)) return
       if (.not. allocated(error%message)) return
-      call tell_in_digits(error%message, text)
+      call translate_to_digits(error%message, text)
       call move_alloc(text, error%message)
-   end subroutine tell_error_in_digits
+   end subroutine translate_error_to_digits
 end module contact_control_digit_terms

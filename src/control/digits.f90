@@ -432,9 +432,9 @@ contains
 
       c1 = digits%c1
       list = transfer(digits, list)
-      call take_apart(word1, list%value(first_of_word(1) - 1:last_of_word(1)))
-      call take_apart(word2, list%value(first_of_word(2):last_of_word(2)))
-      call take_apart(word3, list%value(first_of_word(3):last_of_word(3)))
+      call split_digits(word1, list%value(first_of_word(1) - 1:last_of_word(1)))
+      call split_digits(word2, list%value(first_of_word(2):last_of_word(2)))
+      call split_digits(word3, list%value(first_of_word(3):last_of_word(3)))
       digits = transfer(list, digits)
       if (module_number /= module_1) digits%c1 = c1
       digits%m2 = 1
@@ -444,7 +444,7 @@ contains
    end subroutine decode_words
 
    !> Decimal digits of a word; the first one holds all that remains to the left of the others
-   pure subroutine take_apart(word, list)
+   pure subroutine split_digits(word, list)
       integer, intent(in) :: word
       integer, intent(out) :: list(:)
       integer :: k, rest
@@ -455,7 +455,7 @@ contains
          rest = rest/10
       end do
       list(1) = rest
-   end subroutine take_apart
+   end subroutine split_digits
 
    !> A control word as written in files, without C1 and X
    pure function word_text(digits, word) result(text)

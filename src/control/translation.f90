@@ -7,12 +7,12 @@ module contact_control_translation
    implicit none (type, external)
    private
 
-   public :: take_digits, digits_of
+   public :: apply_digits, digits_of
 
 contains
 
    !> Set choices and parts of a case from its digits; groups of unknown digits are treated as not given
-   subroutine take_digits(digits, module_number, spec)
+   subroutine apply_digits(digits, module_number, spec)
       type(case_digits), intent(in) :: digits
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -50,7 +50,7 @@ contains
          parts%stress_points = given_unless(digits%s /= 0 .and. digits%s /= 3)
       end associate
       if (module_number == 1) then
-         call take_wheel_rail_digits(digits, spec)
+         call apply_wheel_rail_digits(digits, spec)
       else
          if (digits%e /= 1) spec%slip_source = choice("E", digits%e)
          spec%parts%grid = source_of(merge(digits%d, 0, digits%d <= 2))
@@ -67,10 +67,10 @@ contains
 
          choice = choice_of(name, digit, module_number)
       end function choice
-   end subroutine take_digits
+   end subroutine apply_digits
 
    !> Digits that have a meaning for wheel and rail only
-   subroutine take_wheel_rail_digits(digits, spec)
+   subroutine apply_wheel_rail_digits(digits, spec)
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(inout) :: spec
 
@@ -92,7 +92,7 @@ contains
          parts%velocity = given_unless(digits%e < 2)
          parts%flexibility = given_unless(digits%e < 4)
       end associate
-   end subroutine take_wheel_rail_digits
+   end subroutine apply_wheel_rail_digits
 
    !> Control digits of a case
    pure function digits_of(spec) result(digits)

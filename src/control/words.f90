@@ -12,7 +12,7 @@ module contact_control_words
 
    public :: key_row, key_table, key_of, digit_of_word, word_of_digit, is_choice, choice_words, words_of
    public :: form_row, form_table, form_title, form_value, form_word, form_words, form_key, key_of_item
-   public :: tell_in_words
+   public :: translate_to_words
 
    !> Length of keys and of names of groups
    integer, parameter, public :: key_length = 16
@@ -42,9 +42,9 @@ module contact_control_words
       & key_row("E", module_3, "", "slip_source", "extra term of the rigid slip"), &
       & key_row("S", both, "", "stresses", "stresses below the surface"), &
       & key_row("I", both, "", "estimate", "start of the solution"), &
-      & key_row("O", both, "", "output_level", "what the .out file tells"), &
-      & key_row("A", both, "", "mat_file", "what the .mat file tells"), &
-      & key_row("W", both, "", "flow_level", "what is told about iterations"), &
+      & key_row("O", both, "", "output_level", "content of the .out file"), &
+      & key_row("A", both, "", "mat_file", "content of the .mat file"), &
+      & key_row("W", both, "", "flow_level", "report of the iterations"), &
       & key_row("G", both, "iteration", "solver", "solver of the tangential problem"), &
       & key_row("L", both, "friction", "law", "friction law"), &
       & key_row("V", both, "friction", "variation", "on what the friction parameters depend"), &
@@ -289,7 +289,7 @@ contains
    !> A message in the words of the readable format: digits as keys and words, names of numbers in small letters
    !>
    !> Text in double quotes is unchanged, since it quotes the input.
-   subroutine tell_in_words(message, module_number, text)
+   subroutine translate_to_words(message, module_number, text)
       !> Message in the terms of input files
       character(len=*), intent(in) :: message
       !> 1 or 3
@@ -317,13 +317,13 @@ contains
             if (index(name_letters, message(last + 1:last + 1)) == 0) exit
             last = last + 1
          end do
-         call tell_name(message, at, last, module_number, text)
+         call translate_name(message, at, last, module_number, text)
          at = last + 1
       end do
-   end subroutine tell_in_words
+   end subroutine translate_to_words
 
    !> Translate one name, and the digits after it if there are any
-   subroutine tell_name(message, first, last, module_number, text)
+   subroutine translate_name(message, first, last, module_number, text)
       character(len=*), intent(in) :: message
       integer, intent(in) :: first
       !> Position of the last character: on entry of the name, on return of the translated part of the message
@@ -337,7 +337,7 @@ contains
       if (is_digit) is_digit = message(last + 1:last + 3) == " = " .and. index("0123456789", message(last + 4:last + 4)) > 0
       if (.not. is_digit) then
          if (form_key(message(first:last)) /= "") then
-            call tell_form(message, first, last, text)
+            call translate_form(message, first, last, text)
          else if (last > first .and. bounds_of(message(first:last)) > 0) then
             text = text // small(message(first:last))
          else
@@ -347,7 +347,7 @@ contains
       end if
       next = last + 4
       digit = iachar(message(next:next)) - iachar("0")
-      call tell_digit(message(first:last), digit, module_number, .true., text)
+      call translate_digit(message(first:last), digit, module_number, .true., text)
       last = next
       ! "3", "2 or 3", "1, 2 or 3"
       do
@@ -355,9 +355,9 @@ contains
          if (gap == 0 .or. .not. is_figure(message, last + gap + 1)) return
          text = text // message(last + 1:last + gap)
          last = last + gap + 1
-         call tell_digit(message(first:next - 4), iachar(message(last:last)) - iachar("0"), module_number, .false., text)
+         call translate_digit(message(first:next - 4), iachar(message(last:last)) - iachar("0"), module_number, .false., text)
       end do
-   end subroutine tell_name
+   end subroutine translate_name
 
    !> Length of the ", " or " or " after a position, 0 for neither
    pure integer function gap_behind(message, last) result(gap)
@@ -381,7 +381,7 @@ contains
    end function is_figure
 
    !> Translate IPOTCN = -3 and similar, "-5, -4 or -1"
-   subroutine tell_form(message, first, last, text)
+   subroutine translate_form(message, first, last, text)
       character(len=*), intent(in) :: message
       integer, intent(in) :: first
       !> Position of the last character: on entry of the name, on return of the translated part of the message
@@ -404,10 +404,10 @@ contains
          gap = gap_behind(message, last)
          if (gap == 0) return
       end do
-   end subroutine tell_form
+   end subroutine translate_form
 
    !> A digit as a key and a word, or as a part that a case gives or not
-   subroutine tell_digit(name, digit, module_number, with_key, text)
+   subroutine translate_digit(name, digit, module_number, with_key, text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
       integer, intent(in) :: module_number
@@ -437,7 +437,7 @@ contains
       else
          text = text // name // " = " // achar(iachar("0") + digit)
       end if
-   end subroutine tell_digit
+   end subroutine translate_digit
 
    !> Condition on the groups of a case that is expressed by a digit that is no choice; blank for others
    pure function part_of(name, digit, module_number) result(text)

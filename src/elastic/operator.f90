@@ -15,7 +15,8 @@ module contact_elastic_operator
    use contact_elastic_coefficients, only : fill_coefficients, own_coefficients
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, take_mean
+   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_even, multiply_paired, replace_by_mean, &
+      & spectrum_floor
    use contact_fft_paired, only : paired_plan
    use contact_fft_plan, only : fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
@@ -167,8 +168,8 @@ contains
       if (self%small) then
          call self%pair%prepare(self%mx, self%my, self%plan%px, self%plan%py)
          call self%inverse_pair%prepare(self%mx, self%my, self%plan%px, py)
-         call take_mean(self%xx, self%yy)
-         call take_mean(self%ixx, self%iyy)
+         call replace_by_mean(self%xx, self%yy)
+         call replace_by_mean(self%ixx, self%iyy)
       else
          call self%inverse_plan%prepare(self%mx, self%my, self%plan%px, py)
       end if

@@ -9,7 +9,7 @@ module contact_elastic_spectra
    implicit none (type, external)
    private
 
-   public :: invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, take_mean
+   public :: invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, replace_by_mean
 
    !> Lower bound of spectra used as divisors, relative to their maximum. A complete period has a positive spectrum; the bound
    !> protects against round-off for elements of extreme aspect ratio
@@ -105,7 +105,7 @@ contains
    end subroutine invert_block
 
    !> Replace two spectra by half their sum and half their difference
-   elemental subroutine take_mean(xx, yy)
+   elemental subroutine replace_by_mean(xx, yy)
       !> On entry spectra, on exit half their sum and half their difference
       real(wp), intent(inout) :: xx, yy
       real(wp) :: difference
@@ -113,7 +113,7 @@ contains
       difference = 0.5_wp*(xx - yy)
       xx = 0.5_wp*(xx + yy)
       yy = difference
-   end subroutine take_mean
+   end subroutine replace_by_mean
 
    !> Position of frequency -k in a period of length n
    elemental integer function opposite(k, n)

@@ -49,7 +49,7 @@ contains
       call choose_input(place, has_both)
       if (has_both) then
          call fatal_error(error, "there are " // place%name // input_suffix // " and " // place%name // readable_suffix // &
-            & ": the suffix must tell which one is to be converted", error_kind%file, place%folder // place%name)
+            & ": the suffix must say which one is to be converted", error_kind%file, place%folder // place%name)
          return
       end if
       to_readable = index(place%input, input_suffix, back=.true.) == len(place%input) - len(input_suffix) + 1

@@ -5,7 +5,7 @@ module contact_experiment_explain
    use contact_experiment_place, only : choose_input, experiment_place, locate_experiment
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
-   use contact_output_case_words, only : tell_case
+   use contact_output_case_words, only : describe_case
    use contact_text_buffer, only : text_buffer
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -51,7 +51,8 @@ contains
             if (allows_approximate) this%spec%iteration%allows_approximate = .true.
          end if
          if (this%problems%number_of(severity%error) == 0) then
-            call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), messages)
+            call describe_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), &
+               & messages)
          else
             call messages%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
                & ": its errors must be corrected first")

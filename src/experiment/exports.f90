@@ -10,7 +10,7 @@ module contact_experiment_exports
    use contact_hdf5_case_file, only : hdf5_case_file
    use contact_output_case_record, only : case_head, run_summary
    use contact_output_json_file, only : json_file
-   use contact_output_vtk_bodies, only : body_profile, take_section
+   use contact_output_vtk_bodies, only : body_profile, get_section
    use contact_output_vtk_files, only : vtk_files
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
@@ -210,8 +210,8 @@ contains
       associate (problem => session%problem, w => spec%wheel_rail%wheelset)
          place = 0.0_wp
          if (size(pair%patches) > 0) place = [pair%patches(1)%x, pair%patches(1)%x_wheel]
-         call take_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
-         call take_section(problem%wheel, problem%wheel_surface, &
+         call get_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
+         call get_section(problem%wheel, problem%wheel_surface, &
             & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch, wheel)
          call self%hdf5%write_wheel_rail(head, given, spec, pair, rail, wheel)
       end associate

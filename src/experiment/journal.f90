@@ -222,7 +222,7 @@ contains
       line = file%line_text(1)
       if (line /= heading) return
       behind = len(line) + 1
-      call take_line(2)
+      call get_line(2)
       if (.not. is_whole) return
       associate (s => settings)
          read(body, *, iostat=status) s%version, s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%classical, s%errors, &
@@ -234,7 +234,7 @@ contains
       place = behind
       seen = ""
       do k = 3, file%count_lines()
-         call take_line(k)
+         call get_line(k)
          if (.not. is_whole) return
          read(body, *, iostat=status) c%cases, c%out, c%json, c%vtk, c%rows, c%errors, c%warnings, c%ended, c%input, c%files
          if (status /= 0) return
@@ -249,7 +249,7 @@ contains
    contains
 
       !> Get a line without its hash, and the end of the line
-      subroutine take_line(k)
+      subroutine get_line(k)
          integer, intent(in) :: k
          integer(long) :: hash, wanted
          integer :: space
@@ -267,7 +267,7 @@ contains
          body = trim(line(:space - 1))
          behind = behind + len(line) + 1
          is_whole = .true.
-      end subroutine take_line
+      end subroutine get_line
    end subroutine read_journal
 
    !> Can a run proceed from one checkpoint to another? No count and no position decreases

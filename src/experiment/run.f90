@@ -15,7 +15,7 @@ module contact_experiment_run
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long
    use contact_cases_slot, only : release_slot
-   use contact_control_digit_terms, only : tell_in_digits
+   use contact_control_digit_terms, only : translate_to_digits
    use contact_experiment_check, only : check_all_cases
    use contact_experiment_errors, only : report_error, report_final_error, report_problems
    use contact_experiment_one_case, only : compute_case, count_case
@@ -65,7 +65,7 @@ contains
          state%place = locate_experiment(settings%experiment, "")
       end if
       call choose_input(state%place, has_both)
-      if (.not. is_readable_format(state%place%input)) state%log%terms => tell_in_digits
+      if (.not. is_readable_format(state%place%input)) state%log%terms => translate_to_digits
       associate (input => state%place%input)
          if (has_both) call state%log%line(" There are " // state%place%name // input_suffix // " and " // state%place%name // &
             & readable_suffix // "; " // input // " is read; with its suffix the other one is")

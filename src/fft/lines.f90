@@ -7,7 +7,7 @@ module contact_fft_lines
    implicit none (type, external)
    private
 
-   public :: copy, multiply_block, multiply_one, multiply_opposites, multiply_two, put_together, take_apart, turn_one, turn_two
+   public :: copy, multiply_block, multiply_one, multiply_opposites, multiply_two, put_together, separate_rows, turn_one, turn_two
 
    interface
       !> Product of a complex spectrum and a real one
@@ -81,8 +81,8 @@ module contact_fft_lines
          complex(c_double_complex), intent(inout) :: z(px)
       end subroutine turn_two
 
-      !> All frequencies of `take_apart` except the first
-      pure subroutine take_both_apart(px, z, rows, both) bind(c, name="contact_lines_apart")
+      !> All frequencies of `separate_rows` except the first
+      pure subroutine separate_both(px, z, rows, both) bind(c, name="contact_lines_apart")
          import :: c_double_complex, c_int
          !> Length
          integer(c_int), value :: px
@@ -92,7 +92,7 @@ module contact_fft_lines
          integer(c_int), value :: rows
          !> Starting at the first of the two rows; receives the transforms of both
          complex(c_double_complex), intent(inout) :: both(rows*(px/2) + 2)
-      end subroutine take_both_apart
+      end subroutine separate_both
 
       !> Frequencies of `put_together` that have a conjugate partner
       pure subroutine put_both_together(px, rows, both, z) bind(c, name="contact_lines_together")
@@ -109,7 +109,7 @@ module contact_fft_lines
 contains
 
    !> Transforms of two rows, from half that of the first + i times the second
-   pure subroutine take_apart(px, z, rows, iy, half)
+   pure subroutine separate_rows(px, z, rows, iy, half)
       !> Length, number of all rows, index of the first of the two
       integer, intent(in) :: px, rows, iy
       !> Transform of the first row + i times the second
@@ -121,14 +121,14 @@ contains
       half(iy, 1) = 2.0_wp*z(1)%re
       if (iy < rows) then
          half(iy + 1, 1) = 2.0_wp*z(1)%im
-         call take_both_apart(px, z, rows, half(iy, 1))
+         call separate_both(px, z, rows, half(iy, 1))
       else
          ! a last row without a partner
          do k = 2, px/2 + 1
             half(iy, k) = z(k) + conjg(z(px + 2 - k))
          end do
       end if
-   end subroutine take_apart
+   end subroutine separate_rows
 
    !> Transform of the first row + i times the second, from the transforms of both; these belong to real values
    pure subroutine put_together(px, rows, iy, half, z)

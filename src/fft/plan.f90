@@ -9,7 +9,7 @@ module contact_fft_plan
    use contact_base_kinds, only : wp
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
    use contact_fft_library, only : backwards, destroy, execute_complex, forwards, lanes, plan_complex
-   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_two
+   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, separate_rows, turn_two
    use contact_fft_sizes, only : fast_size, good_size, largest_fast_size
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
@@ -79,8 +79,8 @@ contains
       self%kx = px/2 + 1
       allocate(self%half(2*my*self%kx))
       call fit_buffers(self, 1)
-      call take_lines(self%rows, self%row(:, :, 1, 1), self%row(:, :, 2, 1))
-      call take_lines(self%columns, self%column(:, :, 1, 1), self%column(:, :, 2, 1))
+      call get_line_plans(self%rows, self%row(:, :, 1, 1), self%row(:, :, 2, 1))
+      call get_line_plans(self%columns, self%column(:, :, 1, 1), self%column(:, :, 2, 1))
    end subroutine prepare_plan
 
    !> Allocate buffers for a number of threads; their padding remains zero
@@ -97,7 +97,7 @@ contains
    end subroutine fit_buffers
 
    !> Plans for lines, from one buffer to another of the same shape
-   subroutine take_lines(plans, from, to)
+   subroutine get_line_plans(plans, from, to)
       type(plan_set), intent(inout) :: plans
       complex(wp), contiguous, intent(inout) :: from(:, :), to(:, :)
       integer :: n, many
@@ -113,7 +113,7 @@ contains
          call plans%keep(plan_kind%lines, many, n, 1)
       end if
       !$omp end critical (contact_fft_planner)
-   end subroutine take_lines
+   end subroutine get_line_plans
 
    subroutine transform_forward(self, field, spectrum)
       class(fft_plan), intent(inout) :: self
@@ -414,7 +414,7 @@ contains
             call execute_complex(self%rows%plan(line_forward), row, self%row(:, :, 2, t))
             do l = 1, size(row, 2)
                jy = iy + 2*(l - 1)
-               if (jy <= rows) call take_apart(self%px, self%row(:, l, 2, t), rows, jy, half)
+               if (jy <= rows) call separate_rows(self%px, self%row(:, l, 2, t), rows, jy, half)
             end do
          end do
       end associate

@@ -57,11 +57,11 @@ contains
       if (allocated(error)) return
       if (limits%confined) below = folder
       call self%origin%start(self%container, input, folder, below)
-      call tell_start(self, run, error)
+      call write_start(self, run, error)
    end subroutine open_file
 
    !> Begin the run
-   subroutine tell_start(file, run, error)
+   subroutine write_start(file, run, error)
       class(hdf5_file), intent(inout) :: file
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
@@ -72,7 +72,7 @@ contains
       call file%close_attributes()
       call file%renew()
       if (file%container%failed) call file%finish_file(error)
-   end subroutine tell_start
+   end subroutine write_start
 
    subroutine abandon(self)
       class(hdf5_case_file), intent(inout) :: self
@@ -92,17 +92,17 @@ contains
       !> Limits, with whether files must be below the folder
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: told_at_the_end(3) = [character(len=13) :: "solved", "not_converged", "refused"]
+      character(len=*), parameter :: final_counts(3) = [character(len=13) :: "solved", "not_converged", "refused"]
       character(len=:), allocatable :: below
       integer :: k
 
       call self%cut(cases, patches, name_of)
-      do k = 1, size(told_at_the_end)
-         call self%container%drop_attribute(trim(told_at_the_end(k)))
+      do k = 1, size(final_counts)
+         call self%container%drop_attribute(trim(final_counts(k)))
       end do
       if (limits%confined) below = folder
       call self%origin%start_again(self%container, input, folder, below)
-      call tell_start(self, run, error)
+      call write_start(self, run, error)
    end subroutine go_on
 
    subroutine close_file(self, run, error)

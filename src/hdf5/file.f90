@@ -94,7 +94,7 @@ module contact_hdf5_file
       procedure :: renew
       !> Size of the unfinished file [bytes]
       procedure :: bytes_so_far
-      procedure :: take
+      procedure :: write_item
    end type hdf5_file
 
 contains
@@ -376,12 +376,12 @@ contains
       end associate
    end subroutine close_group
 
-   subroutine take(self, item)
+   subroutine write_item(self, item)
       class(hdf5_file), intent(inout) :: self
       type(named_value), intent(in) :: item
 
       call self%values%add(item)
-   end subroutine take
+   end subroutine write_item
 
    !> Write the coordinates along a dimension of the next arrays, as a dataset of the open group
    subroutine scale(self, dimension, name, unit, title, values)

@@ -11,7 +11,7 @@ module contact_hdf5_scales
    implicit none (type, external)
    private
 
-   public :: attach_scales, make_scale, tell_flags
+   public :: attach_scales, make_scale, describe_flags
 
    !> Variable-length data as defined by HDF5
    type, bind(c) :: item_list
@@ -80,7 +80,7 @@ contains
    end subroutine attach_scales
 
    !> Describe the integers of an array: meanings of 0, 1, ... in this order
-   subroutine tell_flags(container, data, meanings)
+   subroutine describe_flags(container, data, meanings)
       !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open dataset of small integers
@@ -101,5 +101,5 @@ contains
       call container%release(attribute)
       call container%release(space)
       call container%set_text(data, "flag_meanings", meanings)
-   end subroutine tell_flags
+   end subroutine describe_flags
 end module contact_hdf5_scales

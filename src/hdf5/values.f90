@@ -4,7 +4,7 @@ module contact_hdf5_values
       & h5t_std_i32le, h5t_std_i8le, hid_t, hsize_t
    use contact_base_kinds, only : long, wp
    use contact_hdf5_container, only : hdf5_container, large, max_chunk, max_text_length
-   use contact_hdf5_scales, only : attach_scales, make_scale, tell_flags
+   use contact_hdf5_scales, only : attach_scales, describe_flags, make_scale
    use contact_output_record, only : item_kind, named_value
    implicit none (type, external)
    private
@@ -226,7 +226,7 @@ contains
       call container%check(status)
       if (kind == h5t_std_i8le) then
          call container%describe(data, "-", title)
-         call tell_flags(container, data, flag_meanings)
+         call describe_flags(container, data, flag_meanings)
       else
          call container%describe(data, unit, title)
       end if

@@ -7,7 +7,7 @@ module contact_input_control
    use contact_control_digits, only : allowed_text, case_digits, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
    use contact_control_rule_text, only : describe_broken_rule, letter_of
-   use contact_control_translation, only : digits_of, take_digits
+   use contact_control_translation, only : apply_digits, digits_of
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
@@ -66,7 +66,7 @@ contains
          call lexer%read_group("iI", "PSFLCIN READLN", values, error)
          if (allocated(error)) return
       end if
-      call take_digits(words%digits, module_number, spec)
+      call apply_digits(words%digits, module_number, spec)
    end subroutine read_control_words
 
    !> Check the range of each digit, and the requirements of digits on each other and on the previous case
@@ -91,7 +91,7 @@ contains
       end if
       if (.not. has_previous) call start_sequence(words, problems)
       ! repeated with the digits that may have been corrected
-      if (module_number == 1 .or. .not. has_previous) call take_digits(words%digits, module_number, spec)
+      if (module_number == 1 .or. .not. has_previous) call apply_digits(words%digits, module_number, spec)
       if (has_previous) then
          call check_kept(words, previous, spec, problems)
          if (module_number == 1) call check_kept_wheelset(words, previous, problems)

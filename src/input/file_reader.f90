@@ -35,14 +35,14 @@ module contact_input_file_reader
    contains
       procedure :: end_line => read_line
       procedure :: list => read_list
-      procedure :: tell => tell_of_value
+      procedure :: report => report_value
       procedure :: fail => stop_reading
       procedure :: check => check_value
       procedure :: shown => show_value
       procedure :: place => place_value
       procedure :: open_group => open_group_of_file
       procedure :: close_group => close_group_of_file
-      procedure :: tell_of_group => tell_of_group_of_file
+      procedure :: report_group => report_of_group
       procedure :: add_context => add_context_of_file
       procedure :: line_of
    end type file_reader
@@ -84,7 +84,7 @@ contains
          if (self%is_good) then
             if (self%group > 0) call note_place(self%groups(self%group), self%values(1))
             do k = 1, n
-               call take_value(self, self%items(k), self%values(k))
+               call set_value(self, self%items(k), self%values(k))
             end do
          end if
       end if
@@ -131,7 +131,7 @@ contains
    end function line_of
 
    !> Add a problem at the beginning of the current group; outside of groups at the last line
-   subroutine tell_of_group_of_file(self, is_error, text)
+   subroutine report_of_group(self, is_error, text)
       class(file_reader), intent(inout) :: self
       logical, intent(in) :: is_error
       character(len=*), intent(in) :: text
@@ -143,7 +143,7 @@ contains
             call self%problems%add(kind, text, self%lexer%line)
          end if
       end associate
-   end subroutine tell_of_group_of_file
+   end subroutine report_of_group
 
    !> Add the position at which reading stopped, if it did
    subroutine add_context_of_file(self, text)
@@ -167,7 +167,7 @@ contains
    end function letter_of
 
    !> Set the variable of an item
-   subroutine take_value(self, item, value)
+   subroutine set_value(self, item, value)
       class(file_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
       type(input_value), intent(in) :: value
@@ -190,7 +190,7 @@ contains
       case (item_kind%branch); item%i = int(sign(min(1000.0_wp, anint(abs(value%r) + 0.49_wp)), value%r))
       case default; item%r = value%r
       end select
-   end subroutine take_value
+   end subroutine set_value
 
    !> Read exactly n numbers and report the first that is out of bounds
    subroutine read_list(self, name, values, n, units, bounds)
@@ -216,7 +216,7 @@ contains
    end subroutine read_list
 
    !> Report that a value cannot be used, is doubtful or was replaced: "name = word" and the reason, at its position
-   subroutine tell_of_value(self, is_error, name, text)
+   subroutine report_value(self, is_error, name, text)
       class(file_reader), intent(inout) :: self
       logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
@@ -227,7 +227,7 @@ contains
       column = 0
       call self%place(name, line, column)
       call self%problems%add(merge(severity%error, severity%warning, is_error), trim(self%shown(name)) // text, line, column)
-   end subroutine tell_of_value
+   end subroutine report_value
 
    !> Stop reading because of a value, or of data read before if there is no name
    subroutine stop_reading(self, name, text)

@@ -5,7 +5,7 @@ module contact_input_reader
    use contact_cases_spec, only : case_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits
-   use contact_control_digit_terms, only : tell_error_in_digits, tell_in_digits
+   use contact_control_digit_terms, only : translate_error_to_digits, translate_to_digits
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_control, only : check_digits, control_words, read_control_words, refuse_unbuilt_digits
@@ -72,10 +72,10 @@ contains
          call refuse_unbuilt_digits(words, module_number, spec, problems)
       end if
       do k = 1, problems%count
-         call tell_in_digits(problems%items(k)%what%message, text)
+         call translate_to_digits(problems%items(k)%what%message, text)
          problems%items(k)%what%message = text
       end do
-      call tell_error_in_digits(error)
+      call translate_error_to_digits(error)
       call add_context(error, "case " // integer_text(case_number))
    end subroutine read_case
 end module contact_input_reader

@@ -9,8 +9,8 @@ module contact_input_toml_case
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
-   use contact_control_translation, only : digits_of, take_digits
-   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, &
+   use contact_control_translation, only : apply_digits, digits_of
+   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, translate_to_words, &
       & words_of
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
    use contact_grid_potential_contact, only : potential_contact
@@ -80,15 +80,15 @@ contains
       if (present(is_repeat)) a%is_repeat = is_repeat
       words%has_keys = .true.
       if (has_previous) words%digits = digits_of(previous)
-      call take_choices(a, module_number, has_previous, words, is_good)
-      call take_groups(a, module_number, previous, has_previous, words)
+      call read_choices(a, module_number, has_previous, words, is_good)
+      call set_group_digits(a, module_number, previous, has_previous, words)
       words%digits%r = words%digits%r + merge(1, 0, ends_module)
-      call take_digits(words%digits, module_number, spec)
+      call apply_digits(words%digits, module_number, spec)
       digits = words%digits
       if (is_good) then
          call check_digits(words, module_number, previous, has_previous, spec, problems)
          digits = words%digits
-         call take_wear(a, spec)
+         call read_wear(a, spec)
          call visit_own_case(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
@@ -100,13 +100,13 @@ contains
          call refuse_unbuilt_digits(words, module_number, spec, problems)
       end if
       do k = 1, problems%count
-         call tell_in_words(problems%items(k)%what%message, module_number, text)
+         call translate_to_words(problems%items(k)%what%message, module_number, text)
          problems%items(k)%what%message = text
       end do
    end subroutine read_toml_case
 
    !> Choices that have a word, and numbers that select choices
-   subroutine take_choices(a, module_number, has_previous, words, is_good)
+   subroutine read_choices(a, module_number, has_previous, words, is_good)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number
       logical, intent(in) :: has_previous
@@ -147,7 +147,7 @@ contains
             end if
             a%used(node) = .true.
             call note_place(a, words, k, node)
-            call take_word(a, name, module_number, node, digit, is_known)
+            call read_word(a, name, module_number, node, digit, is_known)
             if (is_known) then
                call put_digit(words%digits, name, digit)
             else
@@ -159,7 +159,7 @@ contains
          call a%add_problem(severity%error, a%case_node, "the first case must say: " // missing(3:))
          is_good = .false.
       end if
-   end subroutine take_choices
+   end subroutine read_choices
 
    !> Index of a digit in digit_names
    subroutine note_place(a, words, k, node)
@@ -172,7 +172,7 @@ contains
    end subroutine note_place
 
    !> The digit for a word, or for a number that is given instead
-   subroutine take_word(a, name, module_number, index, digit, is_known)
+   subroutine read_word(a, name, module_number, index, digit, is_known)
       type(toml_reader), intent(inout) :: a
       !> Letter of the digit
       character(len=*), intent(in) :: name
@@ -212,10 +212,10 @@ contains
          call words_of(accepted, list)
          call a%add_problem(severity%error, index, message // " Known are " // list)
       end associate
-   end subroutine take_word
+   end subroutine read_word
 
    !> Digits that specify which groups a case gives, keeps and renews, and those that are no choices
-   subroutine take_groups(a, module_number, previous, has_previous, words)
+   subroutine set_group_digits(a, module_number, previous, has_previous, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number
       type(case_spec), intent(in) :: previous
@@ -224,8 +224,8 @@ contains
       type(control_words), intent(inout) :: words
       logical :: renew(size(renewable)), has_renew, rolls, rolled
 
-      call take_renew(a, renew, has_renew)
-      call take_plain_keys(a, module_number, words)
+      call read_renew(a, renew, has_renew)
+      call read_plain_keys(a, module_number, words)
       associate (digits => words%digits)
          if (has_previous) then
             if (a%has_group("iteration")) digits%g = or_kept(digits%g, "G", previous%solver)
@@ -257,9 +257,9 @@ contains
          end if
       end associate
       if (module_number == 1) then
-         call take_wheel_rail_groups(a, previous, has_previous, words)
+         call set_wheel_rail_digits(a, previous, has_previous, words)
       else
-         call take_contact_groups(a, previous, has_previous, renew, has_renew, words)
+         call set_contact_digits(a, previous, has_previous, renew, has_renew, words)
       end if
 
    contains
@@ -284,10 +284,10 @@ contains
          or_kept = digit
          if (digit == 1 .or. (name == "C" .and. digit < 2)) or_kept = max(0, digit_of(name, choice, module_number))
       end function or_kept
-   end subroutine take_groups
+   end subroutine set_group_digits
 
    !> Groups of contact problems of module 3
-   subroutine take_contact_groups(a, previous, has_previous, renew, has_renew, words)
+   subroutine set_contact_digits(a, previous, has_previous, renew, has_renew, words)
       type(toml_reader), intent(in) :: a
       type(case_spec), intent(in) :: previous
       logical, intent(in) :: has_previous
@@ -330,10 +330,10 @@ contains
          if (form > 0) call form_value("IPOTCN", a%document%text_of(form), grid%form, is_form)
          brings_geometry = grid%brings_geometry()
       end function brings_geometry
-   end subroutine take_contact_groups
+   end subroutine set_contact_digits
 
    !> Groups of wheel and rail: each digit represents several
-   subroutine take_wheel_rail_groups(a, previous, has_previous, words)
+   subroutine set_wheel_rail_digits(a, previous, has_previous, words)
       type(toml_reader), intent(in) :: a
       type(case_spec), intent(in) :: previous
       logical, intent(in) :: has_previous
@@ -358,10 +358,10 @@ contains
          if (a%has_group("wheel_dimensions") .or. a%has_group("wheel_profile") .or. .not. has_previous) &
             & digits%e = merge(5, 3, has_flexibility)
       end associate
-   end subroutine take_wheel_rail_groups
+   end subroutine set_wheel_rail_digits
 
    !> The groups named by `renew`
-   subroutine take_renew(a, renew, has_renew)
+   subroutine read_renew(a, renew, has_renew)
       type(toml_reader), intent(inout) :: a
       logical, intent(out) :: renew(size(renewable)), has_renew
       integer :: k, node, place
@@ -386,10 +386,10 @@ contains
          end if
          k = a%document%nodes(k)%next
       end do
-   end subroutine take_renew
+   end subroutine read_renew
 
    !> Wear and fatigue are requested by a table of their numbers, until a case ends them
-   subroutine take_wear(a, spec)
+   subroutine read_wear(a, spec)
       type(toml_reader), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
       integer :: node, table
@@ -409,10 +409,10 @@ contains
          ! nothing else reads the table of a case that ends them
          a%used(table) = .true.
       end if
-   end subroutine take_wear
+   end subroutine read_wear
 
    !> solve, gap_weight, and the names of the case for users
-   subroutine take_plain_keys(a, module_number, words)
+   subroutine read_plain_keys(a, module_number, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number
       type(control_words), intent(inout) :: words
@@ -440,5 +440,5 @@ contains
             end select
          end associate
       end do
-   end subroutine take_plain_keys
+   end subroutine read_plain_keys
 end module contact_input_toml_case

@@ -164,13 +164,13 @@ contains
       else if (address%module_number == 0) then
          call refuse(node, 'the first case must have the key module: "contact", for two bodies, or "wheel_rail"')
       end if
-      call take_integer("result_element", 0_long, highest_element, address%reid)
-      call take_integer("contact_patch", 1_long, highest_patch, address%cpid)
+      call read_integer("result_element", 0_long, highest_element, address%reid)
+      call read_integer("contact_patch", 1_long, highest_patch, address%cpid)
 
    contains
 
       !> An integer within its range
-      subroutine take_integer(key, lowest, highest, value)
+      subroutine read_integer(key, lowest, highest, value)
          character(len=*), intent(in) :: key
          integer(long), intent(in) :: lowest, highest
          integer, intent(inout) :: value
@@ -186,7 +186,7 @@ contains
                   & integer_text(int(highest)))
             end if
          end associate
-      end subroutine take_integer
+      end subroutine read_integer
 
       !> Problem of an invalid value
       subroutine refuse(place, message)

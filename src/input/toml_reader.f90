@@ -8,8 +8,9 @@ module contact_input_toml_reader
    use contact_cases_archive, only : archive_item, item_kind, own_word, shown_length
    use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, key_of_item, words_of
    use contact_input_problems, only : problem_list, severity
-   use contact_input_toml_tables, only : find, is_tables, leaves_of, number_of, sets_of, told, toml_memory, toml_tables
-   use contact_input_toml_values, only : check_item, count_values, fill_list, take_number
+   use contact_input_toml_tables, only : find, is_tables, key_with_value, leaves_of, number_of, sets_of, toml_memory, &
+      & toml_tables
+   use contact_input_toml_values, only : check_item, count_values, fill_list, set_number
    use contact_text_bounds, only : bounds_of, bounds_table
    use contact_text_nearest, only : nearest_word
    use contact_text_words, only : exact_text, integer_text, small
@@ -32,14 +33,14 @@ module contact_input_toml_reader
       procedure :: list => read_list
       procedure :: own_choice => read_choice
       procedure :: own_number => read_own_number
-      procedure :: tell => tell_of_value
+      procedure :: report => report_value
       procedure :: fail => stop_reading
       procedure :: check => check_value
       procedure :: shown => show_value
       procedure :: place => place_value
       procedure :: open_group => open_table
       procedure :: close_group => close_table
-      procedure :: tell_of_group => tell_of_table
+      procedure :: report_group => report_table
    end type toml_reader
 
 contains
@@ -122,7 +123,7 @@ contains
       if (self%is_good) then
          call enter_part(self)
          do k = 1, self%count
-            call take_item(self, k)
+            call set_item(self, k)
          end do
       end if
       call self%finish_line()
@@ -174,7 +175,7 @@ contains
    end subroutine enter_number
 
    !> Set the value of the variable of an item
-   subroutine take_item(self, k)
+   subroutine set_item(self, k)
       class(toml_reader), intent(inout) :: self
       integer, intent(in) :: k
       character(len=:), allocatable :: key, complaint
@@ -195,27 +196,27 @@ contains
                item%i = number
                return
             end if
-            call take_missing(self, item, key)
+            call set_missing(self, item, key)
             return
          end if
          self%nodes(k) = node
          if (form_key(item%name) /= "") then
-            call take_form(self, item, key, node)
+            call set_form(self, item, key, node)
             return
          end if
-         call take_number(self, item, node, complaint)
+         call set_number(self, item, node, complaint)
          if (allocated(complaint)) then
             self%line_is_bad = .true.
-            call self%add_problem(severity%error, node, told(self, key, node) // " " // complaint)
+            call self%add_problem(severity%error, node, key_with_value(self, key, node) // " " // complaint)
             return
          end if
          if (item%kind == item_kind%text .or. item%is_unchecked) return
          call check_item(self, item, key, node)
       end associate
-   end subroutine take_item
+   end subroutine set_item
 
    !> A value that was never given has its default or its preset value, or is missing
-   subroutine take_missing(self, item, key)
+   subroutine set_missing(self, item, key)
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
       character(len=*), intent(in) :: key
@@ -241,10 +242,10 @@ contains
       message = message // "; it belongs under " // trim(opening) // "case." // trim(self%group)
       if (self%part_node > 0 .and. self%group == "friction") message = message // ".set"
       call self%add_problem(severity%error, 0, message // trim(closing))
-   end subroutine take_missing
+   end subroutine set_missing
 
    !> A word that selects a number
-   subroutine take_form(self, item, key, node)
+   subroutine set_form(self, item, key, node)
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
       character(len=*), intent(in) :: key
@@ -263,12 +264,12 @@ contains
       place = 0
       if (self%document%nodes(node)%kind == toml_kind%string) place = nearest_word(self%document%text_of(node), list)
       call words_of(list, words)
-      complaint = told(self, key, node) // " is not known"
+      complaint = key_with_value(self, key, node) // " is not known"
       if (place > 0) complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
       call self%add_problem(severity%error, node, complaint // " Known are " // words)
       ! the meaning of the following keys depends on it
       self%is_good = .false.
-   end subroutine take_form
+   end subroutine set_form
 
    !> A choice that exists in this format only
    subroutine read_choice(self, name, title, words, chosen, usual, none)
@@ -376,8 +377,8 @@ contains
       row = bounds_of(name)
       if (present(bounds)) row = bounds_of(bounds)
       if (self%document%nodes(array)%kind /= toml_kind%array) then
-         call self%add_problem(severity%error, array, told(self, key, array) // " must be an array of " // integer_text(n) // &
-            & " numbers")
+         call self%add_problem(severity%error, array, key_with_value(self, key, array) // " must be an array of " // &
+            & integer_text(n) // " numbers")
          self%is_good = .false.
       else if (leaves_of(self%document, array) /= n) then
          call self%add_problem(severity%error, array, key // " has " // integer_text(leaves_of(self%document, array)) // &
@@ -390,14 +391,14 @@ contains
    end subroutine read_list
 
    !> A value is invalid, is doubtful or was replaced
-   subroutine tell_of_value(self, is_error, name, text)
+   subroutine report_value(self, is_error, name, text)
       class(toml_reader), intent(inout) :: self
       logical, intent(in) :: is_error
       character(len=*), intent(in) :: name, text
 
       if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(merge(severity%error, severity%warning, is_error), &
          & node_of(self, name), trim(self%shown(name)) // text)
-   end subroutine tell_of_value
+   end subroutine report_value
 
    !> The rest of the case cannot be read
    subroutine stop_reading(self, name, text)
@@ -409,13 +410,13 @@ contains
    end subroutine stop_reading
 
    !> The numbers of the current group are inconsistent or doubtful
-   subroutine tell_of_table(self, is_error, text)
+   subroutine report_table(self, is_error, text)
       class(toml_reader), intent(inout) :: self
       logical, intent(in) :: is_error
       character(len=*), intent(in) :: text
 
       call self%add_problem(merge(severity%error, severity%warning, is_error), 0, text)
-   end subroutine tell_of_table
+   end subroutine report_table
 
    !> Check the bounds of a value that was replaced, or that has one of two names
    subroutine check_value(self, name, bounds)
@@ -452,7 +453,7 @@ contains
       k = self%place_of(name)
       if (k == 0) return
       text = key_of_item(self%items, k)
-      if (self%nodes(k) > 0) text = told(self, trim(text), self%nodes(k))
+      if (self%nodes(k) > 0) text = key_with_value(self, trim(text), self%nodes(k))
    end function show_value
 
    !> Line and column of a value

@@ -12,7 +12,7 @@ module contact_input_toml_tables
    implicit none (type, external)
    private
 
-   public :: find, is_tables, leaves_of, list_of, number_of, sets_of, told, toml_memory, toml_tables
+   public :: find, is_tables, leaves_of, list_of, number_of, sets_of, key_with_value, toml_memory, toml_tables
 
    !> Maximum number of keys that cases read and store
    integer, parameter :: max_keys = 400
@@ -251,7 +251,7 @@ contains
    end subroutine add_problem
 
    !> Maximum length of a value in messages
-   pure integer function len_told(self, index) result(length)
+   pure integer function len_key_with_value(self, index) result(length)
       class(toml_tables), intent(in) :: self
       integer, intent(in) :: index
 
@@ -262,16 +262,16 @@ contains
          case default; length = len(printable(self%document%text_of(index)))
          end select
       end associate
-   end function len_told
+   end function len_key_with_value
 
    !> "key = value" as in the input
-   pure function told(self, key, index) result(text)
+   pure function key_with_value(self, key, index) result(text)
       class(toml_tables), intent(in) :: self
       !> Key as in the file
       character(len=*), intent(in) :: key
       !> Node of the value
       integer, intent(in) :: index
-      character(len=len(key) + 3 + len_told(self, index)) :: text
+      character(len=len(key) + 3 + len_key_with_value(self, index)) :: text
 
       associate (node => self%document%nodes(index))
          select case (node%kind)
@@ -280,7 +280,7 @@ contains
          case default; text = key // " = " // printable(self%document%text_of(index))
          end select
       end associate
-   end function told
+   end function key_with_value
 
    !> Line on which a group begins, 0 if the case does not give it
    pure integer function line_of(self, name) result(line)

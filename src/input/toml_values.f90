@@ -11,7 +11,7 @@ module contact_input_toml_values
    implicit none (type, external)
    private
 
-   public :: check_item, count_values, fill_list, take_number
+   public :: check_item, count_values, fill_list, set_number
 
 contains
 
@@ -90,7 +90,7 @@ contains
    end subroutine count_values
 
    !> Set an item from a value of the required kind
-   subroutine take_number(self, item, index, complaint)
+   subroutine set_number(self, item, index, complaint)
       class(toml_tables), intent(in) :: self
       !> Item whose value is set
       type(archive_item), intent(inout) :: item
@@ -135,7 +135,7 @@ contains
             item%r = value
          end if
       end associate
-   end subroutine take_number
+   end subroutine set_number
 
    !> Position of the first control character, 0: none
    pure integer function index_of_control(text) result(k)

@@ -101,7 +101,7 @@ contains
          ! the signs decide: tensile pressures, and surfaces that overlap outside the set
          leaves = now%active .and. now%p < 0.0_wp
          enters = .not. now%active .and. problem%h < excluded_threshold .and. now%r > 0.0_wp
-         call judge(problem, operator, now, pen, worst, scale)
+         call measure_violation(problem, operator, now, pen, worst, scale)
          report%residual = worst/scale
          if (worst <= problem%eps*scale) then
             report%ended = ending%converged
@@ -200,7 +200,7 @@ contains
    end subroutine restrict
 
    !> Violation of the contact conditions by the pressures without tension
-   subroutine judge(problem, operator, now, pen, worst, scale)
+   subroutine measure_violation(problem, operator, now, pen, worst, scale)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(fields), intent(inout) :: now
@@ -215,7 +215,7 @@ contains
       now%r = pen - problem%h - now%u
       worst = maxval(merge(abs(now%r), max(0.0_wp, now%r), now%p > 0.0_wp))
       scale = approach_scale(pen, minval(problem%h), worst)
-   end subroutine judge
+   end subroutine measure_violation
 
    !> Keep only the last of all elements to be changed
    subroutine last_one_only(leaves, enters)

@@ -240,7 +240,7 @@ contains
             report%ended = ending%stagnated
             exit
          end if
-         call take_step(problem, operator, level, dr/dq, p, exact_u)
+         call step_along(problem, operator, level, dr/dq, p, exact_u)
          updates = merge(0, updates + 1, exact_u)
       end do
    end subroutine iterate
@@ -267,17 +267,17 @@ contains
       n = problem%mx*problem%my
       call choose_free(n, p, problem%h, excluded_threshold, level%free, level%r)
       call operator%normal_inverse(level%r, level%z)
-      call settle(level%z)
+      call project_direction(level%z)
       if (.not. products(1) > 0.0_wp) then
          level%z = level%r
-         call settle(level%z)
+         call project_direction(level%z)
       end if
       rz = products(1)
       if (.not. rz > 0.0_wp) return
       beta = 0.0_wp
       if (.not. first) beta = max(0.0_wp, (rz - products(2))/rz_old)
       call turn_direction(n, beta, level%z, level%r, level%d, level%previous)
-      call settle(level%d)
+      call project_direction(level%d)
       dr = products(1)
       if (.not. dr > 0.0_wp) then
          level%d = level%z
@@ -289,18 +289,18 @@ contains
    contains
 
       !> Project to the free elements, and for a prescribed force to zero sum; products with this and the previous residual
-      subroutine settle(v)
+      subroutine project_direction(v)
          real(wp), contiguous, intent(inout) :: v(:, :)
          real(wp) :: mean
 
          mean = 0.0_wp
          if (problem%force_prescribed) mean = mean_of_free(n, level%free, v)
          call project(n, level%free, mean, v, level%r, level%previous, products)
-      end subroutine settle
+      end subroutine project_direction
    end subroutine set_direction
 
    !> Step along the direction; negative pressures are set to zero, and the force is preserved
-   subroutine take_step(problem, operator, level, alpha, p, exact_u)
+   subroutine step_along(problem, operator, level, alpha, p, exact_u)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(level_type), intent(inout) :: level
@@ -330,7 +330,7 @@ contains
       else
          call add_long(n, alpha, level%q, level%u)
       end if
-   end subroutine take_step
+   end subroutine step_along
 
    !> Quality of an estimate: violation of the contact conditions relative to the approach
    real(wp) function estimate_quality(problem, u, p, pen) result(quality)

@@ -7,18 +7,18 @@ module contact_output_case_words
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_of, digit_text
    use contact_control_translation, only : digits_of
-   use contact_control_words, only : form_title, tell_in_words
+   use contact_control_words, only : form_title, translate_to_words
    use contact_text_buffer, only : text_buffer
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
-   public :: tell_case
+   public :: describe_case
 
 contains
 
    !> Describe one case
-   subroutine tell_case(module_number, reid, number, first_line, spec, is_usable, told)
+   subroutine describe_case(module_number, reid, number, first_line, spec, is_usable, description)
       !> 1 or 3
       integer, intent(in) :: module_number
       !> Result element, 0 for the default one; index in the file, from 1; line on which the case begins
@@ -27,7 +27,7 @@ contains
       !> Can it be computed? If not, there is no estimate of the cost
       logical, intent(in) :: is_usable
       !> Receives the description, line by line
-      type(text_buffer), intent(inout) :: told
+      type(text_buffer), intent(inout) :: description
       character(len=:), allocatable :: title
       type(case_cost) :: cost
       type(approximate_method) :: chosen
@@ -39,7 +39,7 @@ contains
          title = digit_text("C1", digits%c1, module_number)
       end if
       if (reid > 0) title = trim(title) // ", result element " // integer_text(reid)
-      call told%add_line("Case " // integer_text(number) // ", line " // integer_text(first_line) // ": " // trim(title))
+      call description%add_line("Case " // integer_text(number) // ", line " // integer_text(first_line) // ": " // trim(title))
       if (.not. spec%solve) then
          call say("Only its input is stored; nothing is computed.")
          return
@@ -76,7 +76,7 @@ contains
       if (spec%has_heat) call say("Surface temperatures: flash heating" // &
          & trim(merge(", moving sources               ", ", as in the established program", &
          & spec%heat%source == heat_source%moving)))
-      if (spec%has_wear) call say("Wear and fatigue are told.")
+      if (spec%has_wear) call say("Wear and fatigue are computed.")
       if (spec%has_damping) call say("Damping: proportional to the rates of the forces")
       if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call say("Stresses below the surface: " // &
          & integer_text(size(spec%subsurface%blocks)) // " blocks of points")
@@ -93,8 +93,8 @@ contains
          character(len=*), intent(in) :: line
          character(len=:), allocatable :: text
 
-         call tell_in_words(line, module_number, text)
-         call told%add_line("  " // trim(text))
+         call translate_to_words(line, module_number, text)
+         call description%add_line("  " // trim(text))
       end subroutine say
 
       !> Description of a choice, padded with blanks
@@ -116,7 +116,7 @@ contains
          text = ""
          if (has_meaning) text = " " // digit(name, choice)
       end function digit_if
-   end subroutine tell_case
+   end subroutine describe_case
 
    !> Effects that a case neglects, padded with blanks
    pure function absent(spec) result(text)

@@ -39,8 +39,8 @@ module contact_output_input_record
       integer :: n_keys = 0
       type(key_values), allocatable :: keys(:)
    contains
-      procedure :: end_line => take_line
-      procedure :: list => take_list
+      procedure :: end_line => collect_line
+      procedure :: list => collect_list
       procedure :: own_choice => record_choice
       procedure :: own_number => record_number
       procedure :: open_group => begin_group
@@ -173,7 +173,7 @@ contains
    end subroutine end_group
 
    !> Collect the current items; values that are repeated, for the next set or the second body, form a list
-   subroutine take_line(self)
+   subroutine collect_line(self)
       class(input_archive), intent(inout) :: self
       character(len=key_length) :: key
       integer :: k
@@ -191,7 +191,7 @@ contains
          call self%add(key, self%items(k))
       end do
       call self%finish_line()
-   end subroutine take_line
+   end subroutine collect_line
 
    !> Append the value of an item to those of its key
    subroutine add(self, key, item)
@@ -258,7 +258,7 @@ contains
    end subroutine append
 
    !> A list, under its own name
-   subroutine take_list(self, name, values, n, units, bounds)
+   subroutine collect_list(self, name, values, n, units, bounds)
       class(input_archive), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(wp), allocatable, intent(inout) :: values(:)
@@ -278,5 +278,5 @@ contains
       self%keys(at)%is_list = .true.
       if (n > 0) call append(self%keys(at), values(:n))
       if (n == 0) call append(self%keys(at), [real(wp) ::])
-   end subroutine take_list
+   end subroutine collect_list
 end module contact_output_input_record

@@ -48,7 +48,7 @@ module contact_output_json_file
       procedure :: write_wheel_rail => write_wheel_rail_line
       procedure :: open_group => open_object
       procedure :: close_group => close_object
-      procedure :: take => write_value
+      procedure :: write_item => write_value
       procedure, private :: begin_line
       procedure, private :: key
       procedure, private :: add

@@ -42,7 +42,7 @@ module contact_output_record
       !> End the group
       procedure(close_interface), deferred :: close_group
       !> Receive a value
-      procedure(take_interface), deferred :: take
+      procedure(item_interface), deferred :: write_item
       !> Receive a real number, several real numbers, an integer, a text, a flag
       procedure :: number
       procedure :: numbers
@@ -68,12 +68,12 @@ module contact_output_record
          class(record_writer), intent(inout) :: self
       end subroutine close_interface
 
-      subroutine take_interface(self, item)
+      subroutine item_interface(self, item)
          import :: named_value, record_writer
          class(record_writer), intent(inout) :: self
          !> A value of the current group, or of the case itself
          type(named_value), intent(in) :: item
-      end subroutine take_interface
+      end subroutine item_interface
    end interface
 
 contains
@@ -86,7 +86,7 @@ contains
       !> Value in that unit
       real(wp), intent(in) :: value
 
-      call self%take(named_value(name, unit, title, item_kind%real_number, value))
+      call self%write_item(named_value(name, unit, title, item_kind%real_number, value))
    end subroutine number
 
    !> Receive several real numbers
@@ -101,7 +101,7 @@ contains
       item = named_value(name, unit, title, item_kind%real_numbers)
       ! gfortran 12 ignores strides in a constructor
       item%values = values
-      call self%take(item)
+      call self%write_item(item)
    end subroutine numbers
 
    !> Receive an integer
@@ -112,7 +112,7 @@ contains
       !> Value to be written
       integer, intent(in) :: value
 
-      call self%take(named_value(name, "", title, item_kind%whole, real(value, wp)))
+      call self%write_item(named_value(name, "", title, item_kind%whole, real(value, wp)))
    end subroutine whole_number
 
    !> Receive a text
@@ -121,7 +121,7 @@ contains
       !> See named_value; and the text itself
       character(len=*), intent(in) :: name, title, value
 
-      call self%take(named_value(name, "", title, item_kind%text, text=value))
+      call self%write_item(named_value(name, "", title, item_kind%text, text=value))
    end subroutine text
 
    !> Receive a flag
@@ -132,6 +132,6 @@ contains
       !> Value to be written
       logical, intent(in) :: value
 
-      call self%take(named_value(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value)))
+      call self%write_item(named_value(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value)))
    end subroutine flag
 end module contact_output_record

@@ -8,7 +8,7 @@ module contact_output_toml_writer
    use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths, own_word
    use contact_control_digits, only : case_digits, digit_text, digit_value
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
-      & tell_in_words, word_of_digit
+      & translate_to_words, word_of_digit
    use contact_text_bounds, only : bounds_table
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
@@ -349,7 +349,7 @@ contains
       character(len=:), allocatable :: text
 
       if (remark == "") return
-      call tell_in_words(remark, self%module_number, text)
+      call translate_to_words(remark, self%module_number, text)
       if (len(line) < remark_column) line = line // repeat(" ", remark_column - len(line))
       line = line // "  # " // text
    end subroutine add_remark

@@ -10,7 +10,7 @@ module contact_output_vtk_bodies
    implicit none (type, external)
    private
 
-   public :: body_points, body_profile, take_section
+   public :: body_points, body_profile, get_section
 
    !> Profile of a body, and its surface if it varies
    type :: body_profile
@@ -61,13 +61,13 @@ contains
             place = 2.0_wp*(k - 1)/(n - 1) - 1.0_wp
             if (is_wheel) then
                place = pi*place
-               call take_section(profile%profile, profile%surface, place - w%wheelset%pitch, section)
+               call get_section(profile%profile, profile%surface, place - w%wheelset%pitch, section)
             else if (w%roller) then
                place = roller_angle*place
-               call take_section(profile%profile, profile%surface, w%wheelset%s, section)
+               call get_section(profile%profile, profile%surface, w%wheelset%s, section)
             else
                place = pair%wheel_x + rail_length*place
-               call take_section(profile%profile, profile%surface, w%wheelset%s + place, section)
+               call get_section(profile%profile, profile%surface, w%wheelset%s + place, section)
             end if
             if (.not. allocated(section)) then
                deallocate(points)
@@ -112,7 +112,7 @@ contains
    end subroutine body_points
 
    !> Profile of a body; for a variable profile the section at a position
-   subroutine take_section(profile, surface, position, curve)
+   subroutine get_section(profile, surface, position, curve)
       !> Profile of a body that does not vary
       type(profile_curve), intent(in) :: profile
       !> Surface of a body that varies
@@ -129,5 +129,5 @@ contains
       end if
       call surface%continued(position, there)
       if (there%present) allocate(curve, source=there%curve)
-   end subroutine take_section
+   end subroutine get_section
 end module contact_output_vtk_bodies

@@ -76,7 +76,7 @@ contains
          call open_result_again(self%file, base // ".pvd", place, error, limits)
          if (allocated(error)) return
          self%last = place
-         call tell_unfinished(self)
+         call write_unfinished(self)
          return
       end if
       call open_result(self%file, base // ".pvd", base // ".pvd", error, limits)
@@ -85,7 +85,7 @@ contains
       call self%file%line('<VTKFile type="Collection" version="1.0">')
       call self%file%line("  <Collection>")
       self%last = self%file%place()
-      call tell_unfinished(self)
+      call write_unfinished(self)
    end subroutine open_collection
 
    !> Size of the list so far, without its end [bytes]
@@ -111,12 +111,12 @@ contains
    end subroutine close_collection
 
    !> Write the end of the collection of an unfinished run
-   subroutine tell_unfinished(self)
+   subroutine write_unfinished(self)
       class(vtk_files), intent(inout) :: self
 
       call write_end(self, "not complete, " // integer_text(self%planned) // " cases were planned")
       call self%file%flush_now()
-   end subroutine tell_unfinished
+   end subroutine write_unfinished
 
    !> Write the closing lines with a remark
    subroutine write_end(self, remark)
@@ -148,7 +148,7 @@ contains
       call self%file%seek(self%last)
       call self%file%line(line)
       self%last = self%file%place()
-      call tell_unfinished(self)
+      call write_unfinished(self)
    end subroutine add_entry
 
    !> Record in the list that a file of a case could not be written

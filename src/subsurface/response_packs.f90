@@ -103,7 +103,7 @@ contains
       call plan%forward(period, packed)
       do part = 1, n_parts
          factor(:, :, part) = 0.0_wp
-         if (pack%field(part) > 0) call take_out(packed, is_odd_in_x(part), is_odd_in_y(part), factor(:, :, part))
+         if (pack%field(part) > 0) call extract_part(packed, is_odd_in_x(part), is_odd_in_y(part), factor(:, :, part))
       end do
    end subroutine transform_pack
 
@@ -176,7 +176,7 @@ contains
    end subroutine add_to_period
 
    !> Extract one part from a spectrum of several responses
-   pure subroutine take_out(packed, odd_x, odd_y, factor)
+   pure subroutine extract_part(packed, odd_x, odd_y, factor)
       !> Spectrum of a sum of responses, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(in) :: packed(:, :)
       !> Symmetry of the part
@@ -198,7 +198,7 @@ contains
             factor(2:, k) = 0.5_wp*aimag(packed(2:half, k)) + turned*aimag(packed(py:py + 2 - half:-1, k))
          end if
       end do
-   end subroutine take_out
+   end subroutine extract_part
 
    !> Product of a response and a traction, which replaces a field or is added to it
    pure subroutine add_product(factor, odd_x, odd_y, is_added, traction, product)

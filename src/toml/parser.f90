@@ -9,7 +9,7 @@ module contact_toml_parser
    use contact_toml_document, only : toml_document, toml_kind, toml_node
    use contact_toml_numbers, only : read_number
    use contact_toml_scanner, only : check_encoding, end_of_word, end_statement, fail, is_line_end, is_quote, next_line, shown, &
-      & skip_blanks, skip_lines, take_string, took, toml_scanner
+      & skip_blanks, skip_lines, parse_string, took, toml_scanner
    implicit none (type, external)
    private
 
@@ -69,9 +69,9 @@ contains
          case ("#")
             continue
          case ("[")
-            call take_header(p, document, table)
+            call parse_header(p, document, table)
          case default
-            call take_pair(p, document, table, is_inline=.false.)
+            call parse_pair(p, document, table, is_inline=.false.)
          end select
          if (.not. allocated(p%error)) call end_statement(p)
       end do
@@ -87,7 +87,7 @@ contains
    end function is_bare_key
 
    !> Parse a key of one or more parts
-   subroutine take_key(p, document, parts, n)
+   subroutine parse_key(p, document, parts, n)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       type(key_part), intent(out) :: parts(longest_key)
@@ -120,7 +120,7 @@ contains
          call skip_blanks(p)
          if (.not. took(p, ".")) return
       end do
-   end subroutine take_key
+   end subroutine parse_key
 
    !> Move to a table below another one, creating it if needed; for an array of tables, to its last one
    subroutine enter(p, document, part, table, with_arrays)
@@ -174,7 +174,7 @@ contains
    end subroutine fail_duplicate
 
    !> Parse a header: a key in single or double brackets
-   subroutine take_header(p, document, table)
+   subroutine parse_header(p, document, table)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       !> The table that it opens
@@ -191,7 +191,7 @@ contains
       start = p%at
       p%at = p%at + 1
       is_array = took(p, "[")
-      call take_key(p, document, parts, n)
+      call parse_key(p, document, parts, n)
       if (allocated(p%error)) return
       if (.not. took(p, "]")) then
          call fail(p, trim(shown(p)) // ' stands where the "]" of the header should be')
@@ -257,10 +257,10 @@ contains
          node%line = p%line
          node%column = start - p%line_first + 1
       end subroutine place_node
-   end subroutine take_header
+   end subroutine parse_header
 
    !> Parse key = value
-   recursive subroutine take_pair(p, document, table, is_inline)
+   recursive subroutine parse_pair(p, document, table, is_inline)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       !> Table to which it belongs
@@ -271,7 +271,7 @@ contains
       type(toml_node) :: node
       integer :: below, k, n, index, made(longest_key)
 
-      call take_key(p, document, parts, n)
+      call parse_key(p, document, parts, n)
       if (allocated(p%error)) return
       if (.not. took(p, "=")) then
          call fail(p, trim(shown(p)) // ' stands where the "=" behind a key should be')
@@ -298,17 +298,17 @@ contains
       node%key_last = parts(n)%last
       node%key_line = parts(n)%line
       node%key_column = parts(n)%column
-      call take_value(p, document, below, node)
+      call parse_value(p, document, below, node)
       if (allocated(p%error) .or. is_inline) return
       do k = 1, n - 1
          if (p%pending_count == size(p%pending)) p%pending = [p%pending, p%pending]
          p%pending_count = p%pending_count + 1
          p%pending(p%pending_count) = made(k)
       end do
-   end subroutine take_pair
+   end subroutine parse_pair
 
    !> Parse a value, which becomes a child
-   recursive subroutine take_value(p, document, parent, node)
+   recursive subroutine parse_value(p, document, parent, node)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: parent
@@ -330,17 +330,17 @@ contains
          node%kind = merge(toml_kind%array, toml_kind%table, p%text(p%at:p%at) == "[")
          node%is_frozen = .true.
       case default
-         call take_word(p, node)
+         call parse_word(p, node)
       end select
       if (allocated(p%error)) return
       call document%add(parent, node, index)
       call check_size(p, document)
-      if (node%kind == toml_kind%array) call take_array(p, document, index)
-      if (node%kind == toml_kind%table) call take_inline_table(p, document, index)
-   end subroutine take_value
+      if (node%kind == toml_kind%array) call parse_array(p, document, index)
+      if (node%kind == toml_kind%table) call parse_inline_table(p, document, index)
+   end subroutine parse_value
 
    !> Parse [value, value, ...], over any number of lines
-   recursive subroutine take_array(p, document, array)
+   recursive subroutine parse_array(p, document, array)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: array
@@ -353,7 +353,7 @@ contains
          if (allocated(p%error)) return
          if (took(p, "]")) exit
          node = toml_node()
-         call take_value(p, document, array, node)
+         call parse_value(p, document, array, node)
          if (allocated(p%error)) return
          call skip_lines(p)
          if (allocated(p%error)) return
@@ -364,10 +364,10 @@ contains
          return
       end do
       p%depth = p%depth - 1
-   end subroutine take_array
+   end subroutine parse_array
 
    !> Parse { key = value, ... } on one line
-   recursive subroutine take_inline_table(p, document, table)
+   recursive subroutine parse_inline_table(p, document, table)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document
       integer, intent(in) :: table
@@ -380,7 +380,7 @@ contains
       call skip_blanks(p)
       if (.not. took(p, "}")) then
          do
-            call take_pair(p, document, table, is_inline=.true.)
+            call parse_pair(p, document, table, is_inline=.true.)
             if (allocated(p%error)) return
             call skip_blanks(p)
             if (took(p, "}")) exit
@@ -392,7 +392,7 @@ contains
       document%nodes(table)%is_frozen = .true.
       call freeze_below(document, table)
       p%depth = p%depth - 1
-   end subroutine take_inline_table
+   end subroutine parse_inline_table
 
    !> Also close the tables created by dotted keys within an inline table
    recursive subroutine freeze_below(document, table)
@@ -434,12 +434,12 @@ contains
       integer, intent(out) :: first, last
       character(len=:), allocatable :: resolved
 
-      call take_string(p, resolved, first, last)
+      call parse_string(p, resolved, first, last)
       if (allocated(resolved) .and. .not. allocated(p%error)) call document%keep(resolved, first, last)
    end subroutine keep_string
 
    !> Parse true, false, an integer or a real number
-   subroutine take_word(p, node)
+   subroutine parse_word(p, node)
       type(toml_parser), intent(inout) :: p
       type(toml_node), intent(inout) :: node
       integer :: last, start
@@ -456,19 +456,19 @@ contains
             node%l = word == "true"
          else if (scan(word(1:1), figures // "+-.") == 0) then
             if (word == "inf" .or. word == "nan") then
-               call take_number(p, word, node)
+               call parse_number(p, word, node)
             else
                call fail(p, '"' // printable(word) // '" is no value; a text needs quotes, "' // printable(word) // '"')
             end if
          else
-            call take_number(p, word, node)
+            call parse_number(p, word, node)
          end if
       end associate
       p%at = last + 1
-   end subroutine take_word
+   end subroutine parse_word
 
    !> Parse an integer or a real number
-   subroutine take_number(p, word, node)
+   subroutine parse_number(p, word, node)
       type(toml_parser), intent(inout) :: p
       character(len=*), intent(in) :: word
       type(toml_node), intent(inout) :: node
@@ -478,5 +478,5 @@ contains
       call read_number(word, is_real, node%i, node%r, complaint)
       node%kind = merge(toml_kind%real, toml_kind%integer, is_real)
       if (allocated(complaint)) call fail(p, '"' // printable(word) // '" ' // complaint)
-   end subroutine take_number
+   end subroutine parse_number
 end module contact_toml_parser

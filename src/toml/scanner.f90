@@ -5,7 +5,7 @@ module contact_toml_scanner
    private
 
    public :: toml_scanner, check_encoding, end_of_word, end_statement, fail, is_line_end, is_quote, next_line, shown
-   public :: skip_blanks, skip_lines, take_string, took
+   public :: skip_blanks, skip_lines, parse_string, took
 
    character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
 
@@ -221,7 +221,7 @@ contains
    end function len_of_string
 
    !> Parse a string in single or double quotes
-   subroutine take_string(p, resolved, first, last)
+   subroutine parse_string(p, resolved, first, last)
       class(toml_scanner), intent(inout) :: p
       !> The string, if it has escapes; unallocated otherwise
       character(len=:), allocatable, intent(out) :: resolved
@@ -257,7 +257,7 @@ contains
                length = p%at - start - 1
                resolved(:length) = p%text(start + 1:p%at - 1)
             end if
-            call take_escape(p, resolved, length)
+            call parse_escape(p, resolved, length)
             if (allocated(p%error)) return
             cycle
          end if
@@ -271,10 +271,10 @@ contains
       first = start + 1
       last = p%at - 1
       p%at = p%at + 1
-   end subroutine take_string
+   end subroutine parse_string
 
    !> Parse a backslash and the escape that follows
-   subroutine take_escape(p, text, length)
+   subroutine parse_escape(p, text, length)
       class(toml_scanner), intent(inout) :: p
       !> String, long enough; the character is appended to its first `length` characters
       character(len=:), allocatable, intent(inout) :: text
@@ -336,5 +336,5 @@ contains
          length = length + 1
          text(length:length) = char(value)
       end subroutine add_byte
-   end subroutine take_escape
+   end subroutine parse_escape
 end module contact_toml_scanner

@@ -181,7 +181,7 @@ class Readable(unittest.TestCase):
         status, _, errors = self.run_program("convert", "a.toml")
         self.assertEqual(status, 1)
         self.assertIn("a.inp: the file is there already; --force replaces it", errors)
-        self.assertIn("the suffix must tell", self.run_program("convert", "a")[2])
+        self.assertIn("the suffix must say", self.run_program("convert", "a")[2])
         (self.folder / "a.toml").write_text(HEAD)
         self.assertEqual(self.run_program("convert", "--force", "a.toml")[0], 1)
         self.assertEqual((self.folder / "a.inp").read_bytes(), before, "whole or nothing")

@@ -6,9 +6,9 @@ program test_rules
    use contact_cases_spec, only : case_spec
    use contact_base_error, only : error_type
    use contact_control_digits, only : case_digits
-   use contact_control_digit_terms, only : tell_in_digits
+   use contact_control_digit_terms, only : translate_to_digits
    use contact_control_rule_text, only : allowed_digits, describe_broken_rule, letter_of
-   use contact_control_translation, only : digits_of, take_digits
+   use contact_control_translation, only : apply_digits, digits_of
    use contact_test_harness, only : test_suite
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
@@ -53,7 +53,7 @@ contains
                               digits = case_digits(b=b, t=t, n=n, f=f, l=laws(l), d=2, c=kernels(c), m=m, z=2, e=slips(e), &
                                  & h=heats(h), r=1)
                               spec = case_spec()
-                              call take_digits(digits, module_number, spec)
+                              call apply_digits(digits, module_number, spec)
                               ! no form where there is none yet, or where a wheel brings its grid
                               spec%grid%form = merge(0, forms(mod(t + l + 3*h + m, size(forms)) + 1), module_number == 1)
                               call refuse_broken_rules(spec, error)
@@ -188,7 +188,7 @@ contains
       character(len=*), intent(in) :: message, expected
       character(len=:), allocatable :: text
 
-      call tell_in_digits(message, text)
+      call translate_to_digits(message, text)
       call suite%check(text == expected .and. len(text) == len(expected), "'" // text // "' is '" // expected // "'")
    end subroutine expect
 
@@ -260,7 +260,7 @@ contains
       type(number_rule) :: rule
 
       rule = number_rules(k)
-      call tell_in_digits(trim(rule%subject), subject)
+      call translate_to_digits(trim(rule%subject), subject)
       row = "| " // trim(rule%number) // " | " // trim(demand_text(rule%demand)) // " | " // subject // " | " // &
          & trim(rule%reason) // " |"
    end function row_of_number

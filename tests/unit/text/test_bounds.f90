@@ -2,7 +2,7 @@
 program test_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp
-   use contact_control_digit_terms, only : tell_in_digits
+   use contact_control_digit_terms, only : translate_to_digits
    use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, number_bounds
    use contact_test_harness, only : test_suite
    use contact_text_words, only : real_text
@@ -132,7 +132,7 @@ contains
 
       lowest = real_text(bounds%lowest)
       if (bounds%is_open) lowest = "above " // lowest
-      call tell_in_digits("| " // trim(bounds%name) // " | " // trim(bounds%title) // " | " // trim(bounds%unit) // " | " // &
+      call translate_to_digits("| " // trim(bounds%name) // " | " // trim(bounds%title) // " | " // trim(bounds%unit) // " | " // &
          & lowest // " | " // real_text(bounds%highest) // " | " // trim(bounds%reason) // " |", text)
       row = text
    end function manual_row
