@@ -58,9 +58,8 @@ module contact_tangential_second_order
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
    real(wp), parameter :: outermost = 1.7_wp
-   !> Factor of the terms behind an oblique edge. Their effect goes with the distance from the edge, by the root of it in the
-   !> tractions and in the adjoint: on the average over places of the edge d0 + 1/2 for a term in the second element, for which they
-   !> were fitted, and d0 + 1 wherever the edge lies for one that is shared by the second and the third
+   !> Factor of the terms behind an oblique edge, which the second and third elements share; empirical, see
+   !> doc/theory/second_order.md
    real(wp), parameter :: behind_edge = (d0 + 0.5_wp)/(d0 + 1.0_wp)
    !> Terms above this part of the compliance of an element are stiff; chosen
    real(wp), parameter :: stiff_share = 0.5_wp
@@ -178,7 +177,7 @@ contains
       real(wp) :: terms(3)
       real(wp) :: along, square
       !> Fitted to residuals of tractions in proportion to pressures, by the adjoint of adhesion, of ellipses with sides of elements
-      !> of 1:4 to 4:1
+      !> of 1:4 to 4:1; tests/accuracy/oblique_edges.py compares them with those of the kernel
       real(wp), parameter :: of_direction = 1.0_wp/24.0_wp, of_steps = 0.1204_wp, few_steps = 12.9_wp, narrow = 0.746_wp
       real(wp), parameter :: of_diagonal = 0.0229_wp, few_rows = 31.0_wp, of_ratio = 0.42_wp
 
