@@ -2,14 +2,14 @@
  *
  * Arrays of the size of a window are reallocated when the window changes, which happens in a tenth of the steps of a loop over
  * time if the contact moves. Instead of being returned to the heap, such blocks are kept with the problem that used them: in
- * total up to `most_bytes`, of up to `largest` bytes each, in lists by size. There are four sizes per factor of two, so that a
- * block is used for all requests that are less than a quarter smaller; their distances are at least those of the block sizes of
+ * total up to `most_bytes`, of up to `largest` bytes each, in lists by size. There are four sizes per factor of two; a
+ * request is served by the smallest kept block of up to twice its size. Distances of sizes are at least those of the block sizes of
  * the system. A thread uses the blocks of one owner while it calculates (guard.c). */
 #include "kept_blocks.h"
 #include <stdint.h>
 #include <stdlib.h>
 
-enum { sizes = 57, smallest = 64, largest = 1 << 20, most_bytes = 16 << 20 };
+enum { sizes = 57, smallest = 64, largest = 1 << 20, most_bytes = 16 << 20, wider = 4 };
 
 /* A kept block: its first bytes contain the address of the next one */
 struct link {
@@ -49,7 +49,9 @@ size_t contact_kept_size(size_t n) { return n > largest ? n : size_of(size_above
 
 void *contact_kept_take(struct kept_blocks *kept, size_t n) {
   if (n > largest) return NULL;
-  const unsigned k = size_above(n);
+  /* the smallest block that is not more than twice as large: windows that grow and shrink share the same blocks */
+  unsigned k = size_above(n);
+  for (const unsigned end = k + wider < sizes ? k + wider : sizes - 1; k < end && kept->first[k] == NULL; k++) continue;
   struct link *block = kept->first[k];
   if (block == NULL) return NULL;
   kept->first[k] = block->next;

@@ -194,16 +194,18 @@ contains
       number = merge(5, 3, coupled)
       allocate(wider(number, -1:wanted(1), -1:wanted(2)))
       is_square = abs(dx - dy) <= 0.0_wp
-      !$omp parallel do private(k) if (nx*ny > largest_kept)
-      do l = -1, wanted(2)
-         do k = -1, wanted(1)
-            if (k <= known(1) .and. l <= known(2)) then
-               wider(:, k, l) = table%corner(:, k, l)
-            else if (.not. is_mirrored(k, l)) then
-               wider(:, k, l) = some_functions(number, (k + 0.5_wp)*dx, (l + 0.5_wp)*dy)
-            end if
+      if (nx*ny > largest_kept) then
+         !$omp parallel do
+         do l = -1, wanted(2)
+            call fill_row(l)
          end do
-      end do
+         !$omp end parallel do
+      else
+         ! without threads: a parallel region requests memory
+         do l = -1, wanted(2)
+            call fill_row(l)
+         end do
+      end if
       do l = -1, wanted(2)
          do k = -1, wanted(1)
             if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = mirrored(number, wider(:, l, k))
@@ -214,6 +216,21 @@ contains
       table%corner_coupled = coupled
 
    contains
+
+      !> A row of functions, copied where they are known, without those that are mirrored
+      subroutine fill_row(l)
+         !> Index of the row
+         integer, intent(in) :: l
+         integer :: k
+
+         do k = -1, wanted(1)
+            if (k <= known(1) .and. l <= known(2)) then
+               wider(:, k, l) = table%corner(:, k, l)
+            else if (.not. is_mirrored(k, l)) then
+               wider(:, k, l) = some_functions(number, (k + 0.5_wp)*dx, (l + 0.5_wp)*dy)
+            end if
+         end do
+      end subroutine fill_row
 
       !> The first three functions, or all five
       pure function some_functions(number, x, y) result(f)

@@ -13,15 +13,14 @@ module contact_fft_kept_plans
    public :: plan_kind, plan_set
 
    type :: plan_kind_list
-      !> For lines of one length; for two fields on a window
-      integer :: lines = 1, paired = 2
+      !> For lines of one length; for the rows and for the columns of two fields on a window
+      integer :: lines = 1, paired_rows = 2, paired_columns = 3
    end type plan_kind_list
    !> Purposes of plans
    type(plan_kind_list), parameter :: plan_kind = plan_kind_list()
 
-   !> Rows forward, rows backward, columns forward, columns backward; for lines only forward and backward, the others are null
-   integer, parameter :: plans_per_size = 4
-   integer, parameter, public :: row_forward = 1, row_backward = 2, column_forward = 3, column_backward = 4
+   !> Forward and backward
+   integer, parameter :: plans_per_size = 2
    integer, parameter, public :: line_forward = 1, line_backward = 2
 
    !> Plans for one size
@@ -39,7 +38,7 @@ module contact_fft_kept_plans
    end type plan_set
 
    !> Maximum number of cached sizes, and maximum size of a padded window or a line: plans of large ones take memory
-   integer, parameter :: most = 256, largest = 65536
+   integer, parameter :: most = 512, largest = 65536
 
    type :: kept_type
       integer :: kind = 0, my = 0, px = 0, py = 0
@@ -56,7 +55,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window; for lines their number, their length, and 1
+      !> Rows of the window, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
       integer :: k
 
@@ -75,7 +74,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window; for lines their number, their length, and 1
+      !> Rows of the window, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
 
       if (n_kept == most .or. px*py > largest) return

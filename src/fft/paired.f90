@@ -7,7 +7,7 @@ module contact_fft_paired
    use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
    use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
-   use contact_fft_kept_plans, only : column_backward, column_forward, plan_kind, plan_set, row_backward, row_forward
+   use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
    implicit none (type, external)
    private
 
@@ -23,7 +23,8 @@ module contact_fft_paired
       complex(wp), allocatable :: spectrum(:, :)
       !> Rows after the transform in x, transposed and padded in y, shape (py, px)
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
-      type(plan_set), private :: plans
+      !> Those of the columns do not depend on the number of rows of the window
+      type(plan_set), private :: row_plans, column_plans
    contains
       !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare
@@ -43,7 +44,7 @@ contains
       integer, intent(in) :: mx, my, px, py
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%plans%plan(row_forward))) return
+         & .and. c_associated(self%row_plans%plan(line_forward))) return
       call self%release()
       self%mx = mx
       self%my = my
@@ -53,13 +54,17 @@ contains
       allocate(self%rows_back(px, my), self%columns_back(py, px), self%spectrum(py, px))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call self%plans%take(plan_kind%paired, my, px, py)
-      if (.not. self%plans%is_kept) then
-         self%plans%plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
-            & plan_complex(px, my, self%columns_back, py, 1, self%rows_back, 1, px, backwards), &
-            & plan_complex(py, px, self%columns, 1, py, self%spectrum, 1, py, forwards), &
+      call self%row_plans%take(plan_kind%paired_rows, my, px, py)
+      if (.not. self%row_plans%is_kept) then
+         self%row_plans%plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
+            & plan_complex(px, my, self%columns_back, py, 1, self%rows_back, 1, px, backwards)]
+         call self%row_plans%keep(plan_kind%paired_rows, my, px, py)
+      end if
+      call self%column_plans%take(plan_kind%paired_columns, 0, px, py)
+      if (.not. self%column_plans%is_kept) then
+         self%column_plans%plan = [plan_complex(py, px, self%columns, 1, py, self%spectrum, 1, py, forwards), &
             & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, py, backwards)]
-         call self%plans%keep(plan_kind%paired, my, px, py)
+         call self%column_plans%keep(plan_kind%paired_columns, 0, px, py)
       end if
       !$omp end critical (contact_fft_planner)
    end subroutine prepare
@@ -94,8 +99,8 @@ contains
             end do
          end if
       end do
-      call execute_complex(self%plans%plan(row_forward), self%rows, self%columns)
-      call execute_complex(self%plans%plan(column_forward), self%columns, self%spectrum)
+      call execute_complex(self%row_plans%plan(line_forward), self%rows, self%columns)
+      call execute_complex(self%column_plans%plan(line_forward), self%columns, self%spectrum)
    end subroutine forward
 
    subroutine backward(self, fields)
@@ -104,8 +109,8 @@ contains
       real(wp), contiguous, intent(inout) :: fields(:, :, :)
       integer :: ix, iy
 
-      call execute_complex(self%plans%plan(column_backward), self%spectrum, self%columns_back)
-      call execute_complex(self%plans%plan(row_backward), self%columns_back, self%rows_back)
+      call execute_complex(self%column_plans%plan(line_backward), self%spectrum, self%columns_back)
+      call execute_complex(self%row_plans%plan(line_backward), self%columns_back, self%rows_back)
       do iy = 1, self%my
          do ix = 1, self%mx
             fields(ix, iy, 1) = real(self%rows_back(ix, iy))
@@ -117,7 +122,8 @@ contains
    subroutine release(self)
       class(paired_plan), intent(inout) :: self
 
-      call self%plans%release()
+      call self%row_plans%release()
+      call self%column_plans%release()
       self%mx = 0
       if (allocated(self%rows)) deallocate(self%rows, self%rows_back, self%columns, self%columns_back, self%spectrum)
    end subroutine release

@@ -32,6 +32,16 @@ int main(void) {
     memset(block, 1, n);
     free(block);
   }
+  for (n = 64; n <= largest/4; n += 1 + n/7) {
+    void *twice = malloc(2*contact_kept_size(n)), *more = malloc(4*contact_kept_size(n));
+    check(contact_kept_put(kept, more, malloc_usable_size(more)), "a block of four times the size is kept", n);
+    check(contact_kept_take(kept, n) == NULL, "it does not serve the request", n);
+    check(contact_kept_put(kept, twice, malloc_usable_size(twice)), "a block of twice the size is kept", n);
+    check(contact_kept_take(kept, n) == twice, "it serves the request", n);
+    check(contact_kept_take(kept, 4*n) == more, "the other one serves a request of its own size", n);
+    free(twice);
+    free(more);
+  }
   void *large = malloc(largest + 4096), *tiny = malloc(1);
   check(!contact_kept_put(kept, large, largest + largest/2), "a block that is too large is not kept", largest + largest/2);
   check(!contact_kept_put(kept, tiny, 8), "nor is a tiny one", 8);
