@@ -24,6 +24,7 @@ typedef int four_flags __attribute__((vector_size(16), aligned(4), may_alias));
 #define CHOOSE(mask, v, w) ((four)(((mask) & (four_masks)(v)) | (~(mask) & (four_masks)(w))))
 /* Mask from Fortran logicals */
 #define TRUE_OF(at) (__builtin_convertvector(*(const four_flags *)(at), four_masks) != 0)
+#define ALL_OF(mask) (((mask)[0] & (mask)[1] & (mask)[2] & (mask)[3]) != 0)
 #define SUM_OF(v) (((v)[0] + (v)[2]) + ((v)[1] + (v)[3]))
 #define MAGNITUDES(v) ((four)((four_masks)(v)&0x7fffffffffffffffLL))
 #define ROOTS_ONE_BY_ONE(v) ((four){sqrt((v)[0]), sqrt((v)[1]), sqrt((v)[2]), sqrt((v)[3])})

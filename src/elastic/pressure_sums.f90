@@ -124,20 +124,31 @@ contains
       end do
    end subroutine displace
 
-   !> Displacements of all elements of a window [mm]
-   subroutine displacements_by_sums(table, p, ranges, u)
+   !> Displacements of the elements with pressures, and of others that may be in contact [mm]
+   subroutine displacements_by_sums(table, p, h, pen, ranges, u)
       !> Coefficients, even in both directions, for the offsets of the window
       type(kernel_table), intent(in) :: table
       !> Pressures [N/mm2], of the shape of the window
       real(wp), contiguous, intent(in) :: p(:, :)
+      !> Distance of the undeformed surfaces, of the same shape, and approach [mm]: displacements are computed where h < pen
+      real(wp), contiguous, intent(in) :: h(:, :)
+      real(wp), intent(in) :: pen
       !> Workspace
       integer, allocatable, intent(inout) :: ranges(:, :)
-      !> Positive where the surfaces move apart, of the same shape
+      !> Positive where the surfaces move apart, of the same shape; not changed elsewhere
       real(wp), contiguous, intent(inout) :: u(:, :)
+      integer :: first, last, iy
 
       call find_ranges(p, p, ranges)
-      ranges(3, :size(p, 2)) = 0
-      ranges(4, :size(p, 2)) = size(p, 1)
+      do iy = 1, size(p, 2)
+         do last = size(h, 1), ranges(2, iy) + 1, -1
+            if (h(last, iy) < pen) exit
+         end do
+         do first = 1, merge(ranges(1, iy), last - 1, ranges(2, iy) > 0)
+            if (h(first, iy) < pen) exit
+         end do
+         ranges(3:4, iy) = [first - 1, last]
+      end do
       call sums_over_rows(size(p, 1), size(p, 2), ranges, table%nx, table%ny, table%nn, p, u)
    end subroutine displacements_by_sums
 

@@ -7,7 +7,6 @@
 !> elements of a factor are in the order of decreasing pressure, so that those at the border, which change most often, are last:
 !> columns before the first change are reused.
 module contact_normal_few_elements
-   use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
@@ -38,6 +37,8 @@ module contact_normal_few_elements
       integer, private :: box(2, 2) = 0
       !> Rows of the existing factor for the new rows, 0 for new elements, shape (most)
       integer, allocatable, private :: row(:)
+      !> Positions in the table of coefficients, shape (most)
+      integer, allocatable, private :: at(:)
       !> Is an element of the window in the factor? Size at least that of the window
       logical, allocatable, private :: taken(:)
       !> Lower triangle, shape (most, most), and a vector, shape (most)
@@ -98,11 +99,12 @@ contains
             p(factor%place(1, k), factor%place(2, k)) = max(0.0_wp, factor%x(k))
          end do
          if (any(factor%x(:factor%n) <= 0.0_wp)) cycle
-         call displacements_by_sums(operator%table, p, factor%ranges, factor%u)
+         ! pressures move the surfaces apart: nothing can overlap where they do not overlap without them
+         call displacements_by_sums(operator%table, p, problem%h, pen, factor%ranges, factor%u)
          worst = 0.0_wp
          do iy = 1, problem%my
             do ix = 1, problem%mx
-               if (problem%h(ix, iy) > excluded_threshold) cycle
+               if (.not. (problem%h(ix, iy) < pen .or. p(ix, iy) > 0.0_wp)) cycle
                r = pen - problem%h(ix, iy) - factor%u(ix, iy)
                if (.not. p(ix, iy) > 0.0_wp) r = max(0.0_wp, r)
                worst = max(worst, abs(r))
@@ -118,7 +120,7 @@ contains
          grows = .false.
          do iy = 1, problem%my
             do ix = 1, problem%mx
-               if (p(ix, iy) > 0.0_wp .or. problem%h(ix, iy) > excluded_threshold) cycle
+               if (p(ix, iy) > 0.0_wp .or. .not. problem%h(ix, iy) < pen) cycle
                if (.not. pen - problem%h(ix, iy) - factor%u(ix, iy) > problem%eps*scale) cycle
                ! any positive pressure means contact: the factor gives its value
                p(ix, iy) = tiny(p)
@@ -157,7 +159,7 @@ contains
       call find_box(p, n, box)
       if (n > most .or. n < least) return
       if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most), &
-         & self%row(most))
+         & self%row(most), self%at(most))
       is_for_others = abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp
       if (.not. is_for_others) is_for_others = .not. self%model%same_as(operator%model)
       if (is_for_others) then
@@ -322,29 +324,42 @@ contains
       integer, intent(in) :: n, kept
       !> Is the matrix positive definite?
       logical, intent(out) :: fits
-      integer :: j, k
+      integer :: k, stride, own
 
-      associate (lower => self%lower, x => self%x, place => self%place, nn => operator%table%nn)
-         do k = kept + 1, n
-            if (self%row(k) > 0) then
-               ! rows only move up
-               lower(k, :kept) = lower(self%row(k), :kept)
-               cycle
-            end if
-            do j = 1, kept
-               x(j) = nn(place(1, k) - place(1, j), place(2, k) - place(2, j))
-            end do
-            call solve_forward(kept, most, lower, x)
-            lower(k, :kept) = x(:kept)
-         end do
-         do j = kept + 1, n
-            do k = j, n
-               lower(k, j) = nn(place(1, k) - place(1, j), place(2, k) - place(2, j))
-            end do
-         end do
-      end associate
+      ! positions in the table of coefficients, relative to an element on itself
+      stride = size(operator%table%nn, 1)
+      own = operator%table%nx + 1 + stride*operator%table%ny
+      self%at(:n) = self%place(1, :n) + stride*self%place(2, :n)
+      do k = kept + 1, n
+         if (self%row(k) > 0) then
+            ! rows only move up
+            self%lower(k, :kept) = self%lower(self%row(k), :kept)
+            cycle
+         end if
+         call pick(operator%table%nn, own + self%at(k), self%at, kept, self%x)
+         call solve_forward(kept, most, self%lower, self%x)
+         self%lower(k, :kept) = self%x(:kept)
+      end do
+      do k = kept + 1, n
+         call pick(operator%table%nn, own + self%at(k), self%at(k:), n - k + 1, self%lower(k:, k))
+      end do
       fits = factorize(n, kept, most, self%lower, self%x) > 0
    end subroutine extend
+
+   !> Coefficients between an element and others
+   pure subroutine pick(nn, from, at, n, values)
+      !> Table of coefficients, even in both directions, as a vector
+      real(wp), intent(in) :: nn(*)
+      !> Place in it of the element on itself, plus the position of the element; positions and number of the others
+      integer, intent(in) :: from, at(*), n
+      !> The first n are set
+      real(wp), intent(inout) :: values(*)
+      integer :: k
+
+      do k = 1, n
+         values(k) = nn(from - at(k))
+      end do
+   end subroutine pick
 
    !> Forward and backward substitution
    pure subroutine substitute(self)

@@ -125,24 +125,7 @@ contains
          result%fx_rel = result%fx/scale
          result%fy_rel = result%fy/scale
       end if
-      result%ncon = 0
-      result%nadh = 0
-      result%nslip = 0
-      result%mx = 0.0_wp
-      result%my = 0.0_wp
-      result%mz = 0.0_wp
-      do iy = box%iy0, box%iy1
-         do ix = box%ix0, box%ix1
-            if (result%division(ix, iy) == element%exterior) cycle
-            result%ncon = result%ncon + 1
-            if (result%division(ix, iy) == element%adhesion) result%nadh = result%nadh + 1
-            if (result%division(ix, iy) == element%slip) result%nslip = result%nslip + 1
-            result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
-            result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
-            if (problem%motion == motion%none) cycle
-            result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))
-         end do
-      end do
+      call sum_up(problem, box, result)
       if (problem%motion /= motion%none) then
          if (problem%n_forces >= 1) result%wx = result%wx + problem%dq*result%cksi
          if (problem%n_forces >= 2) result%wy = result%wy + problem%dq*result%ceta
@@ -177,6 +160,48 @@ contains
       state%now%pen = result%pen
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
+
+   !> Numbers of elements and moments
+   pure subroutine sum_up(problem, box, result)
+      type(patch_problem), intent(in) :: problem
+      !> Contains the contact area
+      type(bounding_box), intent(in) :: box
+      !> Element states and tractions on entry; the numbers and moments are set
+      type(patch_result), intent(inout) :: result
+      real(wp) :: area, moment(3), x, y
+      integer :: ix, iy, adhering, slipping, others
+
+      area = problem%grid%dx*problem%grid%dy
+      moment = 0.0_wp
+      adhering = 0
+      slipping = 0
+      others = 0
+      do iy = box%iy0, box%iy1
+         y = problem%grid%y(iy)
+         do ix = box%ix0, box%ix1
+            select case (result%division(ix, iy))
+            case (element%exterior)
+               cycle
+            case (element%adhesion)
+               adhering = adhering + 1
+            case (element%slip)
+               slipping = slipping + 1
+            case default
+               others = others + 1
+            end select
+            x = problem%grid%x(ix)
+            moment(1) = moment(1) + area*result%pn(ix, iy)*y
+            moment(2) = moment(2) - area*result%pn(ix, iy)*x
+            if (problem%motion /= motion%none) moment(3) = moment(3) + area*(result%py(ix, iy)*x - result%px(ix, iy)*y)
+         end do
+      end do
+      result%ncon = adhering + slipping + others
+      result%nadh = adhering
+      result%nslip = slipping
+      result%mx = moment(1)
+      result%my = moment(2)
+      result%mz = moment(3)
+   end subroutine sum_up
 
    !> Are displacements deferred to `complete`? Not for moving coupled bodies, whose residual needs them
    pure logical function is_deferred(problem)

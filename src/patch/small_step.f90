@@ -8,6 +8,7 @@ module contact_patch_small_step
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
+   use contact_patch_simplified_step, only : simplified_step
    use contact_patch_tangential_step, only : tangential_step
    use contact_patch_workspace, only : patch_workspace
    implicit none (type, external)
@@ -97,7 +98,11 @@ contains
 
       call small_step(problem, change, state, result)
       if (problem%motion == motion%none) return
-      call tangential_step(problem, state, workspace, log, result)
+      if (allocated(problem%simplified)) then
+         call simplified_step(problem, state, workspace, log, result)
+      else
+         call tangential_step(problem, state, workspace, log, result)
+      end if
       call derive(problem, state, workspace, result)
       state%now%force = [result%fn, result%fx, result%fy]
    end subroutine step_with_tractions

@@ -52,7 +52,7 @@ module contact_wheelrail_geometry
       !> Penetration for the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
       !> In a loop, gaps that exceed the smallest one by less than this are computed exactly [mm]; increased with the penetration
-      real(wp) :: reach = 0.2_wp
+      real(wp) :: reach = 0.15_wp
       !> Are trials of the height consecutive as in a loop over time, and does the first one continue the last case?
       logical :: follows = .false., follows_last = .false.
       !> Does the search for the height start at the result of the last one as well? Otherwise only pressures do

@@ -66,6 +66,8 @@ module contact_wheelrail_height_search
    !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
    !> rotation of patches: this effect may be at most `turned` times EPS of the force
    real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
+   !> The same for approximate pressures, which are scaled: the derivative of their force is known to a tenth
+   real(wp), parameter :: finished_scaled = 2.0_wp
    !> Tolerance of tangential tractions relative to that of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
    !> Tolerance of pressures and tractions in the first trial, relative to EPS: it is not the last one
@@ -188,7 +190,7 @@ contains
       is_settled = .false.
       ! without iterations in the patches, the first trial is as accurate as any
       is_plain = .not. problem%template%solves_for_pressure() .and. allocated(problem%template%simplified)
-      has_derivative = problem%template%solves_for_pressure() .and. .not. allocated(problem%template%simplified)
+      has_derivative = problem%template%solves_for_pressure()
       self%is_sharp = .true.
       z = self%guess
       best = huge(best)
@@ -266,13 +268,16 @@ contains
       type(height_search), intent(in) :: self
       !> Deviation of the force in the trial [N], and ratio of its derivative to the value by the stiffness [-]
       real(wp), intent(in) :: miss, stiffer
-      !> Are pressures and tractions those of the full theory? Others are extrapolated only within EPS
+      !> Are pressures those of the full theory, whose derivative is known? Others are scaled
       logical, intent(in) :: has_derivative
 
       associate (tolerance => self%balance%tolerance)
          can_finish = miss <= tolerance
-         if (has_derivative) can_finish = can_finish .or. (miss <= finished*tolerance &
-            & .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
+         if (has_derivative) then
+            can_finish = can_finish .or. (miss <= finished*tolerance .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
+         else
+            can_finish = can_finish .or. miss <= finished_scaled*tolerance
+         end if
       end associate
    end function can_finish
 
@@ -342,8 +347,15 @@ contains
       integer, intent(in) :: max_trials
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: trial
+      real(wp) :: trial, last_z, last_force, stiffer
+      logical :: extrapolates, is_done
+      integer :: k
 
+      extrapolates = with_friction .and. problem%in_loop .and. allocated(problem%template%simplified)
+      stiffer = 1.0_wp
+      last_z = self%touch
+      last_force = 0.0_wp
+      k = 0
       call self%balance%start(self%target, eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max(1, max_trials), &
          & forces_are_estimates=.not. with_friction)
@@ -351,6 +363,17 @@ contains
          trial = self%balance%next_trial(self%guess)
          call self%try(problem, memory, trial, with_friction, log, error)
          if (allocated(error)) return
+         k = k + 1
+         if (extrapolates .and. k > 1) then
+            call self%compare_stiffness(trial, last_z, last_force, stiffer)
+            last_z = trial
+            last_force = self%force
+            if (abs(self%force - self%target) > self%balance%tolerance .and. can_finish(self, abs(self%force - self%target), &
+               & stiffer, problem%template%solves_for_pressure())) call finish(self, memory, stiffer, trial, log, is_done)
+         else
+            last_z = trial
+            last_force = self%force
+         end if
          call self%balance%record(trial, self%force, self%slope, memory%used)
       end do
       self%z = self%balance%z

@@ -8,6 +8,7 @@ module contact_wheelrail_wheel_rows
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_wheel_loops, only : spread_polynomial, together
    use contact_wheelrail_wheel_surface, only : row_from_estimates, wheel_height, wheel_row
    implicit none (type, external)
    private
@@ -15,7 +16,7 @@ module contact_wheelrail_wheel_rows
    public :: wheel_rows
 
    !> Number of points of a row for a polynomial: as many as are computed at once
-   integer, parameter :: terms = 8
+   integer, parameter :: terms = together
    !> Maximum of the last two terms of a polynomial that is as accurate as the heights themselves [mm]
    real(wp), parameter :: negligible = 1.0e-10_wp
    !> Number of consecutive rows without such a polynomial, after which none is tried
@@ -172,12 +173,16 @@ contains
          call estimate(self%rows(:self%few, :, :), self%known, place, n)
          call row_from_estimates(wheel, radius, seen, self%nodes(:self%few), s, place, n, found)
       else
-         do i = 1, self%few
+         place(1) = self%start(1)
+         n(1) = self%start(2)
+         call wheel_height(wheel, radius, seen, self%nodes(1), s, place(1), n(1), found(1))
+         if (found(1)) self%start = [place(1), n(1)]
+         ! the others are estimated by the circle of the wheel
+         do i = 2, self%few
             place(i) = self%start(1)
-            n(i) = self%start(2)
-            call wheel_height(wheel, radius, seen, self%nodes(i), s, place(i), n(i), found(i))
-            if (found(i)) self%start = [place(i), n(i)]
+            n(i) = self%start(2) - 0.5_wp*(self%nodes(i)**2 - self%nodes(1)**2)/radius
          end do
+         call row_from_estimates(wheel, radius, seen, self%nodes(2:self%few), s, place(2:), n(2:), found(2:))
       end if
       if (found(1)) self%start = [place(1), n(1)]
       call keep(place, n, all(found), self%rows(:self%few, :, :), self%known)
@@ -278,9 +283,8 @@ contains
    pure subroutine between(c, values)
       !> Coefficients of Chebyshev polynomials
       real(wp), intent(in) :: c(terms)
-      real(wp), intent(out) :: values(:)
-      real(wp) :: p(0:terms - 1), t, step
-      integer :: i
+      real(wp), contiguous, intent(inout) :: values(:)
+      real(wp) :: p(0:terms - 1)
 
       ! converted to powers
       p(0) = c(1) - c(3) + c(5) - c(7)
@@ -291,11 +295,7 @@ contains
       p(5) = 16.0_wp*(c(6) - 7.0_wp*c(8))
       p(6) = 32.0_wp*c(7)
       p(7) = 64.0_wp*c(8)
-      step = 2.0_wp/(size(values) - 1)
-      do i = 1, size(values)
-         t = (i - 1)*step - 1.0_wp
-         values(i) = p(0) + t*(p(1) + t*(p(2) + t*(p(3) + t*(p(4) + t*(p(5) + t*(p(6) + t*p(7)))))))
-      end do
+      call spread_polynomial(p, size(values), values)
    end subroutine between
 
    !> Are all positions between those at the nodes on the profile as well?

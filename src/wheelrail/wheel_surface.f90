@@ -6,6 +6,7 @@ module contact_wheelrail_wheel_surface
    use contact_numeric_spline, only : piece_of
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_wheel_loops, only : meet_points, together
    implicit none (type, external)
    private
 
@@ -13,8 +14,6 @@ module contact_wheelrail_wheel_surface
 
    !> Tolerance of a Newton step, relative to the radius: the remaining error is of the order of its square
    real(wp), parameter :: tolerance = 1.0e-8_wp
-   !> Number of points of a row that are solved together
-   integer, parameter :: together = 8
 
 contains
 
@@ -140,59 +139,19 @@ contains
       !> Piece of the profile that contains the estimates
       integer, intent(in) :: piece
       !> Position on the profile and height above each point [mm]: estimates on entry, solutions on exit
-      real(wp), intent(inout) :: place(together), n(together)
+      real(wp), contiguous, intent(inout) :: place(:), n(:)
       !> Are all points found?
       logical, intent(out) :: done
       !> Maximum distance of a point from the plane through the axle, relative to the radius; points beyond it are solved one by one
       real(wp), parameter :: near = 0.5_wp
       integer, parameter :: most_steps = 4
-      real(wp), dimension(together) :: p, h, t, q1, q2, q3, y_s, z_s, r, depth, f1, f2, j21, j22, det
-      real(wp) :: base(3), c(0:3, 2)
-      integer :: i, step
+      real(wp) :: base(3)
+      integer :: all_found
 
-      p = place
-      h = n
-      associate (nodes => wheel%y%s, axis => seen%axes(:, 1), along => seen%axes(:, 3))
-         base = seen%origin + seen%axes(:, 2)*s
-         c(:, 1) = wheel%y%c(:, piece)
-         c(:, 2) = wheel%z%c(:, piece)
-         do step = 1, most_steps
-            do i = 1, together
-               t(i) = p(i) - nodes(piece)
-               q1(i) = base(1) + axis(1)*x(i) + along(1)*h(i)
-               q2(i) = base(2) + axis(2)*x(i) + along(2)*h(i)
-               q3(i) = base(3) + axis(3)*x(i) + along(3)*h(i)
-               r(i) = radius + c(0, 2) + t(i)*(c(1, 2) + t(i)*(c(2, 2) + t(i)*c(3, 2)))
-            end do
-            done = all(p >= nodes(piece) .and. p <= nodes(piece + 1) .and. abs(q1) <= near*r)
-            if (.not. done) return
-            do i = 1, together
-               y_s(i) = c(1, 1) + t(i)*(2.0_wp*c(2, 1) + t(i)*3.0_wp*c(3, 1))
-               z_s(i) = c(1, 2) + t(i)*(2.0_wp*c(2, 2) + t(i)*3.0_wp*c(3, 2))
-               depth(i) = sqrt(r(i)**2 - q1(i)**2)
-               f1(i) = q2(i) - (c(0, 1) + t(i)*(c(1, 1) + t(i)*(c(2, 1) + t(i)*c(3, 1))))
-               f2(i) = q3(i) + radius - depth(i)
-               j21(i) = -r(i)*z_s(i)/depth(i)
-               j22(i) = along(3) + q1(i)*along(1)/depth(i)
-               det(i) = -y_s(i)*j22(i) - along(2)*j21(i)
-            end do
-            done = all(abs(det) > 0.0_wp)
-            if (.not. done) return
-            do i = 1, together
-               ! steps of position and height
-               t(i) = (f1(i)*j22(i) - along(2)*f2(i))/det(i)
-               f2(i) = (-y_s(i)*f2(i) - f1(i)*j21(i))/det(i)
-               p(i) = p(i) - t(i)
-               h(i) = h(i) - f2(i)
-            end do
-            done = all(abs(t) + abs(f2) <= tolerance*radius)
-            if (done) exit
-         end do
-         done = done .and. all(p >= nodes(piece) .and. p <= nodes(piece + 1))
-      end associate
-      if (.not. done) return
-      place = p
-      n = h
+      base = seen%origin + seen%axes(:, 2)*s
+      call meet_points(wheel%y%s(piece:piece + 1), wheel%y%c(:, piece), wheel%z%c(:, piece), radius, base, seen%axes(:, 1), &
+         & seen%axes(:, 3), near, tolerance, most_steps, x, place, n, all_found)
+      done = all_found > 0
    end subroutine meet_together
 
    !> Height n of the wheel's surface above a point (x, s) of the plane

@@ -1,0 +1,199 @@
+/* Loops in C for a few elements in contact and for the wheel above them, of all kinds of processors that this one can be, against
+ * their definition, and against each other */
+#include "elastic/sum_loops.c"
+#include "normal/factor_loops.c"
+#include "wheelrail/wheel_loops.c"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Largest matrix, and first dimension of its array; largest window */
+enum { LARGEST = 45, STRIDE = 48, SIDE = 31 };
+
+static int failures = 0;
+
+static void check(int condition, const char *what, int n) {
+  if (condition) return;
+  failures++;
+  printf("FAILED %s: size %d\n", what, n);
+}
+
+static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
+
+/* Loops for one kind of processor */
+typedef struct {
+  void (*forward)(int, int, const double *, double *);
+  void (*backward)(int, int, const double *, double *);
+  int (*factorize)(int, int, int, double *, double *);
+  void (*displace)(int, int, const int *, const double *, int, const double *, double *);
+  int (*meet)(const double *, const double *, const double *, double, const double *, const double *, const double *, double, double, int,
+              const double *, double *, double *);
+  void (*spread)(const double *, int, double *);
+} loops;
+
+static const loops anywhere = {forward_anywhere, backward_anywhere, factorize_anywhere, displace_anywhere, meet_anywhere, spread_anywhere};
+
+/* A positive definite matrix, its factor in two parts, and a linear system; numbers outside of the triangle must not be used */
+static void try_factor(const loops *kind, int n, double *factor, double *x) {
+  static double matrix[LARGEST][LARGEST], row[LARGEST], b[LARGEST];
+  double worst = 0.0;
+  srand((unsigned)n);
+  for (int i = 0; i < STRIDE * LARGEST; i++) factor[i] = NAN;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j <= i; j++) {
+      matrix[i][j] = matrix[j][i] = i == j ? n + 1.0 : any_number();
+      factor[i + STRIDE * j] = matrix[i][j];
+    }
+  check(kind->factorize(n, 0, STRIDE, factor, row), "a positive definite matrix has a factor", n);
+  /* the last columns once more, from those before */
+  const int first = 2 * n / 3;
+  for (int j = first; j < n; j++)
+    for (int i = j; i < n; i++) factor[i + STRIDE * j] = matrix[i][j];
+  check(kind->factorize(n, first, STRIDE, factor, row), "the factor is continued", n);
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j <= i; j++) {
+      double sum = -matrix[i][j];
+      for (int k = 0; k <= j; k++) sum += factor[i + STRIDE * k] * factor[j + STRIDE * k];
+      worst = fmax(worst, fabs(sum));
+    }
+  check(worst <= 1e-13 * (n + 1), "the product of the factors is the matrix", n);
+  for (int i = 0; i < n; i++) x[i] = b[i] = any_number();
+  x[n] = 7.0;
+  kind->forward(n, STRIDE, factor, x);
+  kind->backward(n, STRIDE, factor, x);
+  worst = 0.0;
+  for (int i = 0; i < n; i++) {
+    double sum = -b[i];
+    for (int j = 0; j < n; j++) sum += matrix[i][j] * x[j];
+    worst = fmax(worst, fabs(sum));
+  }
+  check(worst <= 1e-13 * (n + 1), "the solution satisfies the equations", n);
+  check(x[n] == 7.0, "nothing is written beyond the solution", n);
+}
+
+/* A matrix that is not positive definite */
+static void try_indefinite(const loops *kind) {
+  double a[9] = {1.0, 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, row[3];
+  check(!kind->factorize(3, 0, 3, a, row), "an indefinite matrix has no factor", 3);
+  a[0] = NAN;
+  check(!kind->factorize(3, 0, 3, a, row), "nor has one that is not a number", 3);
+}
+
+/* Displacements in a window of mx by my elements with random ranges */
+static void try_sums(const loops *kind, int mx, int my, double *u) {
+  static double nn[(2 * SIDE + 1) * (2 * SIDE + 1)], p[SIDE * SIDE];
+  int ranges[4 * SIDE];
+  const int stride = 2 * mx + 1;
+  double worst = 0.0;
+  srand((unsigned)(SIDE * mx + my));
+  for (int l = 0; l <= my; l++)
+    for (int k = 0; k <= mx; k++) {
+      const double value = any_number();
+      for (int sign = 0; sign < 4; sign++) nn[mx + (sign % 2 ? k : -k) + stride * (my + (sign / 2 ? l : -l))] = value;
+    }
+  for (int l = 0; l < my; l++)
+    for (int part = 0; part < 2; part++) {
+      const int a = rand() % (mx + 1), b = rand() % (mx + 1);
+      ranges[4 * l + 2 * part] = a < b ? a : b;
+      ranges[4 * l + 2 * part + 1] = a < b ? b : a;
+    }
+  for (int k = 0; k < mx * my; k++) {
+    p[k] = any_number();
+    u[k] = 7.0;
+  }
+  kind->displace(mx, my, ranges, nn + mx + stride * my, stride, p, u);
+  for (int iy = 0; iy < my; iy++)
+    for (int ix = 0; ix < mx; ix++) {
+      double sum = 0.0;
+      if (ix < ranges[4 * iy + 2] || ix >= ranges[4 * iy + 3]) sum = 7.0;
+      else
+        for (int l = 0; l < my; l++)
+          for (int k = ranges[4 * l]; k < ranges[4 * l + 1]; k++) sum += p[k + mx * l] * nn[mx + ix - k + stride * (my + iy - l)];
+      worst = fmax(worst, fabs(sum - u[ix + mx * iy]));
+    }
+  check(worst <= 1e-12, "displacements are sums over the pressures, in their range only", mx);
+}
+
+/* Eight points of a wheel with a curved profile, seen from a rolled and yawed plane */
+static void try_points(const loops *kind, double *place, double *n) {
+  const double y[4] = {3.0, -0.98, 1e-3, -1e-4}, z[4] = {0.2, 0.05, -4e-3, 2e-4}, radius = 460.0;
+  const double base[3] = {0.4, 1.5, 0.1}, axis[3] = {0.99995, 0.01, 0.0}, along[3] = {0.0, -0.05, 0.99875};
+  const double x[8] = {-9.0, -6.5, -4.0, -1.5, 1.0, 3.5, 6.0, 8.5};
+  double piece[2] = {10.0, 14.0}, worst = 0.0;
+  for (int k = 0; k < 8; k++) {
+    place[k] = 11.5;
+    n[k] = 0.0;
+  }
+  check(kind->meet(piece, y, z, radius, base, axis, along, 0.5, 1e-8, 6, x, place, n), "points of the wheel are found", 8);
+  for (int k = 0; k < 8; k++) {
+    const double t = place[k] - piece[0], r = radius + z[0] + t * (z[1] + t * (z[2] + t * z[3]));
+    double q[3];
+    for (int i = 0; i < 3; i++) q[i] = base[i] + axis[i] * x[k] + along[i] * n[k];
+    worst = fmax(worst, fabs(q[1] - (y[0] + t * (y[1] + t * (y[2] + t * y[3])))));
+    worst = fmax(worst, fabs(hypot(q[0], q[2] + radius) - r));
+  }
+  check(worst <= 1e-9, "they are on the wheel", 8);
+  double before[2][8];
+  memcpy(before[0], place, sizeof before[0]);
+  memcpy(before[1], n, sizeof before[1]);
+  piece[1] = place[0] - 1e-3;
+  check(!kind->meet(piece, y, z, radius, base, axis, along, 0.5, 1e-8, 6, x, place, n), "points beyond the piece are not found", 8);
+  check(!memcmp(before[0], place, sizeof before[0]) && !memcmp(before[1], n, sizeof before[1]), "and are not changed", 8);
+}
+
+static void try_polynomial(const loops *kind, int n, double *values) {
+  double p[8], worst = 0.0;
+  srand((unsigned)n);
+  for (int k = 0; k < 8; k++) p[k] = any_number();
+  values[n] = 7.0;
+  kind->spread(p, n, values);
+  for (int i = 0; i < n; i++) {
+    const double t = 2.0 * i / (n - 1) - 1.0;
+    double sum = 0.0;
+    for (int k = 0; k < 8; k++) sum += p[k] * pow(t, k);
+    worst = fmax(worst, fabs(sum - values[i]));
+  }
+  check(worst <= 1e-13, "values are those of the polynomial", n);
+  check(values[n] == 7.0, "nothing is written beyond them", n);
+}
+
+/* All loops of one kind; their results in one vector */
+static int try_all(const loops *kind, double *results) {
+  int total = 0;
+  static double factor[STRIDE * LARGEST], x[LARGEST + 1], u[SIDE * SIDE], values[SIDE + 1];
+  for (int n = 1; n <= LARGEST; n++) {
+    try_factor(kind, n, factor, x);
+    memcpy(results + total, x, sizeof(double) * (size_t)n);
+    total += n;
+  }
+  try_indefinite(kind);
+  for (int mx = 1; mx <= SIDE; mx += 2)
+    for (int my = 1; my <= SIDE; my += 7) {
+      try_sums(kind, mx, my, u);
+      memcpy(results + total, u, sizeof(double) * (size_t)(mx * my));
+      total += mx * my;
+    }
+  try_points(kind, results + total, results + total + 8);
+  total += 16;
+  for (int n = 2; n <= SIDE; n++) {
+    try_polynomial(kind, n, values);
+    memcpy(results + total, values, sizeof(double) * (size_t)n);
+    total += n;
+  }
+  return total;
+}
+
+int main(void) {
+  static double results[2][100000];
+  const int total = try_all(&anywhere, results[0]);
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) {
+    const loops avx2 = {forward_avx2, backward_avx2, factorize_avx2, displace_avx2, meet_avx2, spread_avx2};
+    try_all(&avx2, results[1]);
+    check(!memcmp(results[0], results[1], sizeof(double) * (size_t)total), "both kinds give identical digits", total);
+  }
+#endif
+  printf("%d numbers\n", total);
+  return failures > 0;
+}
