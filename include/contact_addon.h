@@ -4,7 +4,7 @@
  * Each argument is passed by its address, single numbers included. Arrays have the length that stands
  * in front of them; texts need no null at the end, their length counts. Nothing that is passed is kept.
  * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between
- * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md tells all. */
+ * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md describes all. */
 #ifndef CONTACT_ADDON_H
 #define CONTACT_ADDON_H
 

@@ -8,7 +8,7 @@ function [ ifcver, ierror ] = cntc_initialize( ire, imodul, outdir, idebug )
 %   outdir    folder of results, if the run has not been started yet; default: the current one
 %   ifcver    version of the interface
 %   ierror    0, or a negative code CNTC.err_*
-%   idebug    1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)
+%   idebug    1: report error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)
 %
 % See also: cntc_initlibrary, cntc_finalize.
 %

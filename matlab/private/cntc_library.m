@@ -5,7 +5,7 @@ function [ answer ] = cntc_library( question, value )
 %   cntc_library('unload')
 %   cntc_library('mex')           is it reached by the gateway cntc_mex? Otherwise by Matlab's calllib
 %   cntc_library('name')          its name for calllib
-%   cntc_library('idebug', value) set or get: 0 silent, 1 tell error codes, 2 also remarks
+%   cntc_library('idebug', value) set or get: 0 silent, 1 report error codes, 2 also remarks
 %
 % The library is searched for as CONTACT_LIBRARY of the environment, then in bin, lib and build/release/bin beside
 % this folder, and in bin of an installation that has it in share/contact.

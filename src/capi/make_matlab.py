@@ -10,7 +10,7 @@ IDS = {"patch": "result element and contact patch or problem (default 1, 1)",
        "patch or whole": "result element and contact patch or problem (default 1, 1); -1: wheel and rail as a whole",
        "whole": "result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole",
        "pair": "result element of a wheel-rail problem (default 1)"}
-IDEBUG = ("idebug", "1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)")
+IDEBUG = ("idebug", "1: report error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)")
 #: Functions of matlab/ without a routine, by the title of the section of Contents.m in which they are listed first
 FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers",
                              "cntc_closelibrary"], "Settings of both modules": ["cntc_setmaterialproperties"],
