@@ -71,7 +71,10 @@ class Kernel:
         for x_side, y_side in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
             u, v = x + x_side * dx / 2, y + y_side * dy / 2
             r = np.hypot(u, v)
-            value = {"n": lambda: u * np.log(v + r) + v * np.log(u + r), "xx": lambda: u * np.log(v + r), "xy": lambda: r}[name]()
+            if name == "xy":
+                value = r
+            else:
+                value = u * np.log(v + r) + (v * np.log(u + r) if name == "n" else 0.0)
             total = total + x_side * y_side * value
         return total / (2 * np.pi)
 
@@ -262,7 +265,8 @@ def main():
         print("effect in the second element over that in the third: "
               + ", ".join(f"{effect:.2f} at share {share:.2f}" for share, effect in effects))
     wrong = []
-    for what, terms, names, column, largest in (("xy", terms_xy, NAMES_XY, 2, LARGEST[0]), ("xx", terms_xx, NAMES_XX, 4, LARGEST[1])):
+    formulas = (("xy", terms_xy, NAMES_XY, 2), ("xx", terms_xx, NAMES_XX, 4))
+    for (what, terms, names, column), largest in zip(formulas, LARGEST):
         value, error = table[:, column], table[:, column + 1]
         inside = [constant(text, name) for name in names]
         best = fitted(terms, inside, r, q, value, error)

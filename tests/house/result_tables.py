@@ -42,13 +42,13 @@ def totals(file, name):
         leave = re.match(r"if \((.*)\) return$", line)
         if leave:
             now.append(in_words(leave.group(1)))
-        found = re.search(r'(?:if \((.*)\) +)?call list%(add|count)\("(\w+)"(?:, "([^"]*)")?, "([^"]*)"', line)
+        found = re.search(r'(?:if \((.*)\) +)?call list%(add|add_friction|count)\("(\w+)"(?:, "([^"]*)")?, "([^"]*)"', line)
         if not found or "in_files=.false." in line:
             continue
         alone, kind, title, unit, meaning = found.groups()
         sign = re.search(r"orientation%(\w+)", line)
         when = in_words(alone) if alone else now[-1] if now else ""
-        yield title, (unit or "") if kind == "add" else "", meaning, SIGNS.get(sign.group(1), "") if sign else "", when
+        yield title, (unit or "") if kind != "count" else "", meaning, SIGNS.get(sign.group(1), "") if sign else "", when
 
 
 def fields():
