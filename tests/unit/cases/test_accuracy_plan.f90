@@ -1,9 +1,10 @@
 !> How an accuracy is sought: when a grid will do, and the order that estimates of two grids show
 program test_accuracy_plan
-   use contact_base_choices, only : force_control, grid_form, motion
+   use contact_base_choices, only : force_control, grid_form, motion, normal_control
    use contact_base_kinds, only : wp
-   use contact_cases_accuracy_plan, only : accuracy_law, expected_across, expected_law, finer_across, first_order_alone, &
-      & is_near_enough, observed_order
+   use contact_cases_accuracy_grid, only : is_worth
+   use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, finer_across, &
+      & first_order_alone, is_near_enough, observed_order
    use contact_cases_spec, only : case_spec
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -14,6 +15,7 @@ program test_accuracy_plan
    call ends(suite)
    call orders(suite)
    call kinds(suite)
+   call sides(suite)
    call suite%finish()
 
 contains
@@ -83,4 +85,36 @@ contains
       spec%material%gg = [82000.0_wp, 20000.0_wp]
       call suite%check(expected_across(expected_law(spec), sharp) > plain, "unlike bodies")
    end subroutine kinds
+
+   !> Expected sides of the contact, and a next grid with more elements in one direction
+   subroutine sides(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      real(wp), parameter :: radius = 300.0_wp, force = 2.0e4_wp
+      real(wp) :: length(2), a
+      integer :: k
+
+      spec%material%poiss = 0.28_wp
+      spec%material%gg = 82000.0_wp
+      spec%normal = normal_control%force
+      spec%kinematics%fn = force
+      spec%grid%form = grid_form%corner_and_sides
+      spec%grid%mx = 20
+      spec%grid%my = 20
+      spec%geometry%b([1, 3]) = 0.5_wp/radius
+      ! a ball on a plane of the same material, whose combined modulus of rigidity is G
+      a = (0.75_wp*force*radius*(1.0_wp - 0.28_wp)/82000.0_wp)**(1.0_wp/3.0_wp)
+      do k = 1, 2
+         spec%grid%dx = k
+         spec%grid%dy = k
+         call contact_sides(spec, length)
+         call suite%close_to(length(1), 2.0_wp*a, 1.0e-6_wp, "the ellipse of Hertz in any window, along x")
+         call suite%close_to(length(2), 2.0_wp*a, 1.0e-6_wp, "the ellipse of Hertz in any window, along y")
+      end do
+      spec%geometry%b(4) = 1.0e-3_wp
+      call contact_sides(spec, length)
+      call suite%close_to(length(1), 30.0_wp, 1.0e-12_wp, "a part of the window for other shapes")
+      call suite%check(is_worth([47, 47], [47, 60]), "a finer grid in one direction alone")
+      call suite%check(.not. is_worth([47, 47], [47, 48]), "a grid that is hardly finer")
+   end subroutine sides
 end program test_accuracy_plan
