@@ -130,8 +130,9 @@ contains
       type(kernel_table), intent(in) :: table
       !> Pressures [N/mm2], of the shape of the window
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Distance of the undeformed surfaces, of the same shape, and approach [mm]: displacements are computed where h < pen
+      !> Distance of the undeformed surfaces, of the same shape [mm]
       real(wp), contiguous, intent(in) :: h(:, :)
+      !> Approach [mm]: displacements are computed where h < pen
       real(wp), intent(in) :: pen
       !> Workspace
       integer, allocatable, intent(inout) :: ranges(:, :)

@@ -16,7 +16,7 @@ module contact_normal_factor_loops
          !> Number of rows, and first dimension of the array
          integer(c_int), value :: n, stride
          !> The factor L in its lower triangle
-         real(c_double), intent(in) :: lower(stride, *)
+         real(c_double), intent(in) :: lower(stride, n)
          !> b on entry, x on exit
          real(c_double), intent(inout) :: x(n)
       end subroutine solve_forward
@@ -27,7 +27,7 @@ module contact_normal_factor_loops
          !> Number of rows, and first dimension of the array
          integer(c_int), value :: n, stride
          !> The factor L in its lower triangle
-         real(c_double), intent(in) :: lower(stride, *)
+         real(c_double), intent(in) :: lower(stride, n)
          !> Right-hand side on entry, solution on exit
          real(c_double), intent(inout) :: x(n)
       end subroutine solve_backward
@@ -38,7 +38,7 @@ module contact_normal_factor_loops
          !> Number of rows, number of leading columns that already belong to the factor, and first dimension of the array
          integer(c_int), value :: n, first, stride
          !> Lower triangle of the matrix on entry, of its factor on exit
-         real(c_double), intent(inout) :: a(stride, *)
+         real(c_double), intent(inout) :: a(stride, n)
          !> Workspace
          real(c_double), intent(inout) :: row(n)
       end function factorize

@@ -336,24 +336,26 @@ contains
             self%lower(k, :kept) = self%lower(self%row(k), :kept)
             cycle
          end if
-         call pick(operator%table%nn, own + self%at(k), self%at, kept, self%x)
+         call pick(size(operator%table%nn), operator%table%nn, own + self%at(k), kept, self%at, self%x)
          call solve_forward(kept, most, self%lower, self%x)
          self%lower(k, :kept) = self%x(:kept)
       end do
       do k = kept + 1, n
-         call pick(operator%table%nn, own + self%at(k), self%at(k:), n - k + 1, self%lower(k:, k))
+         call pick(size(operator%table%nn), operator%table%nn, own + self%at(k), n - k + 1, self%at(k:), self%lower(k:, k))
       end do
       fits = factorize(n, kept, most, self%lower, self%x) > 0
    end subroutine extend
 
    !> Coefficients between an element and others
-   pure subroutine pick(nn, from, at, n, values)
+   pure subroutine pick(total, nn, from, n, at, values)
+      !> Size of the table
+      integer, intent(in) :: total
       !> Table of coefficients, even in both directions, as a vector
-      real(wp), intent(in) :: nn(*)
-      !> Place in it of the element on itself, plus the position of the element; positions and number of the others
-      integer, intent(in) :: from, at(*), n
-      !> The first n are set
-      real(wp), intent(inout) :: values(*)
+      real(wp), intent(in) :: nn(total)
+      !> Place in it of the element on itself, plus the position of the element; number of the others, and their positions
+      integer, intent(in) :: from, n, at(n)
+      !> Coefficients [mm3/N]
+      real(wp), intent(inout) :: values(n)
       integer :: k
 
       do k = 1, n

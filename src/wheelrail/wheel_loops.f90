@@ -22,6 +22,7 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(in) :: base(3), axis(3), along(3)
          !> Maximum distance from the plane through the axle, and tolerance of the steps; both relative to the radius
          real(c_double), value :: near, tolerance
+         !> Maximum number of steps
          integer(c_int), value :: most_steps
          !> Positions of the points [mm]
          real(c_double), intent(in) :: x(together)
@@ -38,6 +39,7 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(in) :: p(0:7)
          !> Number of points, at least 2
          integer(c_int), value :: n
+         !> Values of the polynomial
          real(c_double), intent(inout) :: values(n)
       end subroutine spread_polynomial
    end interface
