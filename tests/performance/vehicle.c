@@ -332,12 +332,12 @@ int main(int count, char **word) {
     judge_smoothness(1.0, 1.3);
     judge_smoothness(0.5, 1.3);
     judge_smoothness(0.5, 5.3);
-    judge_requests(1.0, 2.0);
+    judge_requests(1.0, 1.0);
     theory = 3;
     compare_with_fresh(0, 1.0, 0, 60, 2);
     pressures = 5;
     compare_with_fresh(0, 1.0, 0, 60, 2);
-    judge_requests(1.0, 0.5);
+    judge_requests(1.0, 0.2);
     pressures = 6;
     compare_with_fresh(0, 1.0, 0, 24, 2);
     /* the force is reached at two heights in step 63 */
