@@ -489,21 +489,21 @@ contains
          write(counts(5), "(es8.1)") max(found%friction, found%gap, found%penetration)
          write(table, "(a)") "| " // name // " | " // trim(counts(1)) // " | " // trim(normal) // " | " // method // " | " // &
             & trim(counts(2)) // " | " // trim(counts(3)) // " | " // trim(adjustl(counts(4))) // " | " // &
-            & trim(adjustl(counts(5))) // " | " // endings(n, t, merge(run%warnings, 0, res%outer_iterations > 1)) // " |"
+            & trim(adjustl(counts(5))) // " | " // endings(n, t, res%status%is_solved()) // " |"
          flush(table)
       end associate
    end subroutine write_row
 
    !> How both problems ended
-   function endings(normal, tangential, warnings) result(text)
+   function endings(normal, tangential, is_solved) result(text)
       type(solve_report), intent(in) :: normal, tangential
-      !> A message without a fall-back or a failure is that of the outer iteration
-      integer, intent(in) :: warnings
+      !> Is the case solved? If not, although both problems converged, the outer iteration did not
+      logical, intent(in) :: is_solved
       character(len=:), allocatable :: text
 
       if (normal%succeeded() .and. tangential%succeeded()) then
          text = "converged"
-         if (warnings > 0 .and. tangential%gave_up == "") text = "outer iteration at its limit (warning)"
+         if (.not. is_solved) text = "outer iteration at its limit"
          return
       end if
       text = ""
