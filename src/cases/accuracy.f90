@@ -13,12 +13,12 @@ module contact_cases_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, no_direction, set_elements, &
       & stay_below
-   use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, take_curvatures
+   use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, use_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
       & smaller_tolerance, solver_tolerance, stopping_share, time_is_left
    use contact_cases_accuracy_series, only : has_history
-   use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
+   use contact_cases_approximate_methods, only : approximate_method, choose_method, use_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, part_source
@@ -130,8 +130,8 @@ contains
       call prepare_level(report%eps, level)
       level%parts%grid = part_source%given
       level%parts%geometry = part_source%given
-      if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
-      call take_method(chosen, level)
+      if (keeps_axes(spec)) call use_curvatures(session%curvatures, level%grid)
+      call use_method(chosen, level)
       level%estimates_errors = .false.
       began = wall_clock()
       call solve_case(session, level, log, result, error, folder)
@@ -145,8 +145,8 @@ contains
          report%reason = not_converged
       end if
       level = spec
-      call take_method(chosen, level)
-      call tell_report(session, level, result, report, solved, log)
+      call use_method(chosen, level)
+      call complete_report(session, level, result, report, solved, log)
       result%accuracy%order = 0
       call leave_errors(result)
    end subroutine approximate
@@ -160,7 +160,7 @@ contains
       if (allocated(result%errors)) deallocate(result%errors)
       allocate(result%errors)
       allocate(result%errors%value(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
-      result%errors%reason = "a simplified method was chosen; its error is told with the accuracy"
+      result%errors%reason = "a simplified method was chosen; its error is given with the accuracy"
    end subroutine leave_errors
 
    !> Refine the grid until the estimate is small enough, or no finer grid is possible
@@ -240,7 +240,7 @@ contains
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)
-      call tell_report(session, spec, result, report, solved, log)
+      call complete_report(session, spec, result, report, solved, log)
    end subroutine refine
 
    !> Reduce the tolerance of the next grid, or of the same one, if iterations stopped too early for the accuracy
@@ -282,7 +282,7 @@ contains
    end subroutine keep_better
 
    !> Report the choices; a warning if the accuracy was not reached
-   subroutine tell_report(session, spec, result, report, solved, log)
+   subroutine complete_report(session, spec, result, report, solved, log)
       !> With the curvatures of the previous case
       type(contact_session), intent(in) :: session
       !> The case as specified
@@ -306,7 +306,7 @@ contains
          end if
       end if
       allocate(solved, source=spec)
-      if (keeps_axes(spec)) call take_curvatures(session%curvatures, solved%grid)
+      if (keeps_axes(spec)) call use_curvatures(session%curvatures, solved%grid)
       call set_elements(solved%grid, report%elements, report%elements*report%sides)
       solved%iteration%eps = report%eps
       solved%iteration%order = acting_order(spec)
@@ -314,5 +314,5 @@ contains
       if (spec%motion == motion%steady_rolling) solved%rolling%dq = result%dq
       result%accuracy = report
       if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
-   end subroutine tell_report
+   end subroutine complete_report
 end module contact_cases_accuracy

@@ -15,7 +15,7 @@ module contact_cases_accuracy_level
    implicit none (type, external)
    private
 
-   public :: first_grid, keeps_axes, solve_level, take_curvatures
+   public :: first_grid, keeps_axes, solve_level, use_curvatures
 
 contains
 
@@ -27,7 +27,7 @@ contains
    end function keeps_axes
 
    !> Replace semi-axes by curvatures
-   pure subroutine take_curvatures(curvatures, grid)
+   pure subroutine use_curvatures(curvatures, grid)
       !> Coefficients of x**2 and y**2 [1/mm]
       real(wp), intent(in) :: curvatures(2)
       !> On entry with semi-axes, on return with curvatures
@@ -36,7 +36,7 @@ contains
       grid%a1 = curvatures(1)
       grid%b1 = curvatures(2)
       grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
-   end subroutine take_curvatures
+   end subroutine use_curvatures
 
    !> The first grid of a search
    subroutine first_grid(session, spec, law, fixed, grid)
@@ -127,7 +127,7 @@ contains
       if (session%refines) level%estimate = estimate_choice%previous
       level%parts%grid = part_source%given
       level%parts%geometry = part_source%given
-      if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
+      if (keeps_axes(spec)) call use_curvatures(session%curvatures, level%grid)
       call set_elements(level%grid, grid%counts, grid%lengths)
       if (grid%lengths(1) > 0.0_wp .and. spec%motion == motion%steady_rolling) level%rolling%dq = grid%lengths(1)/grid%counts(1)
       call log%defer()

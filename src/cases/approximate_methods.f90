@@ -17,7 +17,7 @@ module contact_cases_approximate_methods
    implicit none (type, external)
    private
 
-   public :: approximate_method, choose_method, take_method
+   public :: approximate_method, choose_method, use_method
 
    !> Values of the option that allows simplified methods with a requested accuracy: words of the readable format and the command
    !> line
@@ -217,7 +217,7 @@ contains
    end function title_of
 
    !> Apply the chosen method to a case
-   pure subroutine take_method(chosen, spec)
+   pure subroutine use_method(chosen, spec)
       !> Method that was found
       type(approximate_method), intent(in) :: chosen
       !> Material model, pressures and elements are set
@@ -231,5 +231,5 @@ contains
       spec%grid%mx = chosen%method%elements
       spec%grid%my = chosen%method%elements
       spec%grid%scale = 1.0_wp
-   end subroutine take_method
+   end subroutine use_method
 end module contact_cases_approximate_methods

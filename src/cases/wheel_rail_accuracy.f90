@@ -152,7 +152,7 @@ contains
             report%estimated = before
          end if
       end if
-      call tell_report(spec, sides, result, report, solved, log)
+      call complete_report(spec, sides, result, report, solved, log)
    end subroutine refine
 
    !> Estimated relative error of all patches together, weighted by their loads; negative without contact
@@ -220,7 +220,7 @@ contains
    end subroutine next_sides
 
    !> Report the choices; a warning if the accuracy was not reached
-   subroutine tell_report(spec, sides, result, report, solved, log)
+   subroutine complete_report(spec, sides, result, report, solved, log)
       !> The case as specified
       type(case_spec), intent(in) :: spec
       !> Sides of the last elements [mm]
@@ -247,5 +247,5 @@ contains
       solved%estimates_errors = .true.
       result%accuracy = report
       if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
-   end subroutine tell_report
+   end subroutine complete_report
 end module contact_cases_wheel_rail_accuracy

@@ -63,7 +63,7 @@ module contact_elastic_compliance
       !> Number of pairs of forward and backward transforms so far
       procedure :: fft_pairs
       !> Add the pairs of a coarse level, and reset its count
-      procedure :: settle_account
+      procedure :: collect_pairs
    end type compliance
 
    abstract interface
@@ -189,7 +189,7 @@ contains
       pairs = 0.5_wp*self%transforms
    end function fft_pairs
 
-   pure subroutine settle_account(self, elements, pairs)
+   pure subroutine collect_pairs(self, elements, pairs)
       class(compliance), intent(inout) :: self
       !> Number of elements of the finest window
       integer, intent(in) :: elements
@@ -199,5 +199,5 @@ contains
       pairs = pairs + self%fft_pairs()*self%mx*self%my/elements
       self%transforms = 0
       self%products = 0
-   end subroutine settle_account
+   end subroutine collect_pairs
 end module contact_elastic_compliance

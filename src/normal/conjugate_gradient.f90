@@ -107,7 +107,7 @@ contains
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
       do k = 2, size(workspace%level)
          if (.not. allocated(workspace%level(k)%operator)) cycle
-         call workspace%level(k)%operator%settle_account(problem%mx*problem%my, report%fft_pairs)
+         call workspace%level(k)%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_normal
 

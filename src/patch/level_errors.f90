@@ -288,14 +288,14 @@ contains
    end function trust_in
 
    !> Error from the differences of levels and the general error
-   pure real(wp) function trusted(told, floor, power) result(e)
+   pure real(wp) function trusted(by_levels, floor, power) result(e)
       !> Error by the levels, and general error
-      real(wp), intent(in) :: told, floor
+      real(wp), intent(in) :: by_levels, floor
       !> Exponent of the ratio of both, if larger than 1
       real(wp), intent(in) :: power
 
-      e = told
-      if (told > floor .and. floor > 0.0_wp) e = floor*(told/floor)**power
+      e = by_levels
+      if (by_levels > floor .and. floor > 0.0_wp) e = floor*(by_levels/floor)**power
    end function trusted
 
    !> Error of frictional power or work without contributions of solvers and window, in its unit
@@ -339,12 +339,12 @@ contains
       type(scale_type), intent(in) :: scale
       !> Frictional power, positive [W]
       real(wp), intent(in) :: unit
-      real(wp) :: floor, told
+      real(wp) :: floor, by_levels
 
       floor = friction_floor(scale, scale%adhesion, .true.)*max(scale%power, unit)
-      told = part_of(scale, scale%order)*abs(scale%motion_change)
-      if (scale%jumps) told = trusted(told, floor, trust_in(scale))
-      e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
+      by_levels = part_of(scale, scale%order)*abs(scale%motion_change)
+      if (scale%jumps) by_levels = trusted(by_levels, floor, trust_in(scale))
+      e = hypot(scale%surplus - sign(signed*by_levels, scale%motion_change), max(floor, unsigned*by_levels))
       ! a surplus that jumps with the offset of the grid may be small by chance: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, part_of(scale, scale%order)*abs(scale%coarse_surplus))
    end function error_by_balance

@@ -24,7 +24,7 @@ contains
 
       result%status = case_status()
       call result%status%record_iteration(missed_iteration%normal, "normal problem", result%normal)
-      call judge_forces(problem, result)
+      call check_forces(problem, result)
       if (.not. result%tangential%succeeded() .and. result%status%iteration /= missed_iteration%force) &
          & call result%status%record_iteration(missed_iteration%tangential, "tangential problem", result%tangential)
       if (allocated(result%friction)) call result%status%record_iteration(missed_iteration%outer, "friction law", result%friction)
@@ -32,7 +32,7 @@ contains
    end subroutine derive_status
 
    !> Check whether the prescribed tangential forces were reached
-   subroutine judge_forces(problem, result)
+   subroutine check_forces(problem, result)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
       character(len=2), parameter :: name(2) = ["FX", "FY"]
@@ -61,5 +61,5 @@ contains
             call result%status%record_missed_force(name(k), requested(k), found(k), "the search for the creepage ended before")
          end if
       end do
-   end subroutine judge_forces
+   end subroutine check_forces
 end module contact_patch_status

@@ -15,25 +15,25 @@ module contact_patch_step_errors
    !> Typical error of forces times n: in full adhesion or full sliding, and the addition with equal areas of both
    real(wp), parameter :: force_floor = 0.2_wp, force_border = 0.7_wp
    !> Lower bound of the difference of levels, relative to the typical error
-   real(wp), parameter :: least_told = 0.2_wp
+   real(wp), parameter :: least_ratio = 0.2_wp
    !> Power relative to that of full sliding: factor of n^-1, lower bound of the power and its exponent; factor of the difference of
    !> levels, a lower bound of the error
-   real(wp), parameter :: power_floor = 0.4_wp, least_power = 0.01_wp, power_exponent = 0.7_wp, power_told = 0.2_wp
+   real(wp), parameter :: power_floor = 0.4_wp, least_power = 0.01_wp, power_exponent = 0.7_wp, power_share = 0.2_wp
    !> Ratio of the relative error of the elastic energy of tractions to that of the tractions
    real(wp), parameter :: energy_of_forces = 0.6_wp
 
 contains
 
    !> Relative error of tangential forces: geometric mean of the difference of levels and the typical error
-   pure real(wp) function force_error(told, adhesion, across) result(e)
+   pure real(wp) function force_error(estimate, adhesion, across) result(e)
       !> Difference of the levels relative to the maximum frictional force [-]
-      real(wp), intent(in) :: told
+      real(wp), intent(in) :: estimate
       !> Fraction of the elements in contact that are in adhesion [-]
       real(wp), intent(in) :: adhesion
       !> Number of elements across the contact
       real(wp), intent(in) :: across
 
-      e = usual_error(adhesion, across)*sqrt(max(told/usual_error(adhesion, across), least_told))
+      e = usual_error(adhesion, across)*sqrt(max(estimate/usual_error(adhesion, across), least_ratio))
    end function force_error
 
    !> Typical relative error of tangential forces with this number of elements
@@ -45,16 +45,16 @@ contains
    end function usual_error
 
    !> Error of frictional power, relative to that of full sliding
-   pure real(wp) function power_error(power, difference, told, adhesion, across, elements) result(e)
+   pure real(wp) function power_error(power, difference, estimate, adhesion, across, elements) result(e)
       !> Power, and difference of the levels, both relative to the power of full sliding [-]
       real(wp), intent(in) :: power, difference
       !> See force_error
-      real(wp), intent(in) :: told, adhesion, across
+      real(wp), intent(in) :: estimate, adhesion, across
       !> Length of the step, in elements [-]
       real(wp), intent(in) :: elements
       real(wp) :: irregular
 
-      irregular = max(1.0_wp, force_error(told, adhesion, across)/usual_error(adhesion, across))
-      e = max(irregular*power_floor*(power + least_power)**power_exponent*sqrt(elements)/across, power_told*difference)
+      irregular = max(1.0_wp, force_error(estimate, adhesion, across)/usual_error(adhesion, across))
+      e = max(irregular*power_floor*(power + least_power)**power_exponent*sqrt(elements)/across, power_share*difference)
    end function power_error
 end module contact_patch_step_errors

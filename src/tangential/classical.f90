@@ -10,7 +10,7 @@ module contact_tangential_classical
    use contact_tangential_convex_gs, only : convex_gs
    use contact_tangential_gd_steady, only : gd_steady
    use contact_tangential_prescribed_forces, only : force_iteration
-   use contact_tangential_problem, only : at_bound, divide_elements, prepare_solution, residual_scale, settle, &
+   use contact_tangential_problem, only : at_bound, divide_elements, prepare_solution, residual_scale, finish_slip, &
       & slip_of, tangential_problem, tangential_solution, true_residual
    use contact_tangential_steady_gs, only : steady_gs
    use contact_tangential_streaming, only : streaming_rows
@@ -148,7 +148,7 @@ contains
       end if
       report%residual = true_residual(problem, solution%p, solution%slip, self%r)
       if (report%residual > no_solution .and. report%ended == ending%converged) report%ended = ending%stagnated
-      call settle(problem, self%r, solution)
+      call finish_slip(problem, self%r, solution)
       report%products = report%products + operator%products - products_before
       if (self%with_rows) then
          report%products = report%products + self%rows%products()

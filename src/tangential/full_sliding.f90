@@ -7,8 +7,8 @@ module contact_tangential_full_sliding
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : apply_operator, prepare_solution, residual_scale, settle, slip_of, tangential_problem, &
-      & tangential_solution, true_residual
+   use contact_tangential_problem, only : apply_operator, finish_slip, prepare_solution, residual_scale, slip_of, &
+      & tangential_problem, tangential_solution, true_residual
    implicit none (type, external)
    private
 
@@ -75,6 +75,6 @@ contains
       report%residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
       report%tolerance = problem%settings%eps
       report%ended = ending%beyond_friction
-      call settle(problem, residual_scale(problem, operator), solution)
+      call finish_slip(problem, residual_scale(problem, operator), solution)
    end subroutine slide_fully
 end module contact_tangential_full_sliding

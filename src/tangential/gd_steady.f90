@@ -153,7 +153,7 @@ contains
          call self%move_elements(problem, p, state, moved)
          call self%set_residual(problem, p, state)
          self%progress = max(0.0_wp, 1.0_wp - sqrt(self%square()/old_square))
-         call watch%judge(sum(((p - before)*doubt(self%progress))**2), sum(p**2), problem%settings%maxgs, report%ended)
+         call watch%check_update(sum(((p - before)*doubt(self%progress))**2), sum(p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "GDsteady", state)
          if (report%ended == ending%converged .and. moved) report%ended = ending%not_started
          ! small updates do not imply a small residual; whether forces are met is checked by the caller

@@ -14,7 +14,7 @@ module contact_tangential_nested
    use contact_tangential_local_estimate, only : estimate_locally
    use contact_tangential_newton_adjoint, only : newton_adjoint
    use contact_tangential_newton, only : newton_derivative, newton_outcome, newton_solve, newton_workspace
-   use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
+   use contact_tangential_problem, only : prepare_solution, residual_scale, finish_slip, slip_of, &
       & tangential_problem, tangential_solution, true_residual
    implicit none (type, external)
    private
@@ -81,7 +81,7 @@ contains
       end if
       call estimate_from_nothing(problem, operator, solution)
       call newton_solve(problem, operator, problem%settings%eps, workspace%level(1)%newton, solution, outcome, log)
-      call settle(problem, residual_scale(problem, operator), solution)
+      call finish_slip(problem, residual_scale(problem, operator), solution)
       report%ended = outcome%ended
       report%iterations = outcome%steps
       report%residual = outcome%residual
@@ -89,7 +89,7 @@ contains
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
       do k = 2, size(workspace%level)
          if (.not. allocated(workspace%level(k)%operator)) cycle
-         call workspace%level(k)%operator%settle_account(problem%mx*problem%my, report%fft_pairs)
+         call workspace%level(k)%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_newton_krylov
 

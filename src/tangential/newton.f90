@@ -119,7 +119,7 @@ contains
          outcome%steps = step
          outcome%residual = residual
          if (present(log)) call trace_step(problem, step, residual, solution, log)
-         call judge(problem, step, since, history, tolerance, outcome%ended)
+         call check_ending(problem, step, since, history, tolerance, outcome%ended)
          if (outcome%ended /= ending%not_started) exit
 
          call linearise(problem, system, solution, workspace)
@@ -144,7 +144,7 @@ contains
    end subroutine newton_solve
 
    !> Decide whether the iteration ends before the next step, and how
-   subroutine judge(problem, step, since, history, tolerance, ended)
+   subroutine check_ending(problem, step, since, history, tolerance, ended)
       type(tangential_problem), intent(in) :: problem
       !> Number of steps so far, and number of steps at the last change of the equations
       integer, intent(in) :: step, since
@@ -167,7 +167,7 @@ contains
             ended = ending%out_of_time
          end if
       end associate
-   end subroutine judge
+   end subroutine check_ending
 
    !> Step along the correction, with shorter steps until the residual decreases sufficiently; the best step is used
    subroutine take_step(problem, operator, system, correction, residual, creep_range, workspace, solution, best)
@@ -249,7 +249,7 @@ contains
       if (.not. any(problem%bound > 0.0_wp)) return
       call fit_workspace(workspace, problem%mx, problem%my)
       system = new_system(problem, operator)
-      ! after `settle` the slip contains no plastic part
+      ! after `finish_slip` the slip contains no plastic part
       at = solution
       call slip_of(problem, operator, at%p, at%creep, at%slip)
       call linearise(problem, system, at, workspace)

@@ -8,7 +8,7 @@
 !>     p - P_g(p - r S(p)) = 0
 !>
 !> with P_g the projection onto the disc of radius g and any r > 0. If the surface yields (contact_tangential_yield), S is the
-!> sum of slip and plastic shearing until `settle` separates them, and the return map replaces the projection.
+!> sum of slip and plastic shearing until `finish_slip` separates them, and the return map replaces the projection.
 module contact_tangential_problem
    use contact_base_kinds, only : wp
    use contact_base_limits, only : deadline_type
@@ -24,7 +24,7 @@ module contact_tangential_problem
 
    public :: tangential_problem, tangential_solution, prepare_solution
    public :: add_creepages, apply_operator, slip_of, true_residual, contact_residual, divide_elements
-   public :: residual_scale, limits_before, settle, at_bound
+   public :: residual_scale, limits_before, finish_slip, at_bound
 
    !> Tractions above this fraction of the bound are regarded as on it: round-off of a traction scaled to its bound; chosen
    real(wp), parameter :: at_bound = 1.0_wp - 1.0e-12_wp
@@ -66,7 +66,7 @@ module contact_tangential_problem
       type(deadline_type) :: deadline
       !> Yield limits; unallocated: the surface does not yield
       type(yield_data), allocatable :: yield
-      !> Terms of the leading edge, and weights and turns of the equations: all slip is weighted and turned until `settle` is
+      !> Terms of the leading edge, and weights and turns of the equations: all slip is weighted and turned until `finish_slip` is
       !> called; unallocated: first-order scheme
       type(second_order), allocatable :: second
    contains
@@ -352,7 +352,7 @@ contains
    !>
    !> Without slope an element yields if its limit is the bound. With the second-order scheme the slip becomes that at the
    !> centres of elements. Does nothing else if the surface does not yield.
-   subroutine settle(problem, r, solution)
+   subroutine finish_slip(problem, r, solution)
       !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
@@ -394,5 +394,5 @@ contains
             end if
          end do
       end do
-   end subroutine settle
+   end subroutine finish_slip
 end module contact_tangential_problem

@@ -42,7 +42,7 @@ module contact_tangential_slip_turns
       !> The transposed of both
       procedure :: apply_transposed, invert_transposed
       !> Half a turn of the contact
-      procedure :: turn_round => turn_turns_round
+      procedure :: turn_round => reverse_turns
    end type slip_turns
 
    !> Part of the difference of slip and mean in the product of their lengths; it is of fourth order where slip is smooth; chosen
@@ -422,10 +422,10 @@ contains
       end do
    end subroutine invert_transposed
 
-   subroutine turn_turns_round(self)
+   subroutine reverse_turns(self)
       class(slip_turns), intent(inout) :: self
 
       self%at(:, :self%n) = self%window + 1 - self%at(:, :self%n)
       self%is_transposed = .true.
-   end subroutine turn_turns_round
+   end subroutine reverse_turns
 end module contact_tangential_slip_turns

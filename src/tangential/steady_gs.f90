@@ -48,7 +48,7 @@ contains
             call rows%renew_row(iy)
          end do
          report%iterations = sweep
-         call watch%judge(sum((rows%p - before)**2), sum(rows%p**2), problem%settings%maxgs, report%ended)
+         call watch%check_update(sum((rows%p - before)**2), sum(rows%p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "SteadyGS", rows%state)
          if (report%ended /= ending%not_started) exit
       end do

@@ -32,7 +32,7 @@ module contact_tangential_sweep
       integer :: updates = 0
    contains
       !> Process an update, and decide whether and how the iteration ends
-      procedure :: judge
+      procedure :: check_update
       !> Average ratio of successive updates
       procedure :: rate
       !> Root mean square over the contact area
@@ -42,7 +42,7 @@ module contact_tangential_sweep
 contains
 
    !> Process an update; gives ending%not_started while the iteration continues
-   subroutine judge(self, square_dif, square_size, limit, ended)
+   subroutine check_update(self, square_dif, square_size, limit, ended)
       class(update_watch), intent(inout) :: self
       !> Sums of squares of the update and of the tractions
       real(wp), intent(in) :: square_dif, square_size
@@ -68,7 +68,7 @@ contains
       else
          ended = ending%not_started
       end if
-   end subroutine judge
+   end subroutine check_update
 
    !> Root mean square over the contact area
    pure real(wp) function mean(self, squares)

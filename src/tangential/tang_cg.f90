@@ -116,7 +116,7 @@ contains
          inner = 0
          moved = 0.0_wp
          watch%updates = iterations - 1
-         call watch%judge(sum((p - before)**2), sum(p**2), limit, ended)
+         call watch%check_update(sum((p - before)**2), sum(p**2), limit, ended)
          call trace_iteration(log, watch, "TangCG", state)
          if (ended == ending%diverged .and. iterations < limit) then
             p = at_check

@@ -65,7 +65,7 @@ module contact_wheelrail_bodies
       type(surface_cut), private :: cut(2)
    contains
       !> Height of a rail above both slices
-      procedure :: swing
+      procedure :: overshoot
    end type slice_pair
 
    !> Maximum distance of sections along the surface [mm]
@@ -163,7 +163,7 @@ contains
    !> read
    !>
    !> Overshoot of the spline at sudden changes is not a surface that can be in contact.
-   real(wp) function swing(self, along, x, y, z)
+   real(wp) function overshoot(self, along, x, y, z)
       class(slice_pair), intent(inout) :: self
       !> The sections of the rail
       type(strip), intent(in) :: along
@@ -173,7 +173,7 @@ contains
       logical :: found(1, 2)
       integer :: k, i
 
-      swing = 0.0_wp
+      overshoot = 0.0_wp
       associate (slices => along%surface%slices)
          k = count(slices <= along%origin + x)
          if (k == 0 .or. k == size(slices)) return
@@ -189,9 +189,9 @@ contains
          call self%cut(i)%curve%heights([y], height(:, i), found(:, i))
       end do
       if (.not. all(found)) return
-      swing = minval(height) - z
-      if (swing < large_overshoot) swing = 0.0_wp
-   end function swing
+      overshoot = minval(height) - z
+      if (overshoot < large_overshoot) overshoot = 0.0_wp
+   end function overshoot
 
    !> Index of the nearest section; 0 beyond the ends
    pure integer function number_at(self, place)

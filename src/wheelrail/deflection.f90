@@ -4,7 +4,7 @@ module contact_wheelrail_deflection
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_numeric_root_search, only : root_search
-   use contact_wheelrail_height, only : out_of_sight, settle, small_step
+   use contact_wheelrail_height, only : contact_reach, find_height, small_step
    use contact_wheelrail_memory, only : wheel_rail_memory, total_force, vertical_force
    use contact_wheelrail_placement, only : side_sign
    use contact_wheelrail_problem, only : wheel_rail_problem
@@ -44,7 +44,7 @@ contains
 
       first = memory%geometry%deflection
       associate (rail => problem%spec%rail)
-         call settle(problem, memory, z, silent, result, error)
+         call find_height(problem, memory, z, silent, result, error)
          if (allocated(error)) return
          residual = unbalanced()
          step = rail%first_step
@@ -54,15 +54,15 @@ contains
          search%resolution = fine_deflection
          if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, part_of_tolerance*tolerance/rail%ky)
          do
-            call search%update(residual, abs(search%x - first) > out_of_sight)
+            call search%update(residual, abs(search%x - first) > contact_reach)
             if (search%finished) exit
             memory%geometry%deflection = search%x
-            call settle(problem, memory, z, silent, result, error)
+            call find_height(problem, memory, z, silent, result, error)
             if (allocated(error)) return
             residual = unbalanced()
          end do
          memory%geometry%deflection = search%best
-         call settle(problem, memory, z, log, result, error)
+         call find_height(problem, memory, z, log, result, error)
          if (allocated(error)) return
          residual = unbalanced()
          if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return

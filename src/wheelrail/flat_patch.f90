@@ -16,7 +16,7 @@ module contact_wheelrail_flat_patch
    implicit none (type, external)
    private
 
-   public :: distance_scratch, patch_frame, patch_grid, undeformed_distance, start_places, settle_distance
+   public :: distance_scratch, patch_frame, patch_grid, undeformed_distance, start_places, shift_distance
 
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter, public :: nothing_there = 999.0_wp
@@ -130,7 +130,7 @@ contains
    !>
    !> If the gap decreases from one row to the next by more than possible for one surface, the line along n has met another part of
    !> the rail or wheel, such as a guard rail. This part and what lies beyond it, as seen from the reference, is treated as missing.
-   pure subroutine settle_distance(grid, joined, h, approach, strangers)
+   pure subroutine shift_distance(grid, joined, h, approach, left_out)
       !> Size of the grid
       type(potential_contact), intent(in) :: grid
       !> Was the region joined from several? Then any shape is possible between them, and nothing is left out
@@ -140,13 +140,13 @@ contains
       !> Maximum interpenetration along n [mm]; negative if the bodies do not touch
       real(wp), intent(out) :: approach
       !> Number of elements that are left out although the bodies would overlap there
-      integer, intent(out) :: strangers
+      integer, intent(out) :: left_out
       !> Maximum decrease of the gap from row to row: in mm, and relative to the distance of rows
       real(wp), parameter :: largest_fall = 1.0_wp, steepest_fall = 10.0_wp
       integer :: ix, iy, step, centre, known
       logical :: beyond
 
-      strangers = 0
+      left_out = 0
       if (.not. joined .and. .not. falls_slowly(h, max(largest_fall, steepest_fall*grid%dy))) then
          centre = min(max(nint(0.5_wp - grid%yl/grid%dy), 1), grid%my)
          do step = -1, 1, 2
@@ -159,7 +159,7 @@ contains
                      & > max(largest_fall, steepest_fall*grid%dy*abs(iy - known))
                   known = iy
                   if (.not. beyond) cycle
-                  if (h(ix, iy) < 0.0_wp) strangers = strangers + 1
+                  if (h(ix, iy) < 0.0_wp) left_out = left_out + 1
                   h(ix, iy) = nothing_there
                end do
             end do
@@ -167,11 +167,11 @@ contains
       end if
       approach = -minval(h)
       h = h + approach
-   end subroutine settle_distance
+   end subroutine shift_distance
 
    !> Do both bodies exist in all elements, and does the gap change by less than a limit from each row to the next?
    pure logical function falls_slowly(h, limit)
-      !> See `settle_distance`
+      !> See `shift_distance`
       real(wp), intent(in) :: h(:, :)
       !> Limit [mm]
       real(wp), intent(in) :: limit
@@ -192,7 +192,7 @@ contains
    end function falls_slowly
 
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach
-   subroutine undeformed_distance(rail, wheel, placement, plane, scratch, grid, h, approach, strangers)
+   subroutine undeformed_distance(rail, wheel, placement, plane, scratch, grid, h, approach, left_out)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
@@ -207,10 +207,10 @@ contains
       type(potential_contact), intent(in) :: grid
       !> Distance [mm], shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> See `settle_distance`
+      !> See `shift_distance`
       real(wp), intent(out) :: approach
-      !> Number of elements that are left out, see `settle_distance`
-      integer, intent(out) :: strangers
+      !> Number of elements that are left out, see `shift_distance`
+      integer, intent(out) :: left_out
       type(frame) :: seen
       real(wp) :: s, n_rail
       integer :: ix, iy
@@ -244,7 +244,7 @@ contains
             end do
          end if
       end do
-      call settle_distance(grid, scratch%n > 2, h, approach, strangers)
+      call shift_distance(grid, scratch%n > 2, h, approach, left_out)
    end subroutine undeformed_distance
 
    !> Height of a roller's surface over the plane: root of the distance to the surface below the track point at n

@@ -21,7 +21,7 @@ module contact_wheelrail_height
    implicit none (type, external)
    private
 
-   public :: settle, out_of_sight, small_step
+   public :: find_height, contact_reach, small_step
 
    !> Maximum number of tangential solutions in a search with fixed friction ratios; if one misses the force by less than the
    !> fraction `direct`, the next tangential solution follows after one step, without trials in between
@@ -55,12 +55,12 @@ module contact_wheelrail_height
    integer, parameter :: rounds_of_width = 3
 
    !> Distance of heights and deflections beyond which there is no contact [mm]
-   real(wp), parameter :: out_of_sight = 500.0_wp
+   real(wp), parameter :: contact_reach = 500.0_wp
 
 contains
 
    !> Find height and contact for the present deflection of the rail and the present pitch rate
-   subroutine settle(problem, memory, z, log, result, error)
+   subroutine find_height(problem, memory, z, log, result, error)
       !> The problem: height or force, profiles, friction
       type(wheel_rail_problem), intent(in) :: problem
       !> Patches are solved at the height found; results of earlier searches serve as estimates
@@ -98,7 +98,7 @@ contains
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          return
       end if
-      if (memory%geometry%touch - z > out_of_sight) then
+      if (memory%geometry%touch - z > contact_reach) then
          memory%used = 0
          call result%status%record_missed_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
             & "wheel and rail do not meet: their lateral positions are apart")
@@ -127,7 +127,7 @@ contains
             end if
          end if
       end associate
-   end subroutine settle
+   end subroutine find_height
 
    !> Find the height at which the vertical force acts
    !>

@@ -256,11 +256,11 @@ contains
       real(wp), intent(in) :: z, last_z, last_force
       !> Ratio of the derivative of the force to its value by the stiffness [-]; not changed if the estimate is not plausible
       real(wp), intent(inout) :: stiffer
-      real(wp) :: told
+      real(wp) :: ratio
 
       if (.not. abs(z - last_z) > telling_way*(z - self%touch)) return
-      told = (self%force - last_force)/((z - last_z)*max(self%stiffness, tiny(told)))
-      if (told > least_stiff .and. told < most_stiff) stiffer = told
+      ratio = (self%force - last_force)/((z - last_z)*max(self%stiffness, tiny(ratio)))
+      if (ratio > least_stiff .and. ratio < most_stiff) stiffer = ratio
    end subroutine compare_stiffness
 
    !> Is a linear extrapolation from the last trial accurate enough?

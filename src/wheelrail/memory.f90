@@ -46,8 +46,8 @@ module contact_wheelrail_memory
       type(lattice_window) :: window, solved_window
       !> Data that the undeformed distance keeps from trial to trial
       type(distance_scratch) :: distance
-      !> Number of elements left out because the gap jumps between them and the reference; see `settle_distance`
-      integer :: strangers = 0
+      !> Number of elements left out because the gap jumps between them and the reference; see `shift_distance`
+      integer :: left_out = 0
       !> Patches of the previous time step that this one continues
       integer, allocatable :: previous(:)
       !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane

@@ -12,7 +12,7 @@ module contact_wheelrail_patch_inputs
    use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
    use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
       & surface_heights, surface_slip
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, settle_distance, start_places, undeformed_distance
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, shift_distance, start_places, undeformed_distance
    use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : rail_motion, wheel_motion
@@ -168,11 +168,11 @@ contains
       do
          if (geometry%searches_table) then
             call variable_distance(geometry%bodies, slot%plane, allocated(slot%region%seeds), slot%problem%grid, h, approach, &
-               & slot%strangers)
+               & slot%left_out)
          else
             call start_places(rail, slot%region, slot%distance)
             call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, slot%distance, slot%problem%grid, h, &
-               & approach, slot%strangers)
+               & approach, slot%left_out)
          end if
          call grow(slot, h, approach, most, .true., grown)
          if (.not. grown) exit
@@ -253,7 +253,7 @@ contains
             end if
             call surface_heights(geometry%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
             h = slot%on_rail - slot%on_wheel
-            call settle_distance(patch%grid, allocated(slot%region%seeds), h, approach, slot%strangers)
+            call shift_distance(patch%grid, allocated(slot%region%seeds), h, approach, slot%left_out)
             ! rows of a curved reference are chosen with a margin
             call grow(slot, h, approach, most, .not. conformal, grown)
             if (.not. grown) exit

@@ -10,7 +10,7 @@ module contact_wheelrail_pitch_rate
    use contact_patch_result, only : patch_result
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_locus, only : roller_drop
-   use contact_wheelrail_height, only : out_of_sight, settle, small_step
+   use contact_wheelrail_height, only : contact_reach, find_height, small_step
    use contact_wheelrail_memory, only : wheel_rail_memory, total_force
    use contact_wheelrail_problem, only : wheel_rail_problem, rate_of_pure_rolling
    use contact_wheelrail_result, only : wheel_rail_result
@@ -55,7 +55,7 @@ contains
       real(wp) :: slope, tolerance, residual, moving
 
       if (.not. (memory%started .and. problem%use_previous)) call roll_at_contact(problem, memory)
-      call settle(problem, memory, z, silent, result, error)
+      call find_height(problem, memory, z, silent, result, error)
       if (allocated(error)) return
       residual = missing()
       slope = force_per_pitch_rate(memory)
@@ -70,13 +70,13 @@ contains
             call search%update(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
             if (search%finished) exit
             memory%geometry%pitch_rate = search%x
-            call settle(problem, memory, z, silent, result, error)
+            call find_height(problem, memory, z, silent, result, error)
             if (allocated(error)) return
             residual = missing()
          end do
          memory%geometry%pitch_rate = search%best
       end if
-      call settle(problem, memory, z, log, result, error)
+      call find_height(problem, memory, z, log, result, error)
       if (allocated(error)) return
       residual = missing()
       if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
@@ -112,7 +112,7 @@ contains
 
       z = merge(memory%z_ws, 0.0_wp, memory%started .and. problem%use_previous)
       call measure(problem, memory%geometry, z)
-      if (memory%geometry%touch - z > out_of_sight) return
+      if (memory%geometry%touch - z > contact_reach) return
       associate (gap => memory%geometry%gap, placement => memory%geometry%placement)
          i = minloc(gap%gap, dim=1)
          on_wheel = placement%wheel%to_local([gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) &

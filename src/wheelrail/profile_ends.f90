@@ -184,7 +184,7 @@ contains
             if (depth <= buried(k)%depth) cycle
             if (depth > 0.0_wp .and. allocated(memory%geometry%bodies%rail_strip)) then
                associate (z => section%height(place(2)))
-                  if (place(3) - z < slices%swing(memory%geometry%bodies%rail_strip, place(1), place(2), z)) cycle
+                  if (place(3) - z < slices%overshoot(memory%geometry%bodies%rail_strip, place(1), place(2), z)) cycle
                end associate
             end if
             buried(k) = buried_end(depth, place)

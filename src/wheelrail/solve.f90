@@ -13,7 +13,7 @@ module contact_wheelrail_solve
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
    use contact_wheelrail_gather, only : gather
    use contact_wheelrail_geometry, only : box_on_lattice, place, wheel_rail_geometry
-   use contact_wheelrail_height, only : settle
+   use contact_wheelrail_height, only : find_height
    use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_pitch_rate, only : search_pitch_rate
    use contact_wheelrail_placement, only : gauge_point
@@ -64,7 +64,7 @@ contains
       call reset_for_new_rail(problem, memory%geometry)
       if (problem%spec%track%gaught > 0.0_wp) call find_gauge_point(problem, memory%geometry)
       if (problem%geometry_only .or. problem%force == force_control%creepages) then
-         call settle(problem, memory, z, log, result, error)
+         call find_height(problem, memory, z, log, result, error)
       else if (problem%force == force_control%longitudinal_force) then
          call search_pitch_rate(problem, memory, z, log, result, error)
       else

@@ -54,7 +54,7 @@ contains
       do k = 1, n
          spots(k)%first = first - 1 + findloc(any(label == k, 1), .true., 1)
          spots(k)%last = first - 1 + findloc(any(label == k, 1), .true., 1, back=.true.)
-         call take_spot(gap, g, label, first, k, spots(k))
+         call isolate_spot(gap, g, label, first, k, spots(k))
       end do
    end subroutine separate_spots
 
@@ -121,7 +121,7 @@ contains
    end subroutine number_spots
 
    !> The gap without the interpenetration of other spots
-   pure subroutine take_spot(gap, g, label, start, k, own)
+   pure subroutine isolate_spot(gap, g, label, start, k, own)
       type(gap_curve), intent(in) :: gap
       real(wp), intent(in) :: g(:)
       !> Lateral position of the first row of the labels
@@ -146,5 +146,5 @@ contains
          if (i == beside) cycle
          own%g(i) = max(own%g(i), tiny(1.0_wp))
       end do
-   end subroutine take_spot
+   end subroutine isolate_spot
 end module contact_wheelrail_spots

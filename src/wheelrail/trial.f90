@@ -70,7 +70,7 @@ contains
          end if
          call warn_beyond_slices(problem, memory%slot(k), name, log)
          call warn_of_angle(problem, memory%geometry, memory%slot(k)%region, name, log)
-         if (memory%slot(k)%strangers > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
+         if (memory%slot(k)%left_out > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
             &to the next; what lies beyond belongs to another part of rail or wheel and is left out.")
       end do
    end subroutine evaluate

@@ -8,7 +8,7 @@ module contact_wheelrail_variable
    use contact_grid_potential_contact, only : potential_contact
    use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, wheel_rail_bodies, search_reach, &
       & slice_pair, strip, widest_reach
-   use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
+   use contact_wheelrail_flat_patch, only : nothing_there, shift_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap_bound, only : bound_gap, rail_extent
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, smallest_in_row
@@ -257,7 +257,7 @@ contains
          i = min(i, size(x))
          if (without_swings .and. allocated(bodies%rail_strip) .and. row(i, 1) < smallest) then
             call rail_heights(bodies, x(i), y(cell(2):cell(2)), z, found)
-            row(i, 1) = row(i, 1) + slices%swing(bodies%rail_strip, x(i), y(cell(2)), z(1))
+            row(i, 1) = row(i, 1) + slices%overshoot(bodies%rail_strip, x(i), y(cell(2)), z(1))
             if (looked == 0) looked = 1
          end if
          if (row(i, 1) < smallest) then
@@ -423,21 +423,21 @@ contains
    end function turn_of_rail
 
    !> Distance of the undeformed bodies above a plane [mm], shifted to a minimum of zero, and the approach
-   subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)
+   subroutine variable_distance(bodies, plane, joined, grid, h, approach, left_out)
       !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
-      !> See `settle_distance`
+      !> See `shift_distance`
       logical, intent(in) :: joined
       !> Grid of elements
       type(potential_contact), intent(in) :: grid
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> See `settle_distance`
+      !> See `shift_distance`
       real(wp), intent(out) :: approach
-      !> Number of excluded elements, see `settle_distance`
-      integer, intent(out) :: strangers
+      !> Number of excluded elements, see `shift_distance`
+      integer, intent(out) :: left_out
       type(frame) :: seen
       real(wp) :: x(grid%mx), n_wheel(grid%mx), n_rail(grid%mx)
       logical :: on_wheel(grid%mx), on_rail(grid%mx)
@@ -454,6 +454,6 @@ contains
          call find_wheel_row(bodies, seen, x, grid%y(iy), n_wheel, on_wheel)
          h(:, iy) = merge(n_rail - n_wheel, nothing_there, on_rail .and. on_wheel)
       end do
-      call settle_distance(grid, joined, h, approach, strangers)
+      call shift_distance(grid, joined, h, approach, left_out)
    end subroutine variable_distance
 end module contact_wheelrail_variable

@@ -94,10 +94,10 @@ def main():
     words = set(re.findall(r'digit_row\("(\w+)",[^"]*"[^"]*",[ &]*"(\w+)"\)', digits))
     assert list(unknown_choices('"motion = ""none"", ""shift"" &\n   &or ""rest"""', keys, words)) == ['motion = "rest"']
     files = sorted(pathlib.Path(top, "src").rglob("*.f90"))
-    strangers = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
-    bad = len(strangers)
-    if strangers:
-        print(f"FAILED {top} holds {strangers[:10]}: left by a test that ran there, or in the wrong place")
+    left_out = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
+    bad = len(left_out)
+    if left_out:
+        print(f"FAILED {top} holds {left_out[:10]}: left by a test that ran there, or in the wrong place")
     for file in files:
         if file.parent.name in DOORS:
             continue

@@ -201,7 +201,7 @@ contains
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :), y(:)
       real(wp) :: approach, exact, worst
-      integer :: i, ix, iy, strangers
+      integer :: i, ix, iy, left_out
 
       y = [(real(i, wp), i=-60, 60)]*0.5_wp
       call write_profile("plane.txt", y, 0.0_wp*y)
@@ -230,7 +230,7 @@ contains
       plane = patch_frame(in_track, placement, regions(1))
       call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call start_places(in_track, regions(1), scratch)
-      call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, strangers)
+      call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, left_out)
       worst = 0.0_wp
       do iy = 1, grid%my
          do ix = 1, grid%mx
@@ -301,7 +301,7 @@ contains
       real(wp) :: top_z, gauge_y, approach
       character(len=16) :: what
       logical :: there
-      integer :: k, strangers
+      integer :: k, left_out
       !> Lateral position, roll, yaw, height of the wheelset; then published: reference x, y, z, contact angle, approach
       !> (an inclined one hangs on the height of 4 decimals), number of elements
       real(wp), parameter :: cases(10, 8) = reshape([ &
@@ -348,7 +348,7 @@ contains
          call patch_grid(in_track, [pair%search%dx, pair%search%ds], regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
          call suite%equal(grid%npot(), nint(cases(10, k)), trim(what) // ": elements")
          call start_places(in_track, regions(1), scratch)
-         call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, strangers)
+         call undeformed_distance(in_track, wheel, placement, plane, scratch, grid, h, approach, left_out)
          call suite%close_to(approach, cases(9, k), 2.5e-4_wp, trim(what) // ": approach")
          call suite%check(size(parts_of(regions(1))) == merge(2, 1, k == 5), trim(what) // ": blended parts")
          if (k == 5 .and. size(parts_of(regions(1))) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &

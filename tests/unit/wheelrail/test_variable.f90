@@ -132,7 +132,7 @@ contains
       type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: one, two
       type(contact_region), allocatable :: first(:), second(:), misses(:)
-      integer :: strangers
+      integer :: left_out
       type(frame) :: plane
       type(distance_scratch) :: scratch
       type(potential_contact) :: grid
@@ -170,8 +170,8 @@ contains
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
       call patch_grid(bodies%rail, [pair%search%dx, pair%search%ds], first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call start_places(bodies%rail, first(1), scratch)
-      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, scratch, grid, h, pen, strangers)
-      call variable_distance(bodies, plane, .false., grid, same, same_pen, strangers)
+      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, scratch, grid, h, pen, left_out)
+      call variable_distance(bodies, plane, .false., grid, same, same_pen, left_out)
       call suite%close_to(same_pen, pen, 2.0e-5_wp, what // ": approach")
       ! Slices are sampled every 0.5 mm, which shows at the jumps of curvature between arcs
       call suite%close_to(pack(same - h, h < 2.0_wp*pen), 0.0_wp*pack(h, h < 2.0_wp*pen), 1.0e-4_wp, &
