@@ -114,7 +114,7 @@ def quantities():
             text = re.sub(r"&\s*\n\s*&?", "", file.read())
         for field, unit, meaning in re.findall(r'call add\(\d+, "(\w+)", "([^"]*)", "([^"]*)"', text):
             fields.setdefault(field, []).append((unit, meaning))
-        for total, unit, meaning in re.findall(r'call list%add\("(\w+)", "([^"]*)", "([^"]*)"', text):
+        for total, unit, meaning in re.findall(r'call list%add(?:_friction)?\("(\w+)", "([^"]*)", "([^"]*)"', text):
             totals[total] = (unit, meaning)
         for total, meaning in re.findall(r'call list%count\("(\w+)", "([^"]*)"', text):
             totals[total] = ("", meaning)

@@ -23,9 +23,12 @@ module contact_patch_error_scales
    real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp
    !> A grid of few rows represents plane strain if their width exceeds the length of contact by this factor; chosen
    real(wp), parameter :: plane = 4.0_wp
-   !> Fraction of the alternation of a rough surface by which peaks between centres of elements may rise; for noise the alternation
-   !> is sqrt(15) times the standard deviation; chosen with tests/stability/hard_wheels.py
-   real(wp), parameter :: roughness_share = 0.25_wp
+   !> Mean square of the third differences of white noise, relative to that of the noise: 1 + 9 + 9 + 1
+   real(wp), parameter :: of_noise = 20.0_wp
+   !> Third differences of smooth surfaces, as the standard deviation of noise relative to the approach: at most this times n^-2.5
+   !> of n elements across contact, if the curvature jumps by its own size at one place of it. The approach is curvature times
+   !> (n dy)^2/8, a jump changes one of n third differences by curvature times dy^2: 8/sqrt(of_noise)
+   real(wp), parameter :: of_curvature = 8.0_wp/sqrt(of_noise)
    !> For bodies of different materials, pressures determine where slip reverses: amplification of the solver error of pressures in
    !> the forces, also if an adhesion area of at most this fraction of the contact lies in between. Measured with rollers of
    !> aluminium and steel, EPS from 1e-2 to 1e-5
@@ -71,7 +74,7 @@ module contact_patch_error_scales
       real(wp) :: heat_order = peak_order
       !> Relative difference of the levels in the mean coefficient of friction, if it depends on temperature [-]
       real(wp) :: warmed = 0.0_wp
-      !> Possible rise of a rough surface between centres of elements, relative to the approach [-]
+      !> Standard deviation of the heights of a rough surface, relative to the approach [-]
       real(wp) :: roughness = 0.0_wp
       !> Magnitude of the difference parameter K of the materials [-]
       real(wp) :: coupling = 0.0_wp
@@ -150,8 +153,8 @@ contains
          scale%coupling = abs(problem%model%material%ak)
          scale%driven = scale%coupling/max(mean_friction(result), scale%coupling)
       end if
-      scale%roughness = roughness_share*max(alternation(problem%h, result%division), &
-         & alternation(transpose(problem%h), transpose(result%division)))/max(abs(result%pen), tiny(extent))
+      scale%roughness = max(roughness(problem%h, result%division, across(2), abs(result%pen)), &
+         & roughness(transpose(problem%h), transpose(result%division), across(1), abs(result%pen)))
       if (scale%force > 0.0_wp) then
          scale%used = result%grid%dx*result%grid%dy*sum(hypot(result%px, result%py))/scale%force
          scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
@@ -186,30 +189,33 @@ contains
       end if
    end function scales
 
-   !> Noise of the undeformed distance along x, in and next to the contact area [mm]: root mean product of third differences of
-   !> neighbours, whose signs alternate; zero for smooth surfaces, where these have equal sign, and for waves of a few elements,
-   !> where those of next-nearest neighbours have opposite sign
-   pure real(wp) function alternation(h, division) result(noise)
+   !> Standard deviation of the heights of a rough surface along the second direction of a grid, relative to the approach [-]
+   !>
+   !> From third differences in and beside the contact, which vanish for parabolas; without what curvature that varies across
+   !> the contact adds at most, so that it is 0 for surfaces that elements resolve.
+   pure real(wp) function roughness(h, division, across, pen)
       !> Undeformed distance [mm] and element states, shape (mx, my)
       real(wp), intent(in) :: h(:, :)
       integer, intent(in) :: division(:, :)
-      !> Ratio of the products of third differences of next-nearest and nearest neighbours, for white noise
-      real(wp), parameter :: ratio = 0.4_wp
-      real(wp) :: third(3), alike(2)
+      !> Number of elements across contact in this direction
+      integer, intent(in) :: across
+      !> Approach [mm], positive
+      real(wp), intent(in) :: pen
+      real(wp) :: squares
       integer :: ix, iy, n
 
       n = 0
-      alike = 0.0_wp
-      do iy = 1, size(h, 2)
-         do ix = 2, size(h, 1) - 4
-            if (all(division(ix - 1:ix + 4, iy) < element%adhesion)) cycle
-            if (any(h(ix - 1:ix + 4, iy) > excluded_threshold)) cycle
-            third = h(ix + 2:ix + 4, iy) - 3.0_wp*(h(ix + 1:ix + 3, iy) - h(ix:ix + 2, iy)) - h(ix - 1:ix + 1, iy)
-            alike = alike + third(1)*[-third(2), third(3)/ratio]
+      squares = 0.0_wp
+      do iy = 1, size(h, 2) - 3
+         do ix = 1, size(h, 1)
+            if (all(division(ix, iy:iy + 3) < element%adhesion)) cycle
+            if (any(h(ix, iy:iy + 3) > excluded_threshold)) cycle
+            squares = squares + (h(ix, iy + 3) - 3.0_wp*(h(ix, iy + 2) - h(ix, iy + 1)) - h(ix, iy))**2
             n = n + 1
          end do
       end do
-      noise = 0.0_wp
-      if (n > 0) noise = sqrt(max(0.0_wp, minval(alike)/n))
-   end function alternation
+      roughness = 0.0_wp
+      if (n > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*n))/max(pen, tiny(pen)) &
+         & - of_curvature*real(across, wp)**(-2.5_wp))
+   end function roughness
 end module contact_patch_error_scales

@@ -23,6 +23,9 @@ module contact_patch_level_errors
    !> n^-2, of the hard cases of tests/stability; the same of normal force and approach, of second patches of wheels with 3 to 5
    !> elements across (seed 31101). That of forces times the root of the fraction in adhesion, which is taken as at least the last
    real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp, unresolved_normal = 0.2_wp, unresolved_adhesion = 0.1_wp
+   !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
+   !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
+   real(wp), parameter :: rough_floor(2) = [0.3_wp, 0.06_wp]
    !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
    !> K times n^-2 in the largest pressure; of the hard cases
    real(wp), parameter :: coupled_floor = 4.0_wp
@@ -127,7 +130,7 @@ contains
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
-         floor = normal_floor/scale%across**2 + scale%roughness
+         floor = normal_floor/scale%across**2 + rough_floor(1)*scale%roughness
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          part = part_of(scale, merge(force_order, scale%order, scale%order > first_order .and. scale%order < normal_order))
@@ -144,6 +147,7 @@ contains
             & + creepage_floor*sqrt(scale%adhesion)/scale%mean_across**2
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))
          if (row%law == error_law%friction) floor = max(floor, scale%reversal*share_of_reversal(scale))
+         floor = max(floor, rough_floor(2)*scale%roughness)
       case (error_law%power)
          e = error_of_power(scale, difference, unit)
          floor = 0.0_wp

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""contact report: pages from results, the launcher, and a server that does nothing for left_out.
+"""contact report: pages from results, the launcher, and a server that does nothing for strangers.
 
 Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
