@@ -24,6 +24,7 @@ module contact_cases_accuracy
    use contact_cases_spec, only : case_spec, part_source
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_patch_error_estimate, only : error_of_forces
+   use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
@@ -217,7 +218,7 @@ contains
          near = is_near_enough(report%estimated, expected, report%asked)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
-         if (spec%motion == motion%steady_rolling .and. result%tangential%order /= 2) law = first_order_alone(law)
+         if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)
          if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
             & merge(series_share, 1.0_wp, has_history(spec))*report%asked, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)

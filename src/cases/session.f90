@@ -18,6 +18,7 @@ module contact_cases_session
    use contact_patch_border, only : find_border
    use contact_patch_error_estimate, only : coarse_level, estimate_errors, release_coarse_level
    use contact_patch_finer_level, only : interpolate_fields
+   use contact_patch_order, only : order_of_errors
    use contact_patch_time_steps, only : clear_time_step, link_time_steps
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -123,8 +124,8 @@ contains
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%estimates_errors) then
          if (.not. allocated(session%coarse)) allocate(session%coarse)
-         call estimate_errors(session%problem, session%state, spec%link, max(1, result%tangential%order), session%coarse, &
-            & result, error)
+         call estimate_errors(session%problem, session%state, spec%link, order_of_errors(result%tangential), &
+            & session%coarse, result, error)
          if (allocated(error)) return
       else if (allocated(session%coarse)) then
          session%coarse%state%started = .false.

@@ -10,6 +10,7 @@ module contact_cases_stress_errors
    use contact_cases_spec, only : case_spec
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_level_errors, only : trusted
+   use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    use contact_subsurface_invariants, only : stress_invariants
@@ -169,9 +170,9 @@ contains
       type(patch_result), intent(in) :: result
 
       share = 1.0_wp/(coarsening**2 - 1.0_wp)
-      if (result%motion == motion%steady_rolling .and. result%tangential%order /= 2) share = 1.0_wp/(coarsening - 1.0_wp)
+      if (result%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) share = 1.0_wp/(coarsening - 1.0_wp)
       ! with the second order, the coarser level is solved with another scheme
-      if (result%motion == motion%transient_rolling) share = merge(0.0_wp, unclean, result%tangential%order == 2)
+      if (result%motion == motion%transient_rolling) share = merge(0.0_wp, unclean, order_of_errors(result%tangential) == 2)
    end function share_of_friction
 
    !> Stresses at a point due to the tractions of a level [N/mm2]

@@ -18,6 +18,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_error_estimate, only : error_of_forces
+   use contact_patch_order, only : order_of_errors
    use contact_text_words, only : real_text
    use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_result, only : wheel_rail_result
@@ -129,7 +130,7 @@ contains
          report%sides = sides
          if (is_near_enough(report%estimated, expected, report%asked)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
-         if (spec%motion == motion%steady_rolling .and. report%order /= 2) law = first_order_alone(law)
+         if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(session%memory) /= 2) law = first_order_alone(law)
          call next_sides(spec, session%memory, report, observed_order(law, report%estimated, before, expected), sides, next)
          if (.not. product(sides/next) >= worth**2) then
             report%reason = "smaller elements would be more than NPOT_MAX or the limits allow"
@@ -180,6 +181,17 @@ contains
       order = 0
       if (memory%used > 0) order = minval(memory%slot(:memory%used)%result%tangential%order)
    end function order_of
+
+   !> Lowest order of the errors of the patches
+   pure integer function lowest_order_of_errors(memory) result(order)
+      type(wheel_rail_memory), intent(in) :: memory
+      integer :: k
+
+      order = 2
+      do k = 1, memory%used
+         order = min(order, order_of_errors(memory%slot(k)%result%tangential))
+      end do
+   end function lowest_order_of_errors
 
    !> Sides of the next elements, from the patch with the largest normal force
    pure subroutine next_sides(spec, memory, report, order, sides, next)

@@ -16,6 +16,7 @@ module contact_patch_error_estimate
    use contact_patch_coarse_level, only : coarsen_patch
    use contact_patch_error_scales, only : mean_friction, scale_type, scales
    use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error
+   use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, error_scale, total, total_list
@@ -274,7 +275,7 @@ contains
       if (.not. allocated(result%errors)) return
       if (result%errors%reason /= "") return
       call result%totals(list)
-      scale = scales(problem, max(1, result%tangential%order), result)
+      scale = scales(problem, order_of_errors(result%tangential), result)
       do k = 1, list%length
          if (all(list%rows(k)%law /= [error_law%normal, error_law%friction, error_law%creepage])) cycle
          ! NaN, without estimate for one of them, is skipped

@@ -25,10 +25,10 @@ module contact_patch_error_scales
    real(wp), parameter :: plane = 4.0_wp
    !> Mean square of the third differences of white noise, relative to that of the noise: 1 + 9 + 9 + 1
    real(wp), parameter :: of_noise = 20.0_wp
-   !> Third differences of smooth surfaces, as the standard deviation of noise relative to the approach: at most this times n^-2.5
-   !> of n elements across contact, if the curvature jumps by its own size at one place of it. The approach is curvature times
-   !> (n dy)^2/8, a jump changes one of n third differences by curvature times dy^2: 8/sqrt(of_noise)
-   real(wp), parameter :: of_curvature = 8.0_wp/sqrt(of_noise)
+   !> Third differences of smooth surfaces, as the standard deviation of noise relative to the approach: at most this times the
+   !> number n of elements across contact to this power, if the curvature jumps by its own size at one place of it. The approach is
+   !> curvature times (n dy)^2/8, a jump changes one of n third differences by curvature times dy^2: 8/sqrt(of_noise) n^-2.5
+   real(wp), parameter :: of_curvature = 8.0_wp/sqrt(of_noise), curvature_power = -2.5_wp
    !> For bodies of different materials, pressures determine where slip reverses: amplification of the solver error of pressures in
    !> the forces, also if an adhesion area of at most this fraction of the contact lies in between. Measured with rollers of
    !> aluminium and steel, EPS from 1e-2 to 1e-5
@@ -216,6 +216,6 @@ contains
       end do
       roughness = 0.0_wp
       if (n > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*n))/max(pen, tiny(pen)) &
-         & - of_curvature*real(across, wp)**(-2.5_wp))
+         & - of_curvature*real(across, wp)**curvature_power)
    end function roughness
 end module contact_patch_error_scales

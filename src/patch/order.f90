@@ -16,7 +16,7 @@ module contact_patch_order
    implicit none (type, external)
    private
 
-   public :: choose_order, edge_slip, lower_order, spin_offset_of, set_second_order
+   public :: choose_order, edge_slip, lower_order, order_of_errors, spin_offset_of, set_second_order
 
    !> Rigid slip of the second order is that in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
@@ -95,6 +95,14 @@ contains
       report%order = 1
       report%order_reason = reason
    end subroutine lower_order
+
+   !> Order of the errors of the discretisation: 2 only if nothing of order 2 is left out
+   pure integer function order_of_errors(report) result(order)
+      !> Order that acted, with a reason where it is not the one asked for or not whole
+      type(solve_report), intent(in) :: report
+
+      order = merge(2, 1, report%order == 2 .and. report%order_reason == "")
+   end function order_of_errors
 
    !> How far ahead of the elements the rigid slip is taken [steps]
    pure real(wp) function spin_offset_of(problem, report) result(offset)

@@ -85,6 +85,8 @@ contains
       report%ended = outcome%ended
       report%iterations = outcome%steps
       report%residual = outcome%residual
+      if (report%order == 2) report%order_reason = ""
+      if (outcome%is_unturned) report%order_reason = "directions of slip are not turned"
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
       do k = 2, size(workspace%level)

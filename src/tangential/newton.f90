@@ -28,6 +28,9 @@ module contact_tangential_newton
       integer :: steps = 0, preconditionings = 0
       !> True residual on exit
       real(wp) :: residual = 0.0_wp
+      !> Are tractions against the slip of their own element in a scheme of second order, because those against the mean slip
+      !> made no progress?
+      logical :: is_unturned = .false.
    end type newton_outcome
 
    !> Maximum number of Newton steps; chosen
@@ -120,6 +123,17 @@ contains
          outcome%residual = residual
          if (present(log)) call trace_step(problem, step, residual, solution, log)
          call check_ending(problem, step, since, history, tolerance, outcome%ended)
+         if (outcome%ended == ending%stagnated .and. allocated(problem%second)) then
+            ! turns of neighbouring elements may alternate for ever; without them the equations are those of each element
+            if (problem%second%turns) then
+               problem%second%turns = .false.
+               residual = true_residual(problem, solution%p, solution%slip, system%r)
+               since = step
+               history(step) = residual
+               outcome%residual = residual
+               call check_ending(problem, step, since, history, tolerance, outcome%ended)
+            end if
+         end if
          if (outcome%ended /= ending%not_started) exit
 
          call linearise(problem, system, solution, workspace)
@@ -140,6 +154,7 @@ contains
          previous = residual
          residual = best
       end do
+      if (allocated(problem%second)) outcome%is_unturned = .not. problem%second%turns
       call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
    end subroutine newton_solve
 

@@ -10,6 +10,7 @@ module contact_wheelrail_error_estimate
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_patch_error_estimate, only : compare_levels, normal_stiffness, solve_coarse_level
+   use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
@@ -69,10 +70,10 @@ contains
       do k = 1, memory%used
          associate (slot => memory%slot(k))
             if (problem%force_prescribed) then
-               call compare_levels(slot%problem, max(1, slot%result%tangential%order), slot%coarse, slot%result, &
+               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
                   & change*slot%plane%axes(3, 3))
             else
-               call compare_levels(slot%problem, max(1, slot%result%tangential%order), slot%coarse, slot%result)
+               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result)
             end if
          end associate
       end do

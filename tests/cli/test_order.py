@@ -155,6 +155,37 @@ iteration = { order = 2 }
         forces = [patch["totals"]["fy_rel"]["value"] for patch in patches[1:]]
         self.assertLess(max(forces) - min(forces), 5e-4)
 
+    def test_elements_longer_than_wide(self):
+        """Turned slip may make no progress with such elements: then it is not turned, SOLVER says so, and the creepage differs
+        from that of square elements by a seventh of what the first order differs by"""
+        half = (7.686, 2.3862)
+
+        def case(name, n, order):
+            dx, dy = (2 * side / count for side, count in zip(half, n))
+            return self.solve(name, f"""[[case]]
+module = "contact"
+motion = "steady_rolling"
+normal = "force"
+tangential = "fx_and_fy"
+kinematics = {{ fn = 125.5686, cphi = -0.00055270566, fx = 0.1892349, fy = -0.1768918 }}
+friction = {{ fstat = 0.47641453, fkin = 0.47641453 }}
+material = {{ poiss = [0.45, 0.45], gg = [1000.0, 1000.0] }}
+rolling = {{ veloc = 1000.0, dq = {dx!r} }}
+grid = {{ form = "corner_and_sides", mx = {n[0] + 1}, my = {n[1] + 1}, xl = {-half[0] - 0.1 * dx!r}, yl = {-half[1] - 0.9 * dy!r}, \
+dx = {dx!r}, dy = {dy!r} }}
+geometry = {{ form = "quadratic", planform = "unrestricted", b = [0.00018257624, 0.0, 0.00108004, 0.0, 0.0, 0.0] }}
+iteration = {{ order = {order}, eps = 1e-6 }}
+""".replace("\\\n", ""))
+
+        words, square = case("square.toml", (80, 25), 2)
+        self.assertTrue(words.endswith(" of order 2"), words)
+        exact = square["totals"]["ceta"]["value"]
+        _, first = case("first.toml", (80, 60), 1)
+        words, second = case("second.toml", (80, 60), 2)
+        self.assertTrue(words.endswith(" of order 2 (directions of slip are not turned)"), words)
+        wrong = [abs(patch["totals"]["ceta"]["value"] - exact) for patch in (first, second)]
+        self.assertLess(7 * wrong[1], wrong[0])
+
     def roll(self, order, n, offset, *options, distance=6.6, chi=0.0, motion=2):
         """Relative FX and FY, and MZ over the bound, after a quarter, a half and all of a distance in steps of one element
 
