@@ -55,7 +55,7 @@ module contact_base_solve_report
       real(wp) :: tolerance = 0.0_wp
       !> Order of the discretisation that was used, 1 or 2, if 2 was requested; 0 otherwise
       integer :: order = 0
-      !> Why order 1 was used instead, or what order 2 is without
+      !> Why order 1 was used instead, or what order 2 leaves out
       character(len=reason_length) :: order_reason = ""
    contains
       !> Did the iteration reach its tolerance, or was there nothing to do?

@@ -8,7 +8,7 @@ module contact_experiment_check
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_cases_wheel_rail_session, only : check_files
-   use contact_experiment_errors, only : place_error, report_error, report_problems
+   use contact_experiment_errors, only : place_error, read_case, report_error, report_problems
    use contact_experiment_state, only : counted, experiment_state, find_slot
    use contact_input_experiment_file, only : input_case
    use contact_text_words, only : integer_text
@@ -30,21 +30,14 @@ contains
       !> Number of elements and memory of the largest case, time of all cases
       type(case_cost) :: total
       integer :: faulty, k
+      logical :: is_found
 
       faulty = 0
       allocate(state%slots(4))
       do
-         call state%reader%next_case(this, error)
-         if (allocated(error)) then
-            ! a wrong digit may be the cause why the following text cannot be read
-            if (allocated(this%problems%items)) call report_problems(state, this)
-            call report_error(state, error)
-            exit
-         end if
-         if (this%module_number == 0) then
-            call report_problems(state, this)
-            exit
-         end if
+         call read_case(state, this, is_found, error)
+         if (allocated(error)) call report_error(state, error)
+         if (.not. is_found) exit
          state%cases = state%cases + 1
          this%spec%limits%confined = state%limits%confined
          call report_problems(state, this)

@@ -8,7 +8,7 @@ module contact_experiment_errors
    implicit none (type, external)
    private
 
-   public :: find_refusal, place_error, report_error, report_final_error, report_problems
+   public :: find_refusal, place_error, read_case, report_error, report_final_error, report_problems
 
 contains
 
@@ -44,6 +44,22 @@ contains
          end associate
       end do
    end subroutine report_problems
+
+   !> Read the next case; problems of the input are reported if no case follows
+   subroutine read_case(state, this, is_found, error)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(out) :: this
+      !> False at the end of the input, and after an error
+      logical, intent(out) :: is_found
+      !> Allocated if the input cannot be read any further
+      type(error_type), allocatable, intent(out) :: error
+
+      call state%reader%next_case(this, error)
+      is_found = .false.
+      if (.not. allocated(error)) is_found = this%module_number /= 0
+      ! a wrong digit may be the cause why the following text cannot be read
+      if (.not. is_found) call report_problems(state, this)
+   end subroutine read_case
 
    !> Report the error that ends the run before all cases are finished
    subroutine report_final_error(state, error)

@@ -17,7 +17,7 @@ module contact_experiment_run
    use contact_cases_slot, only : release_slot
    use contact_control_digit_terms, only : translate_to_digits
    use contact_experiment_check, only : check_all_cases
-   use contact_experiment_errors, only : report_error, report_final_error, report_problems
+   use contact_experiment_errors, only : read_case, report_error, report_final_error
    use contact_experiment_one_case, only : compute_case, count_case
    use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
    use contact_experiment_result_files, only : close_all_files, keep_files_current, open_all_files
@@ -234,7 +234,7 @@ contains
       type(resume_point) :: point
       type(error_type), allocatable :: error
       type(input_case) :: this
-      logical :: go_on, is_done
+      logical :: go_on, is_done, is_found
       integer :: k
 
       call state%total%start()
@@ -260,18 +260,10 @@ contains
       if (go_on .and. requested%progress) call state%progress%begin(state%run%planned)
       do while (go_on)
          call state%reading%start()
-         call state%reader%next_case(this, error)
+         call read_case(state, this, is_found, error)
          call state%reading%halt()
-         if (allocated(error)) then
-            ! a wrong digit may be the cause why the following text cannot be read
-            if (allocated(this%problems%items)) call report_problems(state, this)
-            call report_final_error(state, error)
-            exit
-         end if
-         if (this%module_number == 0) then
-            call report_problems(state, this)
-            exit
-         end if
+         if (allocated(error)) call report_final_error(state, error)
+         if (.not. is_found) exit
          state%cases = state%cases + 1
          call check_for_end(state, settings, error)
          if (allocated(error)) then

@@ -308,7 +308,7 @@ contains
          & trim(report%asked))
       if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
       if (report%order > 0) call record%count(problem // "_order", "order of the discretisation", report%order)
-      if (report%order_reason /= "") call record%text(problem // "_order_reason", "why it is not the one that was asked for", &
+      if (report%order_reason /= "") call record%text(problem // "_order_reason", "why order 1, or what order 2 leaves out", &
          & trim(report%order_reason))
       call record%text(problem // "_ended", "how the iteration ended", trim(ending_names(report%ended)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)

@@ -162,6 +162,7 @@ iteration = { order = 2 }
 
         def case(name, n, order):
             dx, dy = (2 * side / count for side, count in zip(half, n))
+            start = f"xl = {-half[0] - 0.1 * dx!r}, yl = {-half[1] - 0.9 * dy!r}, dx = {dx!r}, dy = {dy!r}"
             return self.solve(name, f"""[[case]]
 module = "contact"
 motion = "steady_rolling"
@@ -171,11 +172,10 @@ kinematics = {{ fn = 125.5686, cphi = -0.00055270566, fx = 0.1892349, fy = -0.17
 friction = {{ fstat = 0.47641453, fkin = 0.47641453 }}
 material = {{ poiss = [0.45, 0.45], gg = [1000.0, 1000.0] }}
 rolling = {{ veloc = 1000.0, dq = {dx!r} }}
-grid = {{ form = "corner_and_sides", mx = {n[0] + 1}, my = {n[1] + 1}, xl = {-half[0] - 0.1 * dx!r}, yl = {-half[1] - 0.9 * dy!r}, \
-dx = {dx!r}, dy = {dy!r} }}
+grid = {{ form = "corner_and_sides", mx = {n[0] + 1}, my = {n[1] + 1}, {start} }}
 geometry = {{ form = "quadratic", planform = "unrestricted", b = [0.00018257624, 0.0, 0.00108004, 0.0, 0.0, 0.0] }}
 iteration = {{ order = {order}, eps = 1e-6 }}
-""".replace("\\\n", ""))
+""")
 
         words, square = case("square.toml", (80, 25), 2)
         self.assertTrue(words.endswith(" of order 2"), words)
