@@ -191,8 +191,8 @@ contains
 
    !> Standard deviation of the heights of a rough surface along the second direction of a grid, relative to the approach [-]
    !>
-   !> From third differences in and beside the contact, which vanish for parabolas; without what curvature that varies across
-   !> the contact adds at most, so that it is 0 for surfaces that elements resolve.
+   !> From third differences in and beside the contact, which vanish for parabolas. The largest contribution of a curvature that
+   !> varies across the contact is subtracted, so that the result is 0 for surfaces that the elements resolve.
    pure real(wp) function roughness(h, division, across, pen)
       !> Undeformed distance [mm] and element states, shape (mx, my)
       real(wp), intent(in) :: h(:, :)
