@@ -2,14 +2,26 @@
 set(CONTACT_REFERENCE ${PROJECT_SOURCE_DIR}/../shared/reference CACHE PATH
   "Reference data; tests that need it are skipped when it is absent")
 
-# contact_test(<name> LABEL <labels> ROOMS <rooms> SOURCES <files> [TIMEOUT <seconds>])
+# Compile tests quickly: what is tested is compiled in its own rooms, with optimisation and instruments.
+# Scopes with cases and results take a minute with -O1, since the compiler copies the release of their components into each of them
+function(contact_quick_compilation target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O0>)
+  if(CONTACT_SANITIZE)
+    # A test with all instruments, optimised, takes a minute to compile; this way some seconds.
+    # Options of the sources come behind those of the target
+    get_target_property(sources ${target} SOURCES)
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-O0;-fno-sanitize=undefined")
+  endif()
+endfunction()
+
+# contact_test(<name> [BUILDERS] LABEL <labels> ROOMS <rooms> SOURCES <files> [TIMEOUT <seconds>])
 #
 # A Fortran test program. It sees the modules of the named rooms and of the harness, and is linked
 # with these rooms and all rooms below them, so that it builds whatever else is broken. It runs in
-# a scratch directory of its own. Exit status 77 means "skipped".
+# a scratch directory of its own. BUILDERS adds the modules of tests/support that build a case. Exit status 77 means "skipped".
 # A second label `long` keeps a test out of the default run of tests/run.sh.
 function(contact_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;ROOMS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "BUILDERS" "TIMEOUT" "LABEL;ROOMS;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_LABEL OR NOT arg_SOURCES)
     message(FATAL_ERROR "contact_test(${name}): LABEL and SOURCES are needed, and nothing else than "
       "ROOMS and TIMEOUT is known; got ${ARGN}")
@@ -22,13 +34,10 @@ function(contact_test name)
     Fortran_MODULE_DIRECTORY ${CMAKE_BINARY_DIR}/modules/tests/${name}
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT arg_LABEL MATCHES performance)
-    # -O3 takes up to 40 s and 1.6 GB for one program, and what is tested is compiled with it anyway
-    target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O1>)
+    contact_quick_compilation(${target})
   endif()
-  if(CONTACT_SANITIZE)
-    # What is tested has all instruments. A test with all of them, optimised, takes a minute to compile; this way some seconds.
-    # Options of the sources come behind those of the target
-    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS "-O0;-fno-sanitize=undefined")
+  if(arg_BUILDERS)
+    target_link_libraries(${target} PRIVATE contact_test_builders)
   endif()
   contact_link_rooms(${target} base ${arg_ROOMS})
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
