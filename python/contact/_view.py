@@ -41,8 +41,8 @@ def optional(module: str, what: str) -> Any:
 
 
 def in_units(unit: str, units: str) -> str:
-    """The unit of a quantity that is in mm and N, for a problem in "mm", "si" or "simpack" """
-    return unit if units == "mm" else unit.replace("mm", "m")
+    """The unit of a quantity that is in mm and N, for a problem in "mm", "si" or "simpack"; densities of power are in W/mm2 always"""
+    return unit if units == "mm" or unit == "W/mm2" else unit.replace("mm", "m")
 
 
 def cf_unit(unit: str) -> str:

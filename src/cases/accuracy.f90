@@ -223,7 +223,7 @@ contains
             & merge(series_share, 1.0_wp, has_history(spec))*report%asked, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
-            report%reason = "more than " // integer_text(product(next%counts)) // " elements are not allowed"
+            report%reason = "more than " // integer_text(int(most_elements(spec%limits))) // " elements are not allowed"
             exit
          end if
          if (.not. time_is_left(spec%limits, cases*report%last_seconds, product(real(next%counts, wp)/grid%counts))) then

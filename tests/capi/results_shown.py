@@ -5,6 +5,7 @@ Usage: results_shown.py PROGRAM
 """
 import importlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -120,6 +121,49 @@ def told():
     same(shift.meaning("sx"), ("mm", "longitudinal slip distance"), "slip of a shift")
     plain = solved(motion="frictionless")[0]
     check("px" not in plain.fields() and "pn" in plain.fields(), "fields without friction")
+
+
+def in_si(unit):
+    """Factor from a unit of mm, or of m, to that of m"""
+    number = 1.0
+    for part, sign in zip(unit.split("/"), (1, -1)):
+        for power in re.findall(r"mm(\d?)", part):
+            number *= 1e-3 ** (sign * int(power or 1))
+    return number
+
+
+def everything_solved(units, motion):
+    """A ball on a plane with temperatures, wear, stresses and estimated errors, where its motion has them"""
+    metre, newton = (1.0, 1.0) if units == "mm" else (1e-3, 1e6)
+    with contact.Problem(motion=motion, units=units) as problem:
+        problem.set_material(g=82000.0 * newton, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(21, 15, aa=5.0 * metre, bb=4.0 * metre)
+        problem.set_normal_force(50e3)
+        problem.set_creepages(*((0.005 * metre, 0.002 * metre) if motion == "shift" else (0.001, 0.0005, 1e-4 / metre)))
+        problem.set_wear(1e-4, 3000.0 * newton, 300.0 * newton)
+        problem.set_errors()
+        problem.add_block([0.0, metre], [0.0], np.array([1.0, 2.0, 3.0]) * metre)
+        if motion == "steady":
+            problem.set_rolling(10e3 * metre)
+            problem.set_temperatures(20.0)
+        return problem.solve()
+
+
+def units_of_values():
+    """All totals, their errors and all fields have the unit that they are said to have, in all systems of units"""
+    for motion in ("steady", "shift"):
+        plain = everything_solved("mm", motion)
+        for units in ("si", "simpack"):
+            other = everything_solved(units, motion)
+            for kind in ("totals", "errors", "fields"):
+                first, second = ((item.errors if kind == "errors" else getattr(item, kind)()) for item in (plain, other))
+                same(set(first), set(second), f"names of {kind} in {units}")
+                for name in first:
+                    value, found = (np.abs(np.asarray(one[name], float)) * in_si(item.meaning(name)[0])
+                                    for one, item in ((first, plain), (second, other)))
+                    # errors of what is hardly wrong are rounding, as the displacements of symmetric contacts
+                    close(found, value, (1e-3 if kind == "errors" else 1e-6) * np.max(value) + 1e-300, f"{name} of a {motion} in {units}")
 
 
 def drawn(result, stresses, pair):
@@ -273,6 +317,7 @@ if __name__ == "__main__":
     everything = (*solved(), wheel())
     printed(*everything)
     told()
+    units_of_values()
     drawn(*everything)
     data_sets(*everything)
     loaded(sys.argv[1])

@@ -175,6 +175,8 @@ class Accuracy(Runs):
             self.assertLessEqual(told["mx"] * told["my"], 1000)
             self.assertIn("NOT REACHED: more than ", words)
             self.assertIn("elements are not allowed", told["reason"])
+            if option == "--limit-elements=1000":
+                self.assertEqual(told["reason"], "more than 1000 elements are not allowed")
             self.assertIn("Warning: the accuracy that was asked for was not reached", words)
         told = self.solve("a.inp", rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "--accuracy", "1e-4",
                           "--limit-time=0.3")[1]["patches"][0]["accuracy"]
