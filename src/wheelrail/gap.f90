@@ -209,13 +209,16 @@ contains
 
       gap%dy = dy
       gap%n = n
-      if (allocated(gap%y)) then
-         if (size(gap%y) /= n .or. .not. allocated(gap%on_rail)) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
+      call give_size(gap%y, n)
+      call give_size(gap%x, n)
+      call give_size(gap%gap, n)
+      call give_size(gap%z, n)
+      call give_size(gap%alpha, n)
+      ! a search over a grid gives the other arrays its own size and leaves this one as it is
+      if (allocated(gap%on_rail)) then
+         if (size(gap%on_rail) /= n) deallocate(gap%on_rail)
       end if
-      if (.not. allocated(gap%y)) then
-         if (allocated(gap%on_rail)) deallocate(gap%on_rail)
-         allocate(gap%y(n), gap%x(n), gap%gap(n), gap%z(n), gap%alpha(n), gap%on_rail(n))
-      end if
+      if (.not. allocated(gap%on_rail)) allocate(gap%on_rail(n))
       gap%z = 0.0_wp
       gap%alpha = 0.0_wp
       do i = 1, n
@@ -226,6 +229,19 @@ contains
          gap%alpha(i) = rail%inclination(s)
       end do
    end subroutine lay_mesh
+
+   !> Allocate an array; it is kept if it has the right size
+   subroutine give_size(array, n)
+      real(wp), allocatable, intent(inout) :: array(:)
+      !> Size
+      integer, intent(in) :: n
+
+      if (allocated(array)) then
+         if (size(array) == n) return
+         deallocate(array)
+      end if
+      allocate(array(n))
+   end subroutine give_size
 
    !> Gap at the points of a mesh
    subroutine fill_gap(rail, wheel, placement, lateral, gap)
