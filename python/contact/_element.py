@@ -462,6 +462,9 @@ class Element:
         if unknown:
             raise ValueError(f"there is no flag {', '.join(unknown)}")
         self._do(cntc.setflags, self.number, self._icp, [CNTC[name] for name in flags], list(flags.values()))
+        # names and units of results follow the settings
+        self.motion = next((name for name, digit in _MOTIONS.items() if digit == flags.get("ic_tang")), self.motion)
+        self.units = next((name for name, flag in _UNITS.items() if CNTC[flag] == flags.get("if_units")), self.units)
 
     def set_errors(self, wanted: bool = True) -> None:
         """Estimate the errors of the totals in each solution, for 5 to 30 % more time; see ``errors`` of the results."""

@@ -41,7 +41,7 @@ def optional(module: str, what: str) -> Any:
 
 
 def in_units(unit: str, units: str) -> str:
-    """The unit of a quantity that is in mm and N, for a problem in "mm", "si" or "simpack"; densities of power are in W/mm2 always"""
+    """The unit of a quantity in mm and N, for a problem in "mm", "si" or "simpack"; densities of power are always in W/mm2"""
     return unit if units == "mm" or unit == "W/mm2" else unit.replace("mm", "m")
 
 

@@ -285,7 +285,8 @@ class WheelRail(Element):
         """Prescribe the longitudinal force on the rail in wheelset axes [F]; the pitch rate is computed.
 
         0: free rolling; positive: braking; negative: driving. ``wheelset_velocity[5]`` of the result is the rate;
-        that of ``set_velocity`` is not used. ``set_flags(ic_force=0)`` goes back to a given rate.
+        that of ``set_velocity`` is not used. After ``set_flags(ic_force=0)`` the rate
+        computed last is the given one, until ``set_velocity`` sets another.
         """
         self.set_flags(ic_force=1)
         self._do(cntc.settangentialforces, self.number, -1, fx, 0.0)

@@ -23,7 +23,7 @@ module contact_cases_session
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : check_problem, solve_patch
-   use contact_patch_wear, only : derive_wear
+   use contact_patch_wear, only : derive_wear, forget_wear
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_subsurface_response_shelf, only : response_shelf
    implicit none (type, external)
@@ -105,8 +105,8 @@ contains
       end if
       if (spec%has_wear) then
          call derive_wear(spec%wear, session%problem%spin_centre, result)
-      else if (allocated(result%wear)) then
-         deallocate(result%wear, result%power, result%wear_depth)
+      else
+         call forget_wear(result)
       end if
       if (.not. result%has_finite_totals()) then
          call refuse_nonsense(error)

@@ -13,7 +13,7 @@ module contact_patch_wear
    implicit none (type, external)
    private
 
-   public :: derive_wear, shakedown_limit, wear_spec
+   public :: derive_wear, forget_wear, shakedown_limit, wear_spec
 
    !> Material data of a case
    type :: wear_spec
@@ -40,10 +40,9 @@ contains
       type(patch_result), intent(inout) :: result
       real(wp) :: mz
 
-      if (.not. allocated(result%wear)) allocate(result%wear)
+      call forget_wear(result)
+      allocate(result%wear)
       result%wear = wear_result(has_archard=spec%archard > 0.0_wp, has_yield=spec%shear_yield > 0.0_wp)
-      if (allocated(result%power)) deallocate(result%power)
-      if (allocated(result%wear_depth)) deallocate(result%wear_depth)
       associate (wear => result%wear, area => result%contact_area(), f => hypot(result%fx, result%fy))
          if (is_rolling(result%motion)) then
             ! slip is a distance per step
@@ -62,6 +61,15 @@ contains
          wear%fatigue = wear%traction - 1.0_wp/wear%load
       end associate
    end subroutine derive_wear
+
+   !> Remove the totals and fields of wear, of which a case has those of its motion and coefficients
+   pure subroutine forget_wear(result)
+      type(patch_result), intent(inout) :: result
+
+      if (allocated(result%wear)) deallocate(result%wear)
+      if (allocated(result%power)) deallocate(result%power)
+      if (allocated(result%wear_depth)) deallocate(result%wear_depth)
+   end subroutine forget_wear
 
    !> Wear depth by pressure times sliding distance; in rolling along x a point passes all elements of its row
    pure subroutine wear_off(rate, result)

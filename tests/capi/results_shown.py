@@ -119,6 +119,9 @@ def told():
     shift = solved(motion="shift")[0]
     check("shift_x" in shift.totals() and "cksi" not in shift.totals(), "a shift is no creepage")
     same(shift.meaning("sx"), ("mm", "longitudinal slip distance"), "slip of a shift")
+    with contact.Problem() as problem:
+        problem.set_flags(ic_tang=1, if_units=cntc.CNTC["un_si"])
+        same((problem.motion, problem.units), ("shift", "si"), "motion and units by their flags")
     plain = solved(motion="frictionless")[0]
     check("px" not in plain.fields() and "pn" in plain.fields(), "fields without friction")
 
@@ -163,7 +166,8 @@ def units_of_values():
                     value, found = (np.abs(np.asarray(one[name], float)) * in_si(item.meaning(name)[0])
                                     for one, item in ((first, plain), (second, other)))
                     # errors of what is hardly wrong are rounding, as the displacements of symmetric contacts
-                    close(found, value, (1e-3 if kind == "errors" else 1e-6) * np.max(value) + 1e-300, f"{name} of a {motion} in {units}")
+                    tolerance = (1e-3 if kind == "errors" else 1e-6) * np.max(value) + 1e-300
+                    close(found, value, tolerance, f"{name} of a {motion} in {units}")
 
 
 def drawn(result, stresses, pair):
