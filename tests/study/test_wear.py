@@ -170,7 +170,20 @@ def test_nothing_is_told_unasked(tmp_path):
     base = asked()
     del base["wear"]
     found = contact.Study(base, fields=["power", "wear"]).run(workers=1)
-    assert not {"t_gamma", "traction", "power", "wear"} & set(found.variables)
+    assert (found.status == 0).all() and not {"t_gamma", "traction", "power", "wear"} & set(found.variables)
+
+
+def test_wear_ends(tmp_path):
+    """A case that ends wear after one that has not all of its fields: no depth without Archard's coefficient"""
+    first = asked()
+    first["wear"] = {"shear_yield": YIELD}
+    last = {"wear": {"model": "none"}}
+    (tmp_path / "ends.toml").write_text("".join(write_case(case) for case in (first, last)))
+    subprocess.run([os.environ["CONTACT_PROGRAM"], "--json", "2", "ends"], cwd=tmp_path, check=True, capture_output=True)
+    lines = [json.loads(line) for line in (tmp_path / "ends.jsonl").read_text().splitlines()]
+    with_wear, without = [line["patches"][0]["totals"] for line in lines if line["case"]]
+    assert "t_gamma" in with_wear and "t_gamma" not in without
+    assert without["fx"]["value"] == pytest.approx(with_wear["fx"]["value"], rel=1e-9)
 
 
 def test_what_cannot_be_is_refused():
