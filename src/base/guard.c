@@ -245,7 +245,10 @@ void contact_guard_set_owner(int owner) { me.owner = owner; }
 void contact_guard_expect(int refusals) { me.expects = refusals; }
 
 /* From now on this thread takes blocks from those that an owner keeps, and gives them back there; NULL: no longer */
-void contact_guard_use_blocks(struct kept_blocks *blocks) { me.blocks = blocks; }
+void contact_guard_use_blocks(struct kept_blocks *blocks) {
+  if (blocks != NULL) contact_kept_begin(blocks);
+  me.blocks = blocks;
+}
 
 /* ---- guards ---- */
 
@@ -290,11 +293,25 @@ static void *serve(size_t n, size_t align, int own) {
   return p;
 }
 
+/* A new block of at least n bytes for the blocks that are in use, with a stock of such blocks for later requests */
+static void *new_kept_block(size_t n) {
+  const size_t size = contact_kept_size(n);
+  void *p = real.malloc(size);
+  for (int k = p != NULL ? contact_kept_stock(me.blocks, size) : 0; k > 0; k--) {
+    void *q = real.malloc(size);
+    if (q == NULL) break;
+    if (contact_kept_put(me.blocks, q, real.usable_size(q))) continue;
+    real.free(q);
+    break;
+  }
+  return p;
+}
+
 static void *request(size_t n, int own) {
   void *p = NULL;
   const int keeps = own && me.blocks != NULL;
   if (keeps) p = contact_kept_take(me.blocks, n);
-  if (p == NULL) p = real.malloc(keeps ? contact_kept_size(n) : n);
+  if (p == NULL) p = keeps ? new_kept_block(n) : real.malloc(n);
   if (p == NULL) return serve(n, 16, own);
   if (own && n >= recorded) note(p, me.owner);
   return p;

@@ -2,14 +2,22 @@
  *
  * Arrays of the size of a window are reallocated when the window changes, which happens in a tenth of the steps of a loop over
  * time if the contact moves. Instead of being returned to the heap, such blocks are kept with the problem that used them: in
- * total up to `most_bytes`, of up to `largest` bytes each, in lists by size. There are four sizes per factor of two; a
- * request is served by the smallest kept block of up to twice its size. Distances of sizes are at least those of the block sizes of
- * the system. A thread uses the blocks of one owner while it calculates (guard.c). */
+ * total up to `most_bytes`, of up to `largest` bytes each, in lists by size. Sizes are powers of two. A request is served by a
+ * block of the next size, or of the one above, so that the blocks have room for a window that grows. If there is none, a stock
+ * of blocks of this size is made at once, except in the first calculation, which only makes the blocks that it needs: later ones
+ * find a block when more of them are in use, and few request memory from the heap. A thread uses the blocks of one owner while it
+ * calculates (guard.c). */
 #include "kept_blocks.h"
 #include <stdint.h>
 #include <stdlib.h>
 
-enum { sizes = 57, smallest = 64, largest = 1 << 20, most_bytes = 16 << 20, wider = 4 };
+enum { sizes = 15, smallest = 64, largest = smallest << (sizes - 1), most_bytes = 16 << 20 };
+
+/* A block of the system is larger than requested by less than this: a page and its head */
+enum { most_rounding = 8192 };
+
+/* A stock consists of so many bytes, but of at most `most_stocked` blocks */
+enum { stock_bytes = 2 << 20, most_stocked = 128 };
 
 /* A kept block: its first bytes contain the address of the next one */
 struct link {
@@ -19,15 +27,14 @@ struct link {
 struct kept_blocks {
   struct link *first[sizes];
   size_t bytes;
+  /* Has the first calculation begun, and a later one? */
+  int begun, goes_on;
 };
 
-static size_t size_of(unsigned k) { return (size_t)(4 + k%4) << (k/4 + 4); }
+static size_t size_of(unsigned k) { return (size_t)smallest << k; }
 
 /* Index of the largest size that is at most n, for n >= smallest */
-static unsigned size_below(size_t n) {
-  const unsigned shift = 61u - (unsigned)__builtin_clzll((unsigned long long)n);
-  return 4*(shift - 4) + (unsigned)(n >> shift) - 4;
-}
+static unsigned size_below(size_t n) { return 57u - (unsigned)__builtin_clzll((unsigned long long)n); }
 
 /* Index of the smallest size that is at least n */
 static unsigned size_above(size_t n) { return n <= smallest ? 0 : size_below(n - 1) + 1; }
@@ -45,13 +52,23 @@ void contact_kept_free(struct kept_blocks *kept) {
   free(kept);
 }
 
+void contact_kept_begin(struct kept_blocks *kept) {
+  kept->goes_on = kept->begun;
+  kept->begun = 1;
+}
+
 size_t contact_kept_size(size_t n) { return n > largest ? n : size_of(size_above(n)); }
+
+int contact_kept_stock(const struct kept_blocks *kept, size_t size) {
+  if (!kept->goes_on || size > largest || kept->bytes >= most_bytes) return 0;
+  const size_t bytes = most_bytes - kept->bytes < stock_bytes ? most_bytes - kept->bytes : stock_bytes;
+  return bytes/size < most_stocked ? (int)(bytes/size) : most_stocked;
+}
 
 void *contact_kept_take(struct kept_blocks *kept, size_t n) {
   if (n > largest) return NULL;
-  /* the smallest block that is not more than twice as large: windows that grow and shrink share the same blocks */
   unsigned k = size_above(n);
-  for (const unsigned end = k + wider < sizes ? k + wider : sizes - 1; k < end && kept->first[k] == NULL; k++) continue;
+  if (kept->first[k] == NULL && k + 1 < sizes) k++;
   struct link *block = kept->first[k];
   if (block == NULL) return NULL;
   kept->first[k] = block->next;
@@ -60,9 +77,9 @@ void *contact_kept_take(struct kept_blocks *kept, size_t n) {
 }
 
 int contact_kept_put(struct kept_blocks *kept, void *block, size_t room) {
-  if (room < smallest) return 0;
+  if (room < smallest || room > largest + most_rounding) return 0;
   const unsigned k = size_below(room);
-  if (k >= sizes || size_of(k) > largest || kept->bytes + size_of(k) > most_bytes) return 0;
+  if (kept->bytes + size_of(k) > most_bytes) return 0;
   struct link *link = block;
   link->next = kept->first[k];
   kept->first[k] = link;

@@ -10,8 +10,14 @@ struct kept_blocks;
 struct kept_blocks *contact_kept_new(void);
 void contact_kept_free(struct kept_blocks *kept);
 
-/* Size to be requested from the system so that a block for n bytes can be kept: n or slightly more */
+/* A calculation begins to use the blocks */
+void contact_kept_begin(struct kept_blocks *kept);
+
+/* Size to be requested from the system for a block of n bytes that is to be kept: up to twice as large, n beyond 1 MB */
 size_t contact_kept_size(size_t n);
+
+/* Number of further blocks of this size to be requested with a new one, and kept; 0 in the first calculation */
+int contact_kept_stock(const struct kept_blocks *kept, size_t size);
 
 /* A kept block of at least n bytes, or NULL */
 void *contact_kept_take(struct kept_blocks *kept, size_t n);

@@ -55,7 +55,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
+      !> Number of rows, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
       integer :: k
 
@@ -74,7 +74,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
+      !> Number of rows, or 0 for columns, and size of the padded window; for lines their number, their length, and 1
       integer, intent(in) :: my, px, py
 
       if (n_kept == most .or. px*py > largest) return

@@ -2,28 +2,32 @@
 !>
 !> For windows that fit into the caches this takes about half the time of two real transforms, as FFTW has vector code for
 !> complex transforms only. Both passes go from one array to another, so that nothing is copied and the padding of the forward
-!> arrays remains zero.
+!> arrays remains zero. Rows are transformed in small groups that fill a vector register, so that a plan serves any number of rows.
 module contact_fft_paired
    use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
-   use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
+   use contact_fft_library, only : backwards, execute_complex, forwards, lanes, plan_complex
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
    implicit none (type, external)
    private
 
    public :: paired_plan
 
+   !> Number of rows that are transformed together
+   integer, parameter :: together = max(2, lanes)
+
    !> Plans and buffers for one window size; must not be copied, see fft_plan
    type :: paired_plan
       !> Size of the window and of the padded window
       integer :: mx = 0, my = 0, px = 0, py = 0
-      !> Rows of the window, padded in x, for the forward and the backward transform, shape (px, my)
+      !> Rows of the window, padded in x, for the forward and the backward transform, shape (px, my rounded up to a multiple of
+      !> `together`)
       complex(wp), allocatable, private :: rows(:, :), rows_back(:, :)
       !> Spectrum of the first field + i times the second, shape (py, px)
       complex(wp), allocatable :: spectrum(:, :)
       !> Rows after the transform in x, transposed and padded in y, shape (py, px)
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
-      !> Those of the columns do not depend on the number of rows of the window
+      !> For `together` rows, and for all columns; neither depends on the number of rows of the window
       type(plan_set), private :: row_plans, column_plans
    contains
       !> Make plans for a window; existing plans of the same size are kept
@@ -40,8 +44,9 @@ contains
 
    subroutine prepare(self, mx, my, px, py)
       class(paired_plan), intent(inout) :: self
-      !> Window and padded window; px >= mx, py >= my
+      !> Window and padded window; px >= mx, py >= my rounded up to a multiple of `together`
       integer, intent(in) :: mx, my, px, py
+      integer :: rows
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
          & .and. c_associated(self%row_plans%plan(line_forward))) return
@@ -50,15 +55,16 @@ contains
       self%my = my
       self%px = px
       self%py = py
-      allocate(self%rows(px, my), self%columns(py, px), source=(0.0_wp, 0.0_wp))
-      allocate(self%rows_back(px, my), self%columns_back(py, px), self%spectrum(py, px))
+      rows = together*((my + together - 1)/together)
+      allocate(self%rows(px, rows), self%columns(py, px), source=(0.0_wp, 0.0_wp))
+      allocate(self%rows_back(px, rows), self%columns_back(py, px), self%spectrum(py, px))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call self%row_plans%take(plan_kind%paired_rows, my, px, py)
+      call self%row_plans%take(plan_kind%paired_rows, together, px, py)
       if (.not. self%row_plans%is_kept) then
-         self%row_plans%plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
-            & plan_complex(px, my, self%columns_back, py, 1, self%rows_back, 1, px, backwards)]
-         call self%row_plans%keep(plan_kind%paired_rows, my, px, py)
+         self%row_plans%plan = [plan_complex(px, together, self%rows, 1, px, self%columns, py, 1, forwards), &
+            & plan_complex(px, together, self%columns_back, py, 1, self%rows_back, 1, px, backwards)]
+         call self%row_plans%keep(plan_kind%paired_rows, together, px, py)
       end if
       call self%column_plans%take(plan_kind%paired_columns, 0, px, py)
       if (.not. self%column_plans%is_kept) then
@@ -99,7 +105,9 @@ contains
             end do
          end if
       end do
-      call execute_complex(self%row_plans%plan(line_forward), self%rows, self%columns)
+      do iy = 1, self%my, together
+         call execute_complex(self%row_plans%plan(line_forward), self%rows(1, iy), self%columns(iy, 1))
+      end do
       call execute_complex(self%column_plans%plan(line_forward), self%columns, self%spectrum)
    end subroutine forward
 
@@ -110,7 +118,9 @@ contains
       integer :: ix, iy
 
       call execute_complex(self%column_plans%plan(line_backward), self%spectrum, self%columns_back)
-      call execute_complex(self%row_plans%plan(line_backward), self%columns_back, self%rows_back)
+      do iy = 1, self%my, together
+         call execute_complex(self%row_plans%plan(line_backward), self%columns_back(iy, 1), self%rows_back(1, iy))
+      end do
       do iy = 1, self%my
          do ix = 1, self%mx
             fields(ix, iy, 1) = real(self%rows_back(ix, iy))

@@ -194,8 +194,8 @@ static void compare_with_fresh(int wheel, double side, int from, int steps, int 
   check(worst <= 0.5 * eps, "forces depend on the past", worst);
 }
 
-/* Requests to the heap of two wheels in two hunting waves: none in the median of the second one, and few in the mean. Bounds of
- * the mean are at least twice the measured value: which sizes of windows occur for the first time is random */
+/* Requests to the heap of two wheels in two hunting waves: none in 99 % of the calls of the second one. A call that finds no kept
+ * block makes a stock of up to 65, hence the bound of the mean */
 static void judge_requests(double side, double most) {
   enum { steps = 220, stride = 7, some = 2 };
   double each[some * steps], force[6];
@@ -214,7 +214,7 @@ static void judge_requests(double side, double most) {
   count = count_requests(each + some * steps / 2, some * steps / 2);
   printf("M = %d, B = %d, DX = %.1f: requests to the heap of %d calls: mean %.2f, median %.0f, 99 %% %.0f\n", theory, pressures, side,
          count.n, count.mean, count.median, count.most);
-  check(count.median <= 0.0, "requests to the heap in half of the calls", count.median);
+  check(count.most <= 0.0, "requests to the heap in more than 1 % of the calls", count.most);
   check(count.mean <= most, "requests to the heap per call", count.mean);
 }
 
@@ -332,7 +332,7 @@ int main(int count, char **word) {
     judge_smoothness(1.0, 1.3);
     judge_smoothness(0.5, 1.3);
     judge_smoothness(0.5, 5.3);
-    judge_requests(1.0, 1.0);
+    judge_requests(1.0, 0.5);
     theory = 3;
     compare_with_fresh(0, 1.0, 0, 60, 2);
     pressures = 5;

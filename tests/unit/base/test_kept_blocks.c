@@ -23,7 +23,7 @@ int main(void) {
   for (n = 1; n <= largest; n += 1 + n/7) {
     const size_t size = contact_kept_size(n);
     void *block = malloc(size);
-    check(size >= n && size <= (n < 64 ? 64 : n + n/4), "the size of a block suits the request", n);
+    check(size >= n && size <= (n < 64 ? 64 : 2*n), "the size of a block suits the request", n);
     check(contact_kept_take(kept, n) == NULL, "nothing is kept at first", n);
     check(contact_kept_put(kept, block, malloc_usable_size(block)), "a block is kept", n);
     check(contact_kept_take(kept, size + 1) == NULL, "it does not serve a larger request", n);
@@ -48,6 +48,12 @@ int main(void) {
   check(contact_kept_size(3*largest) == 3*largest, "requests that are not kept are not rounded up", 3*largest);
   free(large);
   free(tiny);
+  contact_kept_begin(kept);
+  check(contact_kept_stock(kept, 64) == 0, "the first calculation makes no stock", 64);
+  contact_kept_begin(kept);
+  check(contact_kept_stock(kept, 64) == 128, "a stock consists of a limited number of blocks", 64);
+  check(contact_kept_stock(kept, 32768) == 64, "and of a limited number of bytes", 32768);
+  check(contact_kept_stock(kept, 3*largest) == 0, "none of blocks that are not kept", 3*largest);
   for (n = 1000; blocks < 100000; blocks++) {
     void *block = malloc(contact_kept_size(n));
     if (!contact_kept_put(kept, block, malloc_usable_size(block))) {
@@ -57,6 +63,7 @@ int main(void) {
     total += contact_kept_size(n);
   }
   check(total <= limit && total > limit - 2000, "blocks are kept up to the limit", total);
+  check(contact_kept_stock(kept, 1024) == 0, "and no stock is made beyond it", 1024);
   contact_kept_free(kept);
   contact_kept_free(NULL);
   printf("%d blocks of %zu bytes were kept\n", blocks, contact_kept_size(1000));
