@@ -25,7 +25,7 @@ module contact_fft_paired
       complex(wp), allocatable, private :: rows(:, :), rows_back(:, :)
       !> Spectrum of the first field + i times the second, shape (py, px)
       complex(wp), allocatable :: spectrum(:, :)
-      !> Rows after the transform in x, transposed and padded in y, shape (py, px)
+      !> Rows after the transform in x, transposed and padded in y, shape (py rounded up to a multiple of `together`, px)
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
       !> For `together` rows, and for all columns; neither depends on the number of rows of the window
       type(plan_set), private :: row_plans, column_plans
@@ -44,9 +44,9 @@ contains
 
    subroutine prepare(self, mx, my, px, py)
       class(paired_plan), intent(inout) :: self
-      !> Window and padded window; px >= mx, py >= my rounded up to a multiple of `together`
+      !> Window and padded window; px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
-      integer :: rows
+      integer :: rows, length
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
          & .and. c_associated(self%row_plans%plan(line_forward))) return
@@ -55,25 +55,35 @@ contains
       self%my = my
       self%px = px
       self%py = py
-      rows = together*((my + together - 1)/together)
-      allocate(self%rows(px, rows), self%columns(py, px), source=(0.0_wp, 0.0_wp))
-      allocate(self%rows_back(px, rows), self%columns_back(py, px), self%spectrum(py, px))
+      rows = in_groups(my)
+      length = in_groups(py)
+      allocate(self%rows(px, rows), self%columns(length, px), source=(0.0_wp, 0.0_wp))
+      allocate(self%rows_back(px, rows), self%columns_back(length, px), self%spectrum(py, px))
+      ! read by the last group, without effect
+      self%columns_back(py + 1:, :) = 0.0_wp
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
       call self%row_plans%take(plan_kind%paired_rows, together, px, py)
       if (.not. self%row_plans%is_kept) then
-         self%row_plans%plan = [plan_complex(px, together, self%rows, 1, px, self%columns, py, 1, forwards), &
-            & plan_complex(px, together, self%columns_back, py, 1, self%rows_back, 1, px, backwards)]
+         self%row_plans%plan = [plan_complex(px, together, self%rows, 1, px, self%columns, length, 1, forwards), &
+            & plan_complex(px, together, self%columns_back, length, 1, self%rows_back, 1, px, backwards)]
          call self%row_plans%keep(plan_kind%paired_rows, together, px, py)
       end if
       call self%column_plans%take(plan_kind%paired_columns, 0, px, py)
       if (.not. self%column_plans%is_kept) then
-         self%column_plans%plan = [plan_complex(py, px, self%columns, 1, py, self%spectrum, 1, py, forwards), &
-            & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, py, backwards)]
+         self%column_plans%plan = [plan_complex(py, px, self%columns, 1, length, self%spectrum, 1, py, forwards), &
+            & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, length, backwards)]
          call self%column_plans%keep(plan_kind%paired_columns, 0, px, py)
       end if
       !$omp end critical (contact_fft_planner)
    end subroutine prepare
+
+   !> Number of lines, rounded up to whole groups
+   pure integer function in_groups(lines)
+      integer, intent(in) :: lines
+
+      in_groups = together*((lines + together - 1)/together)
+   end function in_groups
 
    subroutine forward(self, fields, ahead)
       class(paired_plan), intent(inout) :: self
