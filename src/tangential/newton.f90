@@ -124,7 +124,7 @@ contains
          if (present(log)) call trace_step(problem, step, residual, solution, log)
          call check_ending(problem, step, since, history, tolerance, outcome%ended)
          if (outcome%ended == ending%stagnated .and. allocated(problem%second)) then
-            ! turns of neighbouring elements may alternate without end
+            ! an element may alternate between adhesion and turned slip without end
             if (problem%second%turns) then
                problem%second%turns = .false.
                residual = true_residual(problem, solution%p, solution%slip, system%r)

@@ -246,6 +246,9 @@ contains
    end subroutine precondition
 
    !> u := (D C^-1 D / r + 1 - D) v for traction fields
+   !>
+   !> Weights and turns of the second-order scheme have no part in it: the inverse of turns amplifies angles that alternate from
+   !> element to element at the leading edge, and with it GMRES stagnates, see doc/theory/second_order.md.
    subroutine precondition_field(problem, operator, system, workspace, v, u)
       !> Determines the operator: steady rolling or a time step
       type(tangential_problem), intent(in) :: problem
@@ -266,9 +269,7 @@ contains
       if (allocated(problem%second)) then
          workspace%trial_slip = workspace%trial
          call problem%second%leave_stiff(workspace%trial_slip)
-         if (.not. workspace%turns%is_transposed) call workspace%turns%invert(workspace%trial_slip)
          call invert_operator(problem, operator, workspace%trial_slip, u)
-         if (workspace%turns%is_transposed) call workspace%turns%invert_transposed(u)
       else
          call invert_operator(problem, operator, workspace%trial, u)
       end if

@@ -21,34 +21,23 @@ module contact_tangential_slip_turns
       integer, allocatable :: at(:, :)
       !> Weight times cosine and sine of the turn [-]; what the acting slip changes by per angle [mm]; shape (2, window)
       real(wp), allocatable :: row(:, :), across(:, :)
-      !> The same for the way back: the row over its square, and what the slip changes by per angle, without weight and turn
-      real(wp), allocatable :: back(:, :), bare(:, :)
       !> The angle per slip behind, here and ahead [1/mm], shape (2, 3, window)
       real(wp), allocatable :: by(:, :, :)
-      !> Elimination of the angles, a tridiagonal system for each row: factors of the former one and of the next, and of the
-      !> right-hand side, shape (window)
-      real(wp), allocatable :: former(:), next(:), pivot(:)
       !> Scratch: changes of the angles, shape (window)
       real(wp), allocatable :: angle(:)
-      !> Is the transposed derivative in use, of a contact that is turned by half a turn?
-      logical :: is_transposed = .false.
    contains
       !> Derivative at a slip
       procedure :: linearise => linearise_turns
       !> Slip into acting slip, at that of the derivative
       procedure :: act
-      !> Change of slip into change of acting slip, and back
-      procedure :: apply, invert
-      !> The transposed of both
-      procedure :: apply_transposed, invert_transposed
+      !> Change of slip into change of acting slip, and the transposed
+      procedure :: apply, apply_transposed
       !> Half a turn of the contact
       procedure :: turn_round => reverse_turns
    end type slip_turns
 
    !> Part of the difference of slip and mean in the product of their lengths; it is of fourth order where slip is smooth; chosen
    real(wp), parameter :: apart = 0.0625_wp
-   !> Pivots below this one, where slip is small beside that of the neighbours, are raised: the inverse only preconditions; chosen
-   real(wp), parameter :: least_pivot = 0.2_wp
 
 contains
 
@@ -192,14 +181,9 @@ contains
             self%by(:, :, k) = 0.0_wp
             if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
                & self%across(:, k), self%by(:, :, k))
-            factor = 1.0_wp/weight(ix, iy)**2
-            self%back(:, k) = factor*self%row(:, k)
-            self%bare(1, k) = self%back(1, k)*self%across(1, k) + self%back(2, k)*self%across(2, k)
-            self%bare(2, k) = self%back(1, k)*self%across(2, k) - self%back(2, k)*self%across(1, k)
          end do
       end do
       self%n = k
-      call eliminate(self)
    end subroutine linearise_turns
 
    !> Arrays for a window of so many elements
@@ -207,13 +191,9 @@ contains
       class(slip_turns), intent(inout) :: self
       integer, intent(in) :: window
 
-      self%is_transposed = .false.
       if (self%window == window) return
-      if (allocated(self%at)) deallocate(self%at, self%row, self%across, self%back, self%bare, self%by, self%former, &
-         & self%next, self%pivot, self%angle)
-      allocate(self%at(3, window), self%by(2, 3, window))
-      allocate(self%row(2, window), self%across(2, window), self%back(2, window), self%bare(2, window))
-      allocate(self%former(window), self%next(window), self%pivot(window), self%angle(window))
+      if (allocated(self%at)) deallocate(self%at, self%row, self%across, self%by, self%angle)
+      allocate(self%at(3, window), self%row(2, window), self%across(2, window), self%by(2, 3, window), self%angle(window))
       self%window = window
    end subroutine fit_turns
 
@@ -263,37 +243,6 @@ contains
       if (mean%of_behind > 0.0_wp) call add_by_shares(mean, to_mean, [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)], w, &
          & [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)], by)
    end subroutine linearise_element
-
-   !> Factors for `invert`
-   pure subroutine eliminate(self)
-      type(slip_turns), intent(inout) :: self
-      integer :: k
-
-      do k = 1, self%n
-         self%former(k) = 0.0_wp
-         self%pivot(k) = 1.0_wp + by_angle_of(self, k, k)
-         if (k > 1) then
-            self%former(k) = by_angle_of(self, k, k - 1)
-            self%pivot(k) = self%pivot(k) - self%former(k)*self%next(k - 1)
-         end if
-         self%pivot(k) = 1.0_wp/max(least_pivot, self%pivot(k))
-         self%next(k) = 0.0_wp
-         if (k < self%n) self%next(k) = self%pivot(k)*by_angle_of(self, k, k + 1)
-      end do
-   end subroutine eliminate
-
-   !> Change of the angle of element k by that of element j, zero where they are no neighbours in a row
-   pure real(wp) function by_angle_of(self, k, j) result(change)
-      type(slip_turns), intent(in) :: self
-      integer, intent(in) :: k, j
-      integer :: side
-
-      change = 0.0_wp
-      do side = 1, 3
-         if (self%at(side, k) == self%at(2, j)) change = change + self%by(1, side, k)*self%bare(1, j) &
-            & + self%by(2, side, k)*self%bare(2, j)
-      end do
-   end function by_angle_of
 
    !> self%angle := changes of the angles by a field of slip
    pure subroutine find_angles(self, slip)
@@ -360,72 +309,9 @@ contains
       call add_by_angles(self, slip)
    end subroutine apply_transposed
 
-   pure subroutine invert(self, slip)
-      class(slip_turns), intent(inout) :: self
-      !> [mm]
-      real(wp), intent(inout) :: slip(self%window, 2)
-      real(wp) :: other, x
-      integer :: k
-
-      do k = 1, self%n
-         associate (i => self%at(2, k), back => self%back(:, k))
-            x = slip(i, 1)
-            slip(i, 1) = back(1)*x + back(2)*slip(i, 2)
-            slip(i, 2) = back(1)*slip(i, 2) - back(2)*x
-         end associate
-      end do
-      call find_angles(self, slip)
-      other = 0.0_wp
-      do k = 1, self%n
-         other = (self%angle(k) - self%former(k)*other)*self%pivot(k)
-         self%angle(k) = other
-      end do
-      other = 0.0_wp
-      do k = self%n, 1, -1
-         other = self%angle(k) - self%next(k)*other
-         associate (i => self%at(2, k))
-            slip(i, 1) = slip(i, 1) - other*self%bare(1, k)
-            slip(i, 2) = slip(i, 2) - other*self%bare(2, k)
-         end associate
-      end do
-   end subroutine invert
-
-   pure subroutine invert_transposed(self, slip)
-      class(slip_turns), intent(inout) :: self
-      !> A field of the window
-      real(wp), intent(inout) :: slip(self%window, 2)
-      real(wp) :: other, x
-      integer :: k
-
-      other = 0.0_wp
-      do k = 1, self%n
-         associate (i => self%at(2, k))
-            self%angle(k) = self%bare(1, k)*slip(i, 1) + self%bare(2, k)*slip(i, 2)
-         end associate
-         if (k > 1) self%angle(k) = self%angle(k) - self%next(k - 1)*other
-         other = self%angle(k)
-      end do
-      other = 0.0_wp
-      do k = self%n, 1, -1
-         if (k < self%n) self%angle(k) = self%angle(k) - self%former(k + 1)*other
-         self%angle(k) = self%angle(k)*self%pivot(k)
-         other = self%angle(k)
-      end do
-      self%angle(:self%n) = -self%angle(:self%n)
-      call add_by_angles(self, slip)
-      do k = 1, self%n
-         associate (i => self%at(2, k), back => self%back(:, k))
-            x = slip(i, 1)
-            slip(i, 1) = back(1)*x - back(2)*slip(i, 2)
-            slip(i, 2) = back(1)*slip(i, 2) + back(2)*x
-         end associate
-      end do
-   end subroutine invert_transposed
-
    subroutine reverse_turns(self)
       class(slip_turns), intent(inout) :: self
 
       self%at(:, :self%n) = self%window + 1 - self%at(:, :self%n)
-      self%is_transposed = .true.
    end subroutine reverse_turns
 end module contact_tangential_slip_turns
