@@ -1,16 +1,17 @@
 !> One grid of a search for a prescribed accuracy: the case solved on it, after those that it continues
 module contact_cases_accuracy_level
-   use contact_base_choices, only : estimate_choice, grid_form, motion, time_link
+   use contact_base_choices, only : estimate_choice, grid_form, material_model, motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : first_counts, level_grid, set_elements, stay_below
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, first_across, most_elements, prepare_level, &
-      & solver_tolerance
+      & smaller_tolerance, solver_tolerance
    use contact_cases_accuracy_series, only : has_history
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
+   use contact_patch_level_errors, only : share_of_residual
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -53,15 +54,24 @@ contains
 
       if (has_history(spec)) then
          grid = session%series%grid
-         grid%eps = min(grid%eps, solver_tolerance(spec%iteration%accuracy))
+         grid%eps = min(grid%eps, tolerance_of(spec))
       else
-         grid%eps = solver_tolerance(spec%iteration%accuracy)
+         grid%eps = tolerance_of(spec)
          call contact_sides(spec, contact)
          call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), contact, grid%lengths, grid%counts)
          where (fixed > 0) grid%counts = fixed
       end if
       call stay_below(most_elements(spec%limits), fixed, grid%counts)
    end subroutine first_grid
+
+   !> Tolerance of the solvers for the accuracy of a case
+   pure real(wp) function tolerance_of(spec) result(eps)
+      type(case_spec), intent(in) :: spec
+
+      eps = solver_tolerance(spec%iteration%accuracy)
+      if (spec%material_model == material_model%interfacial_layer) &
+         & eps = smaller_tolerance(eps, share_of_residual(.false.)/share_of_residual(.true.))
+   end function tolerance_of
 
    !> Solve a case on one grid, after those that it continues
    subroutine solve_level(session, spec, grid, refines, log, result, is_solved, seconds, error, folder)

@@ -33,6 +33,8 @@ module contact_cases_wheel_rail_accuracy
    real(wp), parameter :: error_of_few = 0.3_wp
    !> Minimum ratio of old to new sides; smaller reductions are not tried
    real(wp), parameter :: worth = 1.15_wp
+   !> Minimum ratio of the sides to the next ones, where limits allow it; chosen, above `worth`
+   real(wp), parameter :: least_ratio = 1.2_wp
 
 contains
 
@@ -223,6 +225,8 @@ contains
             & report%asked, order), next)
          next = min(next, sides)
       end associate
+      ! a few elements across need a small step in one direction only, which alone is not worth another grid
+      next = next*min(1.0_wp, sqrt(product(sides/next))/least_ratio)
       do k = 1, memory%used
          associate (grid => memory%slot(k)%result%grid)
             elements = real(grid%npot(), wp)*product([grid%dx, grid%dy]/next)

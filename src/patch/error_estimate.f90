@@ -15,7 +15,7 @@ module contact_patch_error_estimate
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch
    use contact_patch_error_scales, only : mean_friction, scale_type, scales
-   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, residual_share, scale_of, traction_error
+   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, scale_of, share_of_residual, traction_error
    use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
@@ -95,7 +95,8 @@ contains
          if (allocated(errors%value)) deallocate(errors%value)
          allocate(errors%value(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
          errors%ncon = 0
-         errors%stopping = residual_share*max(0.0_wp, [result%normal%residual, result%tangential%residual])
+         errors%stopping = max(0.0_wp, [share_of_residual(.false.)*result%normal%residual, &
+            & share_of_residual(problem%model%layer > 0.0_wp)*result%tangential%residual])
          errors%window = cut_off(problem, result)
          call coarsen_patch(problem, state, link, result, level%problem, level%state, errors%reason)
          if (errors%reason == "") then

@@ -82,6 +82,8 @@ module contact_patch_error_scales
       real(wp) :: driven = 0.0_wp
       !> Geometric mean of the number of elements across the contact in both directions
       real(wp) :: mean_across = 1.0_wp
+      !> Is it a line contact, with elements along x only?
+      logical :: is_line = .false.
       !> Root mean square deviation of the coefficient of friction, relative to its mean, if it depends on slip velocity [-]
       real(wp) :: falling = 0.0_wp
       !> Turning of the slip direction across the contact, for the second order in rolling, at most half a turn [rad]
@@ -136,6 +138,7 @@ contains
       extent = across*[result%grid%dx, result%grid%dy]
       scale%mean_across = sqrt(real(product(across), wp))
       if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) then
+         scale%is_line = .true.
          scale%across = across(1)
          scale%mean_across = scale%across
       else if (result%grid%mx < 3 .and. extent(1) > plane*extent(2)) then

@@ -164,6 +164,14 @@ class Accuracy(Runs):
             self.assertLess(abs(record["totals"][name] - fine["totals"][name]), 1e-3 * bound)
         self.assertIn("OF THE FORCES, REACHED\n", words)
 
+    def test_wheel_with_a_long_patch(self):
+        """Few elements across a patch need slightly smaller ones in one direction; that was taken for a limit"""
+        flange = {"dx": 0.4, "mu": 0.12587320834354052, "cant": 0.025, "y": 5.19271967730047, "yaw": -0.0037212372493698707,
+                  "fz": 35218.87049708441, "vs": 20000.0, "vpitch": -43.468563636522646}
+        _, record = self.solve("w.toml", wheel_text(flange, 1, SOURCE / "examples" / "profiles"), "--accuracy", "1e-2")
+        told = record["accuracy"]
+        self.assertTrue(told["reached"] and told["estimated"] <= 1e-2 and told["grids"] > 1)
+
     def test_limits(self):
         """If limits end the search, the best result is written, with its error and the reason"""
         for option in ("--limit-elements=1000", "--limit-memory=1.5"):
