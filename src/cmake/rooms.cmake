@@ -1,6 +1,7 @@
 # One object library per room. A room sees the modules of the rooms it names after USES and of
 # no other, so an upward `use` ends in "cannot open module file".
 set(CONTACT_MODULE_ROOT ${CMAKE_BINARY_DIR}/modules)
+set(CONTACT_MODULE_STAMP ${CMAKE_CURRENT_LIST_DIR}/module_stamp.cmake)
 
 # contact_room(<room> [USES <lower rooms>] SOURCES <files> [LIBRARIES <targets>] [PROGRAM <file>])
 #
@@ -27,9 +28,8 @@ function(contact_room room)
       message(FATAL_ERROR "contact_room(${room}): room ${lower} stands nowhere above it")
     endif()
     target_include_directories(contact_${room} PRIVATE ${CONTACT_MODULE_ROOT}/${lower})
-    add_dependencies(contact_${room} contact_${lower})
-    get_target_property(lower_objects contact_${lower} CONTACT_OBJECTS)
-    list(APPEND below ${lower_objects})
+    add_dependencies(contact_${room} contact_${lower}_modules)
+    list(APPEND below ${CONTACT_MODULE_ROOT}/${lower}.stamp)
     get_target_property(lower_closure contact_${lower} CONTACT_CLOSURE)
     get_target_property(lower_libraries contact_${lower} CONTACT_LIBRARIES)
     list(APPEND closure ${lower_closure})
@@ -38,14 +38,18 @@ function(contact_room room)
   list(REMOVE_DUPLICATES closure)
   list(REMOVE_DUPLICATES libraries)
   # CMake follows module files within a target and through linked libraries, not from one object
-  # library to the next: a source is compiled again when an object of a room that it uses is new
+  # library to the next: a source is compiled again when a module file of a room that it uses is new
   set(objects)
   foreach(source IN LISTS arg_SOURCES)
     file(RELATIVE_PATH relative ${CMAKE_CURRENT_SOURCE_DIR} ${source})
     list(APPEND objects ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/contact_${room}.dir/${relative}.o)
   endforeach()
-  set_target_properties(contact_${room} PROPERTIES CONTACT_OBJECTS "${objects}")
   set_source_files_properties(${arg_SOURCES} PROPERTIES OBJECT_DEPENDS "${below}")
+  set(stamp ${CONTACT_MODULE_ROOT}/${room}.stamp)
+  add_custom_command(OUTPUT ${stamp} DEPENDS ${objects} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D folder=${CONTACT_MODULE_ROOT}/${room} -D stamp=${stamp} -P ${CONTACT_MODULE_STAMP})
+  add_custom_target(contact_${room}_modules DEPENDS ${stamp})
+  add_dependencies(contact_${room}_modules contact_${room})
 
   # What a program needs at its link that uses this room: rooms and outside libraries
   set_target_properties(contact_${room} PROPERTIES
@@ -60,7 +64,7 @@ function(contact_room room)
   endif()
 endfunction()
 
-# Let a target see the modules of the named rooms, and compile it again when one of them is new
+# Let a target see the modules of the named rooms, and compile it again when one of them has changed
 function(contact_use_rooms target)
   get_target_property(sources ${target} SOURCES)
   foreach(room IN LISTS ARGN)
@@ -68,9 +72,8 @@ function(contact_use_rooms target)
       message(FATAL_ERROR "${target}: there is no room ${room}")
     endif()
     target_include_directories(${target} PRIVATE ${CONTACT_MODULE_ROOT}/${room})
-    add_dependencies(${target} contact_${room})
-    get_target_property(room_objects contact_${room} CONTACT_OBJECTS)
-    set_property(SOURCE ${sources} APPEND PROPERTY OBJECT_DEPENDS ${room_objects})
+    add_dependencies(${target} contact_${room}_modules)
+    set_property(SOURCE ${sources} APPEND PROPERTY OBJECT_DEPENDS ${CONTACT_MODULE_ROOT}/${room}.stamp)
   endforeach()
 endfunction()
 

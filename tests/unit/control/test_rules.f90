@@ -13,13 +13,14 @@ program test_rules
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    type(test_suite) :: suite
+   integer :: i
 
    call suite%start("rules of choices")
    call break_all(suite)
    call numbers(suite)
    call terms(suite)
-   call manual(suite, "## Choices that go together", size(choice_rules), row_of_choice)
-   call manual(suite, "### Numbers that choices ask for", size(number_rules), row_of_number)
+   call manual(suite, "## Choices that go together", [(row_of_choice(i), i = 1, size(choice_rules))])
+   call manual(suite, "### Numbers that choices ask for", [(row_of_number(i), i = 1, size(number_rules))])
    call suite%finish()
 
 contains
@@ -193,20 +194,13 @@ contains
    end subroutine expect
 
    !> The manual has a row for each rule, and no other rows
-   subroutine manual(suite, title, rules, row_of)
+   subroutine manual(suite, title, rules)
       type(test_suite), intent(inout) :: suite
       !> Of the section with the table
       character(len=*), intent(in) :: title
-      !> Number of rules
-      integer, intent(in) :: rules
-      interface
-         !> A rule as a row of the manual
-         function row_of(k) result(row)
-            integer, intent(in) :: k
-            character(len=300) :: row
-         end function row_of
-      end interface
-      logical :: seen(rules)
+      !> The rules as rows of the manual
+      character(len=300), intent(in) :: rules(:)
+      logical :: seen(size(rules))
       character(len=300) :: folder, line
       integer :: k, status, unit, rows
 
@@ -225,15 +219,13 @@ contains
          read(unit, "(a)", iostat=status) line
          if (status /= 0 .or. line(:2) == "##") exit
          if (line(:2) == "| " .and. line(:8) /= "| digit " .and. line(:9) /= "| number ") rows = rows + 1
-         do k = 1, rules
-            if (line == row_of(k)) seen(k) = .true.
-         end do
+         where (line == rules) seen = .true.
       end do
       close(unit)
-      do k = 1, rules
-         call suite%check(seen(k), "the manual has the row: " // trim(row_of(k)))
+      do k = 1, size(rules)
+         call suite%check(seen(k), "the manual has the row: " // trim(rules(k)))
       end do
-      call suite%equal(rows, rules, "rows of the manual")
+      call suite%equal(rows, size(rules), "rows of the manual")
    end subroutine manual
 
    !> A rule of choices as a row of the manual

@@ -1,0 +1,16 @@
+# cmake -D folder=<modules of a room> -D stamp=<file> -P module_stamp.cmake
+#
+# Write the checksums of all module files to the stamp, which keeps its time if none of them has changed
+file(GLOB modules ${folder}/*.mod)
+set(sums "")
+foreach(module IN LISTS modules)
+  file(SHA256 ${module} sum)
+  string(APPEND sums "${sum} ${module}\n")
+endforeach()
+set(before "")
+if(EXISTS ${stamp})
+  file(READ ${stamp} before)
+endif()
+if(NOT before STREQUAL sums)
+  file(WRITE ${stamp} "${sums}")
+endif()
