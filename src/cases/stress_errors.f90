@@ -34,8 +34,8 @@ module contact_cases_stress_errors
    !> Exponent of the ratio of the error by the levels to the general error, see contact_patch_level_errors
    real(wp), parameter :: stress_trust = 0.75_wp
    !> Error of the distribution of tangential tractions: factor of the relative error of the forces times their stress; of random
-   !> contacts in transient rolling (seeds 30162 and 30163)
-   real(wp), parameter :: turned_share = 0.5_wp
+   !> contacts in transient rolling (seeds 30162 to 30164)
+   real(wp), parameter :: distribution_share = 0.5_wp
    !> Ratio of the error to the difference of the levels in transient rolling, which has no clean order; of random contacts (seed
    !> 301)
    real(wp), parameter :: unclean = 0.5_wp
@@ -144,7 +144,7 @@ contains
       general = (stress_floor*largest + friction_floor*friction)/result%ncon*merge(layer_share, 1.0_wp, has_layer)
       e = hypot(equivalent(change%normal + change%friction + change%by_normal, by_tresca) - largest, &
          & equivalent(change%normal + change%friction + change%by_friction, by_tresca) - largest)
-      e = max(trusted(e, general, stress_trust), general) + max(turned_share*result%errors%traction*friction, &
+      e = max(trusted(e, general, stress_trust), general) + max(distribution_share*result%errors%traction*friction, &
          & abs(equivalent(change%normal + (1.0_wp + result%errors%traction)*change%friction, by_tresca) - largest))
    end function error_of_largest
 
