@@ -32,6 +32,10 @@ module contact_patch_friction_iteration
       real(wp) :: change = 0.0_wp, size = 0.0_wp
       !> Slip velocity of the present coefficients [mm/s], shape (mx, my)
       real(wp), allocatable, private :: speed(:, :)
+      !> Distance that particles have slipped in the step [mm], shape (mx, my); unallocated where memory is of first order
+      real(wp), allocatable, private :: path(:, :)
+      !> Slip velocity [mm/s] and coefficient of the law [-] of the same particles in the previous time step, shape (mx, my)
+      real(wp), allocatable, private :: speed_before(:, :), law_before(:, :)
       !> Temperature of body 1 for the present coefficients [degC], shape (mx, my)
       real(wp), allocatable, private :: temperature(:, :)
       !> Work space: velocities or temperatures of the new solution and of the last one, and coefficients of the last one, shape
@@ -46,6 +50,8 @@ module contact_patch_friction_iteration
    contains
       procedure :: start
       procedure :: advance
+      procedure :: follows_paths
+      procedure :: forget_paths
       procedure :: report => report_iteration
       procedure, private :: set_coefficients
    end type friction_iteration
@@ -65,7 +71,7 @@ module contact_patch_friction_iteration
 contains
 
    !> Initial coefficients of a case, or coefficients on a changed contact area
-   subroutine start(self, problem, state, dt, is_first, mu)
+   subroutine start(self, problem, state, dt, order, is_first, mu)
       class(friction_iteration), intent(inout) :: self
       !> Friction law with its memory, pressures, motion
       type(patch_problem), intent(in) :: problem
@@ -73,6 +79,8 @@ contains
       type(patch_state), intent(in) :: state
       !> Time step [s]
       real(wp), intent(in) :: dt
+      !> Order of the tangential problem; with order 2 friction memory is of second order, too
+      integer, intent(in) :: order
       !> First outer iteration of a case? Later ones continue from the last coefficients
       logical, intent(in) :: is_first
       !> Coefficients of friction [-], shape (mx, my)
@@ -94,8 +102,39 @@ contains
          end if
       end if
       where (state%now%division == element%exterior) self%speed = 0.0_wp
+      if (is_first) call start_paths(self, problem, state, order)
       call self%set_coefficients(problem, state, mu)
    end subroutine start
+
+   !> Paths of the particles for friction memory of second order, by the initial slip velocities
+   subroutine start_paths(self, problem, state, order)
+      class(friction_iteration), intent(inout) :: self
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      integer, intent(in) :: order
+
+      call self%forget_paths()
+      if (order /= 2 .or. .not. problem%friction_memory%acts()) return
+      if (problem%friction%driver() == friction_driver%temperature) return
+      self%path = self%dt*self%speed
+      if (problem%motion == motion%steady_rolling) return
+      self%speed_before = hypot(state%before%memory(carried%sx)%value, state%before%memory(carried%sy)%value)/self%dt
+      self%law_before = self%speed_before
+      call problem%friction%coefficient(self%speed_before, self%law_before)
+   end subroutine start_paths
+
+   !> Does friction memory need the distance that particles slip in a step?
+   pure logical function follows_paths(self)
+      class(friction_iteration), intent(in) :: self
+      follows_paths = allocated(self%path)
+   end function follows_paths
+
+   !> Go on with friction memory of first order
+   subroutine forget_paths(self)
+      class(friction_iteration), intent(inout) :: self
+      if (allocated(self%path)) deallocate(self%path)
+      if (allocated(self%law_before)) deallocate(self%speed_before, self%law_before)
+   end subroutine forget_paths
 
    !> Process a solution: choose the next coefficients, or end the iteration
    subroutine advance(self, problem, state, box, solution, converged, log, mu)
@@ -135,6 +174,10 @@ contains
             end associate
          end do
       end do
+      if (allocated(self%path)) then
+         self%path = 0.0_wp
+         self%path(box%ix0:box%ix1, box%iy0:box%iy1) = merge(solution%path, 0.0_wp, solution%division == element%slip)
+      end if
       if (by_temperature) then
          self%last = self%temperature
          self%speed = self%new
@@ -188,7 +231,15 @@ contains
       call problem%friction%coefficient(self%speed, mu)
       if (.not. problem%friction_memory%acts()) return
       if (problem%motion == motion%steady_rolling) then
-         call problem%friction_memory%march(self%speed, self%dt, rolling_direction(problem), problem%static_mu, mu)
+         if (allocated(self%path)) then
+            call problem%friction_memory%march_along(self%speed, self%path, self%dt, rolling_direction(problem), &
+               & problem%static_mu, mu)
+         else
+            call problem%friction_memory%march(self%speed, self%dt, rolling_direction(problem), problem%static_mu, mu)
+         end if
+      else if (allocated(self%path)) then
+         call problem%friction_memory%step_along(self%speed, self%path, self%dt, self%speed_before, self%law_before, &
+            & state%before%memory(carried%mu)%value, mu)
       else
          call problem%friction_memory%step(self%speed, self%dt, state%before%memory(carried%mu)%value, mu)
       end if

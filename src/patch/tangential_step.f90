@@ -57,11 +57,12 @@ contains
       call prepare_box(problem, box, workspace)
       if (problem%general_step) call prepare_step(problem, workspace)
       if (iterates_friction(problem)) call workspace%friction%start(problem, state, result%dt, &
-         & result%outer_iterations == 1, result%mu)
+         & result%tangential%order, result%outer_iterations == 1, result%mu)
       call set_and_solve(problem, state, box, workspace, log, result)
       if (allocated(workspace%tangential%second) .and. .not. any(result%tangential%ended == [ending%converged, &
          & ending%out_of_time, ending%beyond_friction])) then
          call lower_order("no progress with order 2", result%tangential)
+         call workspace%friction%forget_paths()
          call rigid_slip(problem, result)
          call set_and_solve(problem, state, box, workspace, log, result)
       end if
@@ -198,6 +199,10 @@ contains
          if (allocated(t%share)) deallocate(t%share)
          if (allocated(t%edge)) deallocate(t%edge)
          call prepare_solution(t, s)
+         if (allocated(s%path)) deallocate(s%path)
+         if (iterates_friction(problem)) then
+            if (workspace%friction%follows_paths()) allocate(s%path(mx, my))
+         end if
          s%creep = [result%cksi, result%ceta]
          do iy = 1, my
             jy = box%iy0 + iy - 1

@@ -84,6 +84,8 @@ module contact_tangential_problem
       real(wp) :: creep(2) = 0.0_wp
       !> Element states, shape (mx, my)
       integer, allocatable :: division(:, :)
+      !> Distance that particles slip in the step, up to the centres of elements [mm], shape (mx, my); set if allocated
+      real(wp), allocatable :: path(:, :)
       !> Sensitivities of relative forces sum(p)/sum(g) to the unknown creepages, 0 if unknown
       real(wp) :: sensitivity(2, 2) = 0.0_wp
       !> Increase of the plastic displacement [mm], shape (mx, my, 2), and yield limit after the step [N/mm2], shape (mx, my);
@@ -365,6 +367,7 @@ contains
       real(wp) :: z(2), length
       integer :: ix, iy
 
+      if (allocated(solution%path)) solution%path = hypot(solution%slip(:, :, 1), solution%slip(:, :, 2))
       if (allocated(problem%second)) call problem%second%centre_slip(problem%contact, solution%division == element%slip, &
          & problem%direction, solution%slip)
       if (.not. allocated(problem%yield)) return

@@ -43,13 +43,16 @@ def curvatures(a, b, fn):
     return [scale * np.sum(weight * 2 / np.cos(angle)**2 / ((s + t) * np.sqrt((a * a + t) * (b * b + t)))) for s in (a * a, b * b)]
 
 
-def hertz(n, offset, creep, order, a=3.0, b=5.0, fn=30e3, mu=MU, eps=1e-7, direction=0.0, nu=NU):
+def hertz(n, offset, creep, order, a=3.0, b=5.0, fn=30e3, mu=MU, eps=1e-7, direction=0.0, nu=NU, law=None):
     """An ellipse on about n by n elements, the grid shifted by parts of an element"""
     first, second = (value * (1 - nu) / (1 - NU) for value in curvatures(a, b, fn))
     dx, dy = 2.2 * a / n, 2.2 * b / n
     with contact.Problem() as problem:
         problem.set_material(g=G, nu=nu)
-        problem.set_friction(mu)
+        if law:
+            problem.set_friction_law(*law)
+        else:
+            problem.set_friction(mu)
         problem.set_grid(n + 2, n + 2, dx, dy, -(n / 2 + 1 + offset[0]) * dx, -(n / 2 + 1 + offset[1]) * dy)
         problem.set_distance(lambda x, y: first * x**2 + second * y**2)
         problem.set_normal_force(fn)
@@ -147,6 +150,18 @@ def oblique_edges():
     # without those terms 8.7e-4, 2.5e-4 and 9.0e-5, order 1.64
     check(size[20] < 1e-3 and size[40] < 1.5e-4 and size[80] < 5e-5, f"Poisson's ratio 0.48: errors {size}")
     check(np.log2(size[20] / size[80]) / 2 >= 1.8, f"Poisson's ratio 0.48: order {np.log2(size[20] / size[80]) / 2:.2f}")
+
+
+def falling_friction():
+    """Friction that falls with slip, with a memory: FX of three grids goes to its limit by the second order"""
+    kinetic, exponential = 0.12, 4
+    for memory in (0.001, 0.005):
+        law = (exponential, [kinetic, 0.08, 30.0, 0.0, 1.0, memory, 10.0])
+        fx = [np.mean([forces(hertz(n, offset, (1e-3, 0, 3e-4), 2, mu=0.2, law=law))[0] for offset in OFFSETS[:5]])
+              for n in (20, 40, 80)]
+        change = np.abs(np.diff(fx))
+        # five positions of the grid leave about 2e-5
+        check(change[1] < max(change[0] / 2.5, 5e-5), f"memory of {memory} mm: FX {fx}, changes {change}")
 
 
 def random_contacts():
@@ -298,6 +313,7 @@ constants()
 carter()
 ellipses()
 oblique_edges()
+falling_friction()
 by_formula()
 mirrored()
 turning_round()
