@@ -173,8 +173,8 @@ contains
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx
-      ! a time step is longer than some elements and shorter than others; a layer adds a length scale
-      scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
+      ! with the first order a time step is longer than some elements and shorter than others, and a layer adds a length scale
+      scale%clean = order == 2 .or. .not. (problem%motion == motion%transient_rolling .or. problem%model%layer > 0.0_wp)
       ! tractions are singular at prescribed edges
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then

@@ -60,8 +60,6 @@ contains
          reason = "elastic sheet"
       else if (problem%remembers_yield) then
          reason = "plastic layer"
-      else if (problem%model%layer > 0.0_wp) then
-         reason = "elastic layer"
       else if (problem%model%kernel == kernel_model%bilinear) then
          reason = "bilinear tractions"
       else if (.not. problem%model%is_flat()) then
@@ -139,7 +137,7 @@ contains
          allocate(gap(t%mx, t%my), source=unknown_gap)
          if (.not. is_root(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
          call find_edge_terms(t%contact, workspace%box_pn, gap, is_root(problem), t%dx, t%dy, t%direction, &
-            & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), t%second)
+            & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), problem%model%layer, t%second)
       end associate
    end subroutine set_second_order
 
@@ -203,7 +201,7 @@ contains
          side = real(2*k - 3, wp)*step
          call find_edge_terms(tangential%contact, pressure + side*change, tangential%second%gap + side*gap_change, &
             & is_root(problem), tangential%dx, tangential%dy, tangential%direction, problem%model%material%nu, &
-            & problem%model%material%gg, diagonal, terms(k))
+            & problem%model%material%gg, diagonal, problem%model%layer, terms(k))
       end do
       do k = 1, size(terms(1)%at, 2)
          associate (ix => terms(1)%at(1, k), iy => terms(1)%at(2, k))

@@ -9,6 +9,7 @@ module contact_tangential_newton
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_compliance, only : compliance
+   use contact_tangential_layer_start, only : march_along_rows
    use contact_tangential_newton_jacobian, only : apply_d, differentiate_return_map, fit_workspace, linear_system, linearise, &
       & new_system, newton_workspace
    use contact_tangential_newton_linear, only : solve_linear
@@ -102,6 +103,7 @@ contains
          creep_range = first_range*maxval(abs(workspace%trial_slip(:, :, 1)), problem%contact)/problem%dq
       end if
       call start_values(problem, operator, system, solution, workspace, residual)
+      call march_along_rows(problem, operator, system%r, workspace%trial, workspace%trial_slip, solution, residual)
       previous = residual
       history = 0.0_wp
       waits = .false.

@@ -10,6 +10,7 @@
 !> Rows of the equations are multiplied by a weight, so that the solver sees slip that it may scale by one number.
 !> Derivation: doc/theory/second_order.md.
 module contact_tangential_second_order
+   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_tangential_slip_means, only : local_mean, mean_length, mean_slip
    use contact_tangential_slip_turns, only : turn_between
@@ -64,10 +65,16 @@ module contact_tangential_second_order
    !> Terms above this part of the compliance of an element are stiff; chosen
    real(wp), parameter :: stiff_share = 0.5_wp
 
+   !> A layer of flexibility r, relative to that of an element, has e0 + r + ln(1 + r (c(1) + c(2)/(1 + c(3) r^c(4))))/pi in place
+   !> of e0, and 1 - (1 - d0)/(1 + b(1) r^b(2)) in place of d0. Fitted to the integrals of the factorisation, within 4e-3
+   real(wp), parameter :: layer_scale(4) = [0.57_wp, 0.505_wp, 0.58_wp, 0.8_wp], layer_place(2) = [3.1_wp, 0.85_wp]
+   !> Distance from the pole of the term of a layer below which it does not grow any more [elements]: the first traction vanishes
+   real(wp), parameter :: nearest_pole = 1.0e-3_wp
+
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
-   subroutine find_edge_terms(contact, pn, gap, is_root, dx, dy, direction, nu, gg, diagonal, second)
+   subroutine find_edge_terms(contact, pn, gap, is_root, dx, dy, direction, nu, gg, diagonal, layer, second)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
@@ -86,6 +93,8 @@ contains
       real(wp), intent(in) :: nu, gg
       !> Compliance of an element A_xx(0) [mm/(N/mm2)]
       real(wp), intent(in) :: diagonal
+      !> Part of it that is the displacement of a layer between the bodies
+      real(wp), intent(in) :: layer
       !> Gets terms and weights
       type(second_order), intent(inout) :: second
       !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
@@ -144,13 +153,18 @@ contains
          end if
          second%at(:, k) = at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
+         oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
+         if (layer > 0.0_wp) then
+            second%kappa(:, k) = layer_terms(scale/unit, 2.0_wp/gg*dx*nx, nu, layer, [nx, direction*ny])
+            ! next to a layer the bodies do not see the steps of the edge
+            oblique = oblique/(1.0_wp + layer*gg/(2.0_wp*dx*nx))
+         end if
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
          ! the terms behind move from element to element as the edge does, so that forces are continuous
          part(1) = behind_edge*unit/(unit + excess)
          part(2) = behind_edge - part(1)
-         oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
          do j = 1, min(2, length(k) - 1)
             behind = behind + 1
             second%at(:, behind) = [ix - j*direction, iy]
@@ -159,6 +173,39 @@ contains
          end do
       end do
    end subroutine find_edge_terms
+
+   !> Terms xx, yy, xy of a leading element where there is a layer between the bodies [mm/(N/mm2)]
+   !>
+   !> With E + 2 r |sin(theta/2)| in place of the even factor E, r the flexibility of the layer relative to that of an element, the
+   !> factorisation gives terms P f, f = t/(1 - t), t = Z - place, with P and Z in place of e0 and d0. Along and across the edge r
+   !> is different.
+   pure function layer_terms(share, flexibility, nu, layer, normal) result(terms)
+      !> Term without layer relative to that of the kernel [-], which tells the place of the edge
+      real(wp), intent(in) :: share
+      !> Of an element to tractions along the edge, 2/G h n_x [mm/(N/mm2)]; to those across it 1 - nu times that
+      real(wp), intent(in) :: flexibility, nu
+      !> Displacement of the layer per unit traction [mm/(N/mm2)]
+      real(wp), intent(in) :: layer
+      !> Normal of the edge [-]
+      real(wp), intent(in) :: normal(2)
+      real(wp) :: terms(3)
+      !> Across and along the edge
+      real(wp) :: flexible(2), term(2)
+      real(wp) :: place, ratio, scale, pole
+      integer :: k
+
+      place = d0 - share/(1.0_wp + share)
+      flexible = flexibility*[1.0_wp - nu, 1.0_wp]
+      do k = 1, 2
+         ratio = layer/flexible(k)
+         scale = e0 + ratio &
+            & + log(1.0_wp + ratio*(layer_scale(1) + layer_scale(2)/(1.0_wp + layer_scale(3)*ratio**layer_scale(4))))/pi
+         pole = (1.0_wp - d0)/(1.0_wp + layer_place(1)*ratio**layer_place(2))
+         term(k) = flexible(k)*scale*(1.0_wp - pole - place)/max(place + pole, nearest_pole)
+      end do
+      terms = [term(1)*normal(1)**2 + term(2)*normal(2)**2, term(1)*normal(2)**2 + term(2)*normal(1)**2, &
+         & (term(1) - term(2))*normal(1)*normal(2)]
+   end function layer_terms
 
    !> Is a gap known?
    elemental logical function is_known(gap)

@@ -41,11 +41,10 @@ def exact_totals(c, records):
     middle, fine = (patch_of(r, 1) for r in ({1: records[0]}, {1: records[1]}))
     if None in (middle, fine):
         return None
-    order = 1 if c["kind"] == "layer" else 2
     exact, doubt = dict(fine["totals"]), 0.0
     for name in COUNTED:
         if name in exact:
-            step = (fine["totals"][name] - middle["totals"][name]) / (2.0**order - 1.0)
+            step = (fine["totals"][name] - middle["totals"][name]) / 3.0
             exact[name] += step
             doubt = max(doubt, abs(step) / (scale_of(name, fine["totals"], c) or 1.0))
     return exact, doubt
@@ -217,8 +216,6 @@ def main():
     asked = parser.parse_args()
     if asked.check:
         asked.count, asked.wheels, asked.seed, asked.asked, asked.reference = 20, 4, 5, "1e-2,2e-3", 40
-        # a layer is of first order and takes seconds
-        asked.kinds = ",".join(k for k in KINDS if k != "layer")
     asked.kinds = asked.kinds.split(",")
     asked.asked = [float(word) for word in asked.asked.split(",")]
     program = os.environ["CONTACT_PROGRAM"]

@@ -242,8 +242,8 @@ CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _for
 FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps,
            "slender": _slender, "layer_spin": _layer_spin, "dissimilar_spin": _dissimilar_spin,
            "viscoelastic_spin": _viscoelastic_spin, "falling_forces": _falling_forces, "one_force": _one_force, "two": _two}
-#: Kinds without second order: a layer, and steps of the same length on finer grids
-FIRST_ORDER = ("layer", "layer_spin", "transient", "steps")
+#: Kinds without second order: steps of the same length on finer grids
+FIRST_ORDER = ("transient", "steps")
 
 
 def stress_points(c):

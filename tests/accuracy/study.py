@@ -166,8 +166,8 @@ def measure(kind, count, source, offsets, grids, folder):
     for c in contacts:
         c["full"] = creepage_of_sliding(c) if "gg" in c else 1.0
     shifts = [(source.random(), source.random()) for _ in range(offsets)]
-    orders = (FIRST,) if kind in ("transient", "shift", "normal", "layer") else (FIRST, SECOND)
-    p = FIRST if kind in ("transient", "layer") else SECOND
+    orders = (FIRST,) if kind in ("transient", "shift", "normal") else (FIRST, SECOND)
+    p = FIRST if kind == "transient" else SECOND
     limits = reference_of(folder, contacts, orders[-1], p, shifts[:2])
     rows = []
     for order in orders:

@@ -34,6 +34,27 @@ def constants():
         close(found, value, 2e-6, f"constant {name}")
 
 
+def constants_of_layers():
+    """Formulas for a layer between the bodies agree with the integrals of the factorisation"""
+    place, weight = np.polynomial.legendre.leggauss(400)
+    theta, weight = (place + 1) * np.pi / 2, weight * np.pi / 2
+    shifted = theta[:, None] + 2 * np.pi * np.arange(-2000, 2001)
+    even = 2 * np.sin(theta / 2) * np.sum(np.sinc(shifted / (2 * np.pi)) / np.abs(shifted), axis=1)
+    with open(os.path.join(SOURCE, "src/tangential/second_order.f90"), encoding="utf-8") as file:
+        text = file.read()
+    d0, e0 = (float(re.search(name + r" = ([0-9.]+)_wp", text).group(1)) for name in ("d0", "e0"))
+    c, b = ([float(value) for value in re.search(name + r"\(\d\) = \[([^]]*)\]", text).group(1).replace("_wp", "").split(",")]
+            for name in ("layer_scale", "layer_place"))
+    for ratio in np.logspace(-3, 3, 61):
+        whole = even + 2 * ratio * np.sin(theta / 2)
+        scale = np.exp(np.sum(weight * np.log(whole)) / np.pi)
+        near = np.sum(weight * (np.log(whole) / (4 * np.sin(theta / 2)**2) - np.log1p(ratio * theta) / theta**2))
+        far = np.log1p(ratio * np.pi) / np.pi + ratio * np.log1p(1 / (ratio * np.pi))
+        fitted = e0 + ratio + np.log(1 + ratio * (c[0] + c[1] / (1 + c[2] * ratio**c[3]))) / np.pi
+        close(fitted / scale, 1.0, 4e-3, f"layer of {ratio:.1e}: scale of the term")
+        close(1 - (1 - d0) / (1 + b[0] * ratio**b[1]), 0.75 - (near - far) / np.pi, 4e-3, f"layer of {ratio:.1e}: place of the edge")
+
+
 def curvatures(a, b, fn):
     """Coefficients of x2 and y2 of the distance of bodies that touch in an ellipse (Hertz)"""
     angle, weight = np.polynomial.legendre.leggauss(200)
@@ -43,12 +64,12 @@ def curvatures(a, b, fn):
     return [scale * np.sum(weight * 2 / np.cos(angle)**2 / ((s + t) * np.sqrt((a * a + t) * (b * b + t)))) for s in (a * a, b * b)]
 
 
-def hertz(n, offset, creep, order, a=3.0, b=5.0, fn=30e3, mu=MU, eps=1e-7, direction=0.0, nu=NU, law=None):
+def hertz(n, offset, creep, order, a=3.0, b=5.0, fn=30e3, mu=MU, eps=1e-7, direction=0.0, nu=NU, law=None, layer=None):
     """An ellipse on about n by n elements, the grid shifted by parts of an element"""
     first, second = (value * (1 - nu) / (1 - NU) for value in curvatures(a, b, fn))
     dx, dy = 2.2 * a / n, 2.2 * b / n
     with contact.Problem() as problem:
-        problem.set_material(g=G, nu=nu)
+        problem.set_material(g=G, nu=nu, model=4 if layer else 0, parameters=layer or ())
         if law:
             problem.set_friction_law(*law)
         else:
@@ -162,6 +183,19 @@ def falling_friction():
         change = np.abs(np.diff(fx))
         # five positions of the grid leave about 2e-5
         check(change[1] < max(change[0] / 2.5, 5e-5), f"memory of {memory} mm: FX {fx}, changes {change}")
+
+
+def elastic_layers():
+    """A layer that is much softer than the elements, about as soft, and much stiffer"""
+    creep = (1e-3, 4e-4, 6e-4)
+    for thickness, bounds in ((2e-4, (7e-4, 2.5e-4)), (2e-3, (1.5e-3, 4e-4)), (2e-2, (2e-3, 6e-4))):
+        found = {n: np.array([forces(hertz(n, offset, creep, 2, layer=[820.0, thickness, 0.0, 0.0])) for offset in OFFSETS[:4]])
+                 for n in (20, 40, 80)}
+        limit = (4 * found[80].mean(axis=0) - found[40].mean(axis=0)) / 3
+        rms = [np.linalg.norm(np.sqrt(((found[n] - limit)**2).mean(axis=0))) for n in (20, 40)]
+        check(rms[0] < bounds[0] and rms[1] < bounds[1], f"layer of {thickness} mm: errors {rms}")
+        first = np.linalg.norm(forces(hertz(40, OFFSETS[0], creep, 1, layer=[820.0, thickness, 0.0, 0.0])) - limit)
+        check(first > 10 * rms[1], f"layer of {thickness} mm: {first:.1e} by order 1, {rms[1]:.1e} by order 2")
 
 
 def random_contacts():
@@ -310,10 +344,12 @@ def by_formula():
 
 
 constants()
+constants_of_layers()
 carter()
 ellipses()
 oblique_edges()
 falling_friction()
+elastic_layers()
 by_formula()
 mirrored()
 turning_round()

@@ -22,7 +22,7 @@ OTHERS = (("shift", "order 2 is for rolling", {"motion": 1}),
           ("bilinear", "bilinear tractions", {"influence": 3}),
           ("formula", "pressures by formula", {"bound": 3}),
           ("gauss", "order 2 is for the default solver", {"solver": 3, "extra": RELAXATION}),
-          ("layer", "elastic layer", {"material": 4, "layer": "1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"}))
+          ("layer", "plastic layer", {"material": 4, "layer": "1000 0.02 100 0 GG3 LAYTHK TAU_C0 K_TAU"}))
 
 
 def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, solver=0, layer="", extra="", eps="1e-6", maxout=1,
@@ -92,6 +92,20 @@ class Order(Runs):
                 self.assertTrue(words.endswith(f" of order 1 ({reason})"), words)
                 self.assertEqual((two["solver"]["tangential_order"], two["solver"]["tangential_order_reason"]), (1, reason))
                 self.assertEqual(one["totals"], two["totals"])
+
+    def test_soft_layers_on_fine_grids(self):
+        """Newton's method finds the border of adhesion without a fall-back, in few steps"""
+        for force in (0, 1, 2):
+            creep = {0: "0.01 0.004 0.006", 1: "-0.5 0.004 0.006", 2: "-0.5 -0.3 0.006"}[force]
+            text = rolling(material=4, force=force, layer="820 0.1 0 0 GG3 LAYTHK TAU_C0 K_TAU")
+            text = text.replace("0.0005 0.0002 0.0003", creep).replace("14 14 3", "128 128 3")
+            for order in ("1", "2"):
+                with self.subTest(force=force, order=order):
+                    words, record = self.solve("soft.inp", text, "--order", order)
+                    self.assertIn("Newton-Krylov", words)
+                    self.assertNotIn("Gauss", words)
+                    self.assertEqual(record["solver"].get("tangential_order", 1), int(order))
+                    self.assertLess(record["solver"]["tangential_iterations"], 16)
 
     def test_readable_format(self):
         """The order is written in the file, is kept from case to case, and is kept by conversion as far as possible"""
