@@ -15,8 +15,8 @@ module contact_cases_accuracy_plan
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_elastic_material, only : combine, combined_material
    use contact_friction_new_law, only : friction_model, is_varying_law
-   use contact_patch_level_errors, only : coupled_friction_floor
    use contact_patch_result, only : hertz_result
+   use contact_patch_traction_errors, only : coupled_friction_floor
    use contact_subsurface_points, only : point_selection
    implicit none (type, external)
    private

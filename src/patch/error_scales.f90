@@ -59,6 +59,11 @@ module contact_patch_error_scales
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
+      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in rolling [-]
+      real(wp) :: cancelled = 0.0_wp
+      !> Moment of the force across the rolling direction with an arm of one element, in rolling, over that of the friction bound
+      !> [-]
+      real(wp) :: arm = 0.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
@@ -72,6 +77,8 @@ module contact_patch_error_scales
       real(wp) :: relaxation = 0.0_wp
       !> Order of the highest temperatures
       real(wp) :: heat_order = peak_order
+      !> Temperatures of the bodies outside the contact [degC]
+      real(wp) :: bulk(2) = 0.0_wp
       !> Relative difference of the levels in the mean coefficient of friction, if it depends on temperature [-]
       real(wp) :: warmed = 0.0_wp
       !> Standard deviation of the heights of a rough surface, relative to the approach [-]
@@ -165,6 +172,10 @@ contains
             & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
       end if
       scale%is_moment_alone = problem%n_forces == 2
+      if (problem%motion == motion%steady_rolling .and. scale%force > 0.0_wp) then
+         scale%cancelled = sqrt(max(0.0_wp, scale%used**2 - (result%fx**2 + result%fy**2)/scale%force**2))
+         scale%arm = abs(result%fy*cos(problem%chi) - result%fx*sin(problem%chi))*result%dq/max(scale%moment, tiny(extent))
+      end if
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2) &
@@ -178,6 +189,7 @@ contains
       ! tractions are singular at prescribed edges
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then
+         scale%bulk = problem%thermal%bulk
          if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
       end if
       if (allocated(problem%friction)) then

@@ -66,8 +66,8 @@ module contact_patch_result
       character(len=reason_length) :: reason = ""
       !> Relative contributions of the solvers (normal, tangential problem) and of contact that is cut off at the border [-]
       real(wp) :: stopping(2) = 0.0_wp, window = 0.0_wp
-      !> Relative error of tangential tractions where the levels indicate little of the error at a point, see
-      !> contact_patch_level_errors [-]
+      !> Error of tangential tractions, relative to them, where the levels indicate little of the error at a point, see
+      !> contact_patch_traction_errors [-]
       real(wp) :: traction = 0.0_wp
       !> Number of elements in contact on the coarse level
       integer :: ncon = 0

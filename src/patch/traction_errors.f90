@@ -1,0 +1,260 @@
+!> Errors of the tangential forces, the moment and the creepages, estimated from the differences between a solution and that with
+!> elements three times as long
+!>
+!> For the orders, and the lower bounds of errors, see doc/theory/errors.md.
+module contact_patch_traction_errors
+   use contact_base_kinds, only : wp
+   use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_scales, only : first_order, normal_order, scale_type
+   use contact_patch_quantities, only : error_law, error_scale, total
+   use contact_patch_step_errors, only : force_error
+   implicit none (type, external)
+   private
+
+   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, is_long_step, is_unseen, part_of, rough_floor, &
+      & sliding_part, traction_error, trust_in, trusted, unrelaxed
+
+   !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
+   !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
+   real(wp), parameter :: rough_floor(2) = [0.3_wp, 0.06_wp]
+   !> Pressures of unlike bodies cause tractions at the leading edge: factor of K k n^-1 in forces with the second-order scheme,
+   !> with k = K over the coefficient of friction, at most 1, see doc/theory/second_order.md
+   real(wp), parameter :: coupled_friction_floor = 0.15_wp
+   !> If these tractions reach the bound next to adhesion, the slip zone at the leading edge is narrower than an element: factor of
+   !> k^3 times the root of the fraction in adhesion, times n^-1; of unlike bodies with seed 8101
+   real(wp), parameter :: hidden_slip = 0.5_wp
+   !> Minimum error of tangential forces and moment, as a fraction of the largest of their errors
+   real(wp), parameter :: other_component = 0.2_wp
+   !> Where slip reverses its direction without adhesion in between, the position is not resolved: error of forces as a fraction of
+   !> the force of an element there. Root mean square over positions of the grid, two rollers of aluminium and steel; by the second
+   !> order in rolling of like bodies with spin (seeds 31001 and 31002); in shifts of like bodies, where single elements at the
+   !> edge of the region that slips back cause it (kind shifts, seed 7101)
+   real(wp), parameter :: reversal_share = 0.7_wp, reversal_by_spin = 0.3_wp, reversal_in_shifts = 0.18_wp
+   !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy, those of shifts
+   !> with seed 5301, those of the second order in rolling with seeds 11611 and 11612. Forces of steady rolling; of shifts;
+   !> power of steady rolling by the second order
+   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.12_wp], shift_floor = 0.12_wp, balance_floor = 0.24_wp
+   !> Order of forces in rolling by the second order, with jitter (same seeds); power and energy have that of the scales
+   real(wp), parameter :: force_order = 1.8_wp
+   !> Lower bound of the part that sticks for moments by the second order: errors of pressures remain in full sliding (same seeds)
+   real(wp), parameter :: least_adhesion = 0.25_wp
+   !> Creepages that are found for prescribed forces: factor of the root of the fraction in adhesion times n^-2 in addition to that
+   !> of forces, since a small change of a force near zero or near the bound needs a larger one of the creepage (seeds 31001, 31002
+   !> and 31004)
+   real(wp), parameter :: creepage_floor = 0.3_wp
+   !> General error of a single layer in rolling, whose slip has a length of its own: factor of n^-1 (seed 4001)
+   real(wp), parameter :: layer_floor = 0.3_wp
+   !> Elements that do not resolve the relaxation of viscoelastic bodies: factor of n^-1, by order (seeds 8101 and 8103; 31003)
+   real(wp), parameter :: relaxing_floor(2) = [0.05_wp, 0.07_wp]
+   !> Part of the general errors that moments have where both forces are prescribed, by the second order; of random contacts (seed
+   !> 3101)
+   real(wp), parameter :: moment_alone = 0.5_wp
+   !> The first order in steady rolling, of random contacts (seeds 71002, 71003 and 72001). Tractions in adhesion are displaced
+   !> along the rolling direction: factor of an element, an arm of the lateral force, times the root of the fraction in adhesion.
+   !> Tractions of different directions cause errors in sliding as well: factor of the part of the bound that cancels, a lower
+   !> bound of the fraction in adhesion
+   real(wp), parameter :: displaced = 0.08_wp, turned_share = 0.35_wp
+   !> In sliding, and for a moment alone, differences of the levels by the first order scatter more: those above this multiple of
+   !> the lower bound are reduced with this exponent, see trusted; fraction in adhesion up to which sliding dominates; the exponent
+   !> returns to 1 at twice this fraction
+   real(wp), parameter :: usual_ratio = 2.0_wp, sliding_trust = 0.6_wp, sliding = 0.03_wp
+   !> Forces with the second-order scheme if friction decreases with slip: factor of its relative deviations times n^-2; if the
+   !> direction of slip turns: of its turn across the contact times n^-2 (seeds 31001 and 31002)
+   real(wp), parameter :: falling_floor = 5.0_wp, turning_floor = 0.1_wp
+   !> Exponent of the ratio of an error by the levels to the general error, if larger than 1: of an error that jumps with the offset
+   !> of the grid the levels are two samples, and the general error is that usual for this number of elements. For forces and power
+   !> with the second-order scheme, of like and of unlike bodies
+   real(wp), parameter :: trust(2) = [0.7_wp, 0.8_wp]
+   !> Line contact in rolling: factor of n^-2, by order. Near full sliding both levels may lose the same elements in adhesion; of
+   !> Carter's solution at 20 to 99.5 % of the friction bound, 17 to 101 elements
+   real(wp), parameter :: line_floor(2) = [1.5_wp, 0.25_wp]
+
+contains
+
+   !> Error of a force, moment or creepage by the levels, and its lower bound
+   pure subroutine bound_friction(row, difference, unit, scale, e, floor)
+      !> Total of the finer level, with law and scale
+      type(total), intent(in) :: row
+      !> Difference between the levels, and reference value of the relative error, in its unit
+      real(wp), intent(in) :: difference, unit
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+      !> Error by the levels in its unit, and lower bound relative to the reference value [-]
+      real(wp), intent(out) :: e, floor
+      real(wp) :: part, adhesion, heat
+      logical :: is_force, is_moment
+
+      is_force = row%law == error_law%friction
+      is_moment = row%scale == error_scale%moment
+      part = part_of(scale, merge(force_order, scale%order, scale%order > first_order .and. scale%order < normal_order))
+      if (is_unseen(scale)) part = 0.0_wp
+      e = part*difference
+      if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across)*unit
+      heat = by_heat(scale, part, difference, unit)
+      if (.not. is_first(scale)) e = e + heat
+      if (is_force) e = max(e, other_component*part*scale%friction*unit)
+      adhesion = scale%adhesion
+      if (is_moment .and. scale%order > first_order) adhesion = max(least_adhesion, adhesion)
+      if (is_force .and. is_first(scale)) adhesion = max(adhesion, turned_share*scale%cancelled)
+      floor = driven_floor(scale, adhesion) + turning_floor*scale%turning/scale%mean_across**2
+      if (scale%is_moment_alone .and. is_force) floor = floor*merge(sqrt(min(1.0_wp, scale%used)), moment_alone, is_first(scale))
+      if (is_moment .and. is_first(scale)) floor = max(floor, displaced*sqrt(scale%sticking)*scale%arm)
+      if (.not. is_force .and. scale%jumps) floor = floor + creepage_floor*sqrt(scale%adhesion)/scale%mean_across**2
+      if (scale%jumps) then
+         e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))
+      else if (is_force .and. is_first(scale)) then
+         e = unit*trusted(e/max(unit, tiny(unit)), usual_ratio*floor, trust_in_first(scale))
+      end if
+      if (is_first(scale)) e = e + heat
+      if (is_force) floor = max(floor, scale%reversal*share_of_reversal(scale))
+      floor = max(floor, rough_floor(2)*scale%roughness)
+      if (scale%is_line .and. scale%order < normal_order) floor = max(floor, &
+         & merge(line_floor(2), line_floor(1), scale%order > first_order)/scale%across**2)
+   end subroutine bound_friction
+
+   !> Error of forces as a fraction of the force of an element at which slip reverses
+   pure real(wp) function share_of_reversal(scale) result(share)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      share = reversal_share
+      if (scale%coupling > 0.0_wp .or. scale%order <= first_order) return
+      share = merge(reversal_by_spin, reversal_in_shifts, scale%order < normal_order)
+   end function share_of_reversal
+
+   !> Ratio of the error of the finer level to the difference of the levels; 1 if errors have no clean order
+   pure real(wp) function part_of(scale, order) result(part)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+      !> Order of the error
+      real(wp), intent(in) :: order
+
+      part = 1.0_wp
+      if (scale%clean) part = 1.0_wp/(coarsening**order - 1.0_wp)
+   end function part_of
+
+   !> Additional error if friction follows temperatures, whose errors have another order
+   pure real(wp) function by_heat(scale, part, difference, unit) result(e)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+      !> Ratio that is included already
+      real(wp), intent(in) :: part
+      !> Difference between the levels, and reference value of the relative error
+      real(wp), intent(in) :: difference, unit
+
+      e = max(0.0_wp, 1.0_wp/(coarsening**scale%heat_order - 1.0_wp) - part)*min(difference, scale%warmed*unit)
+   end function by_heat
+
+   !> Typical relative error of tangential forces with this number of elements
+   pure real(wp) function friction_floor(scale, adhesion, in_power) result(floor)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+      !> Fraction of the elements that sticks, with a lower bound [-]
+      real(wp), intent(in) :: adhesion
+      !> Is it that of the forces as it appears in frictional power?
+      logical, intent(in) :: in_power
+
+      if (scale%order <= first_order) then
+         floor = merge(rolling_floor(1), layer_floor, scale%clean .or. scale%steps)/scale%mean_across
+      else
+         floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)
+         if (in_power) floor = balance_floor
+         floor = floor/scale%mean_across**2
+      end if
+      floor = max(sqrt(adhesion)*floor, sqrt(scale%adhesion)*unrelaxed(scale))
+      if (scale%order > first_order) floor = floor + falling_floor*scale%falling/scale%mean_across**2
+      if (is_unseen(scale)) floor = floor*scale%irregular
+   end function friction_floor
+
+   !> adhesion
+   pure real(wp) function unrelaxed(scale) result(floor)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      floor = merge(relaxing_floor(2), relaxing_floor(1), scale%order > first_order)*scale%relaxation/scale%mean_across
+   end function unrelaxed
+
+   !> The same with what pressures of unlike bodies bring in, of first order by both schemes
+   pure real(wp) function driven_floor(scale, adhesion) result(floor)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+      !> Fraction of the elements that sticks, with a lower bound [-]
+      real(wp), intent(in) :: adhesion
+
+      floor = friction_floor(scale, adhesion, .false.)
+      if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling*scale%driven/scale%across, &
+         & hidden_slip*scale%driven**3*sqrt(scale%sticking)/scale%mean_across)
+   end function driven_floor
+
+   !> Is it a step of transient rolling for which the second-order scheme is not suited?
+   pure logical function is_long_step(scale)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      is_long_step = scale%steps .and. scale%order <= first_order
+   end function is_long_step
+
+   !> rolling, and if friction follows temperatures; zero otherwise
+   pure real(wp) function traction_error(scale) result(e)
+      !> See type scale_type; with differences of the levels
+      type(scale_type), intent(in) :: scale
+
+      e = scale%warmed/(coarsening**scale%heat_order - 1.0_wp)
+      if (.not. scale%used > 0.0_wp) return
+      ! errors of forces are relative to the friction bound, of which the tractions use a part
+      if (is_unseen(scale)) e = e + driven_floor(scale, scale%adhesion)/scale%used
+      if (is_long_step(scale)) e = e + force_error(scale%friction, scale%adhesion, scale%mean_across)/scale%used
+   end function traction_error
+
+   !> Are tractions of both levels not comparable? Steps of one element are not steps of one element on a coarser level
+   pure logical function is_unseen(scale)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      is_unseen = scale%steps .and. scale%order > first_order
+   end function is_unseen
+
+   !> Is it steady rolling by the first-order scheme, without a layer?
+   pure logical function is_first(scale)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      is_first = scale%clean .and. scale%order <= first_order
+   end function is_first
+
+   !> Exponent for the differences of levels of forces by the first-order scheme, see trusted
+   pure real(wp) function trust_in_first(scale) result(power)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      power = sliding_trust
+      if (.not. scale%is_moment_alone) power = 1.0_wp - (1.0_wp - sliding_trust)*sliding_part(scale%sticking)
+   end function trust_in_first
+
+   !> Weight of the errors of sliding: 1 in nearly full sliding, 0 from some adhesion on [-]
+   elemental real(wp) function sliding_part(sticking) result(part)
+      !> Fraction of the elements that sticks [-]
+      real(wp), intent(in) :: sticking
+
+      part = min(1.0_wp, max(0.0_wp, 2.0_wp - sticking/sliding))
+   end function sliding_part
+
+   !> Exponent for the differences of levels of forces and power, see trusted
+   pure real(wp) function trust_in(scale) result(power)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
+   end function trust_in
+
+   !> Error from the differences of levels and the general error
+   pure real(wp) function trusted(by_levels, floor, power) result(e)
+      !> Error by the levels, and general error
+      real(wp), intent(in) :: by_levels, floor
+      !> Exponent of the ratio of both, if larger than 1
+      real(wp), intent(in) :: power
+
+      e = by_levels
+      if (by_levels > floor .and. floor > 0.0_wp) e = floor*(by_levels/floor)**power
+   end function trusted
+end module contact_patch_traction_errors
