@@ -35,7 +35,7 @@ module contact_cases_accuracy
 
    !> A finer grid of a case that continues others is designed for this fraction of the accuracy: later cases may need it, and each
    !> repetition solves all cases again; chosen
-   real(wp), parameter :: series_share = 0.7_wp
+   real(wp), parameter :: series_share = 0.85_wp
 
 contains
 
@@ -189,7 +189,8 @@ contains
       law = expected_law(spec)
       fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       call first_grid(session, spec, law, fixed, grid)
-      expected = 0.0_wp
+      ! the error of the previous case on the same grid is another sample of the error of this one
+      expected = session%series%sample(spec, grid)
       before = 0.0_wp
       do while (report%levels < most_levels)
          report%eps = grid%eps
@@ -237,7 +238,7 @@ contains
          best = result
          grid = next
       end do
-      if (.not. is_lost) call session%series%take(spec, grid)
+      if (.not. is_lost) call session%series%take(spec, grid, report%estimated)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)

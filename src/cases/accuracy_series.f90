@@ -21,6 +21,8 @@ module contact_cases_accuracy_series
       integer :: used = 0
       !> Grid of the solution that the session holds; without elements if it holds none of this series
       type(level_grid) :: grid
+      !> Estimated error of that solution, negative for none [-]
+      real(wp) :: estimated = -1.0_wp
    contains
       !> Remove all cases
       procedure :: clear
@@ -30,6 +32,8 @@ module contact_cases_accuracy_series
       procedure :: before
       !> Does the session hold the solution that a case continues, on this grid?
       procedure :: is_at
+      !> Error of the previous case on this grid, as another sample of the error of this one
+      procedure :: sample
       !> Refuse a case that cannot continue the series, with the reason
       procedure :: refuse
    end type accuracy_series
@@ -50,12 +54,14 @@ contains
       self%grid%counts = 0
    end subroutine clear
 
-   subroutine take(self, spec, grid)
+   subroutine take(self, spec, grid, estimated)
       class(accuracy_series), intent(inout) :: self
       !> Case as requested
       type(case_spec), intent(in) :: spec
       !> Grid of the solution
       type(level_grid), intent(in) :: grid
+      !> Its estimated error, negative for none [-]
+      real(wp), intent(in) :: estimated
       type(case_spec), allocatable :: longer(:)
       integer :: k, link
 
@@ -74,6 +80,7 @@ contains
       self%steps(k)%link = link
       self%used = k
       self%grid = grid
+      self%estimated = estimated
    end subroutine take
 
    pure integer function before(self, spec)
@@ -96,6 +103,17 @@ contains
       is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%grid%counts == grid%counts) &
          & .and. self%grid%eps <= grid%eps .and. all(is_same(self%grid%lengths, grid%lengths)))
    end function is_at
+
+   pure real(wp) function sample(self, spec, grid) result(estimated)
+      class(accuracy_series), intent(in) :: self
+      !> Case that may continue the series
+      type(case_spec), intent(in) :: spec
+      !> Grid of its solution
+      type(level_grid), intent(in) :: grid
+
+      estimated = 0.0_wp
+      if (has_history(spec) .and. self%is_at(spec, grid)) estimated = max(0.0_wp, self%estimated)
+   end function sample
 
    subroutine refuse(self, spec, error)
       class(accuracy_series), intent(in) :: self

@@ -55,8 +55,6 @@ module contact_cases_estimate
    !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; potential contacts of profiles, of
    !> which contact covers a smaller part
    real(wp), parameter :: accurate_turns = 1.7_wp, remembering = 1.7_wp, accurate_trials = 1.1_wp, partly_covered = 0.8_wp
-   !> Factor and order of the estimates of unlike bodies in steady rolling, which decrease more slowly than expected by a search
-   real(wp), parameter :: unlike_factor = 0.045_wp, unlike_order = 1.25_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
 
@@ -139,10 +137,6 @@ contains
          return
       end if
       law = expected_law(spec)
-      if (law%bound > 0.0_wp .and. law%order > unlike_order) then
-         law%factor = unlike_factor
-         law%order = unlike_order
-      end if
       if (allocated(spec%wheel_rail)) then
          n = (margin*expected_across(law, spec%iteration%accuracy))**2
       else

@@ -1,10 +1,11 @@
 !> How an accuracy is sought: when a grid will do, and the order that estimates of two grids show
 program test_accuracy_plan
-   use contact_base_choices, only : force_control, grid_form, motion, normal_control
+   use contact_base_choices, only : force_control, grid_form, motion, normal_control, time_link
    use contact_base_kinds, only : wp
-   use contact_cases_accuracy_grid, only : is_worth
+   use contact_cases_accuracy_grid, only : is_worth, level_grid
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, finer_across, &
       & first_order_alone, is_near_enough, observed_order
+   use contact_cases_accuracy_series, only : accuracy_series
    use contact_cases_spec, only : case_spec
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -15,6 +16,7 @@ program test_accuracy_plan
    call ends(suite)
    call orders(suite)
    call kinds(suite)
+   call samples(suite)
    call sides(suite)
    call suite%finish()
 
@@ -84,7 +86,35 @@ contains
       spec%force = force_control%creepages
       spec%material%gg = [82000.0_wp, 20000.0_wp]
       call suite%check(expected_across(expected_law(spec), sharp) > plain, "unlike bodies")
+      allocate(spec%friction%sets(1))
+      spec%friction%sets%fkin = 0.6_wp
+      plain = expected_across(expected_law(spec), sharp)
+      spec%friction%sets%fkin = 0.2_wp
+      call suite%check(expected_across(expected_law(spec), sharp) > 1.05_wp*plain, "unlike bodies with less friction")
    end subroutine kinds
+
+   !> The error of the previous case of a series on the same grid is another sample of the error of a case
+   subroutine samples(suite)
+      type(test_suite), intent(inout) :: suite
+      type(accuracy_series) :: series
+      type(case_spec) :: spec
+      type(level_grid) :: grid, finer
+
+      spec%motion = motion%shift
+      spec%link = time_link%initiate
+      grid%counts = 24
+      grid%lengths = 10.0_wp
+      grid%eps = 1.0e-4_wp
+      call series%take(spec, grid, 0.5_wp*asked)
+      call suite%close_to(series%sample(spec, grid), 0.0_wp, 0.0_wp, "a case that starts anew has no previous one")
+      spec%link = time_link%continue_all
+      call suite%close_to(series%sample(spec, grid), 0.5_wp*asked, 0.0_wp, "the previous case on the same grid")
+      finer = grid
+      finer%counts = 36
+      call suite%close_to(series%sample(spec, finer), 0.0_wp, 0.0_wp, "none on a finer grid")
+      call suite%check(is_near_enough(0.8_wp*asked, series%sample(spec, grid), asked), "a second case narrowly below")
+      call suite%check(.not. is_near_enough(0.8_wp*asked, series%sample(spec, finer), asked), "a single sample narrowly below")
+   end subroutine samples
 
    !> Expected sides of the contact, and a next grid with more elements in one direction
    subroutine sides(suite)
