@@ -30,6 +30,8 @@ _SIDES = ("x low", "x high", "y low", "y high", "inner end of the rail profile",
           "a part of the profiles that cannot be seen from the plane of the contact")
 # Totals of wear that are 0 without their coefficients, or without points below the surface
 _CONDITIONAL = ("max_wear", "worn_section", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca")
+# Codes of calculations that missed a tolerance or a prescribed force, but have a result
+_WITH_RESULT = (CNTC["err_norm"], CNTC["err_tang"], CNTC["err_tol"])
 _MOTIONS = {"frictionless": 0, "shift": 1, "transient": 2, "steady": 3}
 
 _lock = threading.Lock()
@@ -598,9 +600,14 @@ class Element:
         self.set_flags(ic_pvtime=2 if initiation else 0)
         code: Any = cntc.calculate(self.number, self._icp, idebug=0)
         self._status, self._reason = case_status(self.number, self._icp)
-        if code < 0 or code == 305:
+        self._code = int(code)
+        has_result = code in _WITH_RESULT and self._status == "not converged"
+        if (code < 0 and not has_result) or code == 305:
             reason = last_error(self.number, self._icp)[1] or cntc.meaning(code)
             raise ContactError(f"The problem was not solved: {reason}", code, self._status)
+        if code < 0:
+            # a missed tolerance or force: the reason is in the status, and must not be taken for that of a later call
+            last_error(self.number, self._icp)
         if self._status != "solved":
             warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
         asked, reached = cntc.getflags(self.number, self._icp, [CNTC["own_accuracy"], CNTC["own_reached"]])
@@ -610,4 +617,4 @@ class Element:
         if self._has_points and cntc.getflags(self.number, self._icp, [CNTC["own_wear"]])[0]:
             # totals of wear have the largest stresses
             self._calculate_stresses(callers=2)
-        return int(code)
+        return max(0, self._code)

@@ -24,4 +24,6 @@ class ContactWarning(UserWarning):
 
 
 class NotConvergedWarning(ContactWarning):
-    """An iteration did not converge or a prescribed force was not reached; the message gives which, and by how much."""
+    """An iteration did not converge or a prescribed force was not reached; the message gives which, and by how much.
+
+    The result is that of the last iteration, with ``status`` ``"not converged"`` and the same ``reason``."""

@@ -16,7 +16,7 @@ module contact_wheelrail_flat_patch
    implicit none (type, external)
    private
 
-   public :: distance_scratch, patch_frame, patch_grid, undeformed_distance, start_places, shift_distance
+   public :: distance_scratch, lattice_lead, patch_frame, patch_grid, undeformed_distance, start_places, shift_distance
 
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter, public :: nothing_there = 999.0_wp
@@ -44,15 +44,50 @@ contains
       !> Region whose weighted centre becomes the contact reference
       type(contact_region), intent(in) :: region
       type(frame) :: plane
-      real(wp) :: z, rho
 
-      z = rail%height(region%y)
-      if (placement%roller_radius > 0.0_wp) then
-         rho = placement%roller_radius - z
-         z = placement%roller_radius - sqrt(max(0.0_wp, rho**2 - region%x**2))
-      end if
-      plane = new_frame([region%x, region%y, z], region%alpha, 0.0_wp)
+      plane = new_frame(on_rail(rail, placement, [region%x, region%y]), region%alpha, 0.0_wp)
    end function patch_frame
+
+   !> Point of the rail below a point of the track
+   function on_rail(rail, placement, at) result(point)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> Position of the bodies
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Position along and across the track [mm]
+      real(wp), intent(in) :: at(2)
+      real(wp) :: point(3)
+      real(wp) :: rho
+
+      point = [at, rail%height(at(2))]
+      if (.not. placement%roller_radius > 0.0_wp) return
+      rho = placement%roller_radius - point(3)
+      point(3) = placement%roller_radius - sqrt(max(0.0_wp, rho**2 - at(1)**2))
+   end function on_rail
+
+   !> Position of the reference of a patch relative to the centre of an element, along x and s of its plane [mm]
+   !>
+   !> 0 without neighbour. Near one, the nearest element of the common lattice determines it: half an element at most.
+   function lattice_lead(rail, placement, region, plane, sides) result(lead)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> Position of the bodies
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Region with its share of a common lattice
+      type(contact_region), intent(in) :: region
+      !> Its plane, see `patch_frame`
+      type(frame), intent(in) :: plane
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: sides(2)
+      real(wp) :: lead(2)
+      real(wp) :: vector(3)
+
+      lead = 0.0_wp
+      if (.not. region%share > 0.0_wp) return
+      vector = plane%origin - on_rail(rail, placement, region%common)
+      lead = matmul(vector, plane%axes(:, 1:2))
+      lead = region%share*(lead - anint(lead/sides)*sides)
+   end function lattice_lead
 
    !> Elements that cover a region, with one more on each side
    subroutine patch_grid(rail, sides, region, plane, reference, max_elements, grid)

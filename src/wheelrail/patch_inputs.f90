@@ -12,7 +12,8 @@ module contact_wheelrail_patch_inputs
    use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
    use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
       & surface_heights, surface_slip
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, shift_distance, start_places, undeformed_distance
+   use contact_wheelrail_flat_patch, only : lattice_lead, patch_frame, patch_grid, shift_distance, start_places, &
+      & undeformed_distance
    use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : rail_motion, wheel_motion
@@ -22,9 +23,6 @@ module contact_wheelrail_patch_inputs
    private
 
    public :: set_up_patch
-
-   !> Distance by which parts of a blended patch extend beyond their bounds, relative to D_COMB
-   real(wp), parameter :: part_margin = 0.4_wp
 
    !> Steps longer than an element by less than this factor are treated as one element
    real(wp), parameter :: longer_step = 1.01_wp
@@ -76,9 +74,8 @@ contains
       if (keeps_lattice(problem)) then
          call patch_grid(rail, sides, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
       else
-         ! the reference is the centre of an element
-         call patch_grid(rail, geometry%coarser*sides, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%max_elements, &
-            & slot%problem%grid)
+         call patch_grid(rail, geometry%coarser*sides, slot%region, slot%plane, lattice_lead(rail, geometry%placement, &
+            & slot%region, slot%plane, geometry%coarser*sides), problem%max_elements, slot%problem%grid)
       end if
       if (problem%spec%search%location == contact_location%conformal) &
          & call curved_rows(rail, geometry%bodies, slot%region, slot%plane, slot%problem%grid)
@@ -99,7 +96,7 @@ contains
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
       slot%problem%pen = approach
-      if (allocated(slot%region%part)) call divide_patch(problem, rail, slot)
+      if (allocated(slot%region%part)) call divide_patch(rail, slot)
       slot%problem%n_forces = 0
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
@@ -174,6 +171,7 @@ contains
             call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, slot%distance, slot%problem%grid, h, &
                & approach, slot%left_out)
          end if
+         call leave_to_others(slot, h, approach)
          call grow(slot, h, approach, most, .true., grown)
          if (.not. grown) exit
       end do
@@ -254,6 +252,7 @@ contains
             call surface_heights(geometry%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
             h = slot%on_rail - slot%on_wheel
             call shift_distance(patch%grid, allocated(slot%region%seeds), h, approach, slot%left_out)
+            call leave_to_others(slot, h, approach)
             ! rows of a curved reference are chosen with a margin
             call grow(slot, h, approach, most, .not. conformal, grown)
             if (.not. grown) exit
@@ -265,19 +264,59 @@ contains
       end associate
    end subroutine follow_surface
 
-   !> Divide the elements among the parts of a blended patch; elements outside all parts cannot make contact
-   subroutine divide_patch(problem, rail, slot)
-      type(wheel_rail_problem), intent(in) :: problem
+   !> Exclude the overlap that belongs to neighbouring patches: beyond the middle between their bounds and those of this one
+   subroutine leave_to_others(slot, h, approach)
+      !> With grid, plane or curve, and region
+      type(patch_slot), intent(in) :: slot
+      !> Undeformed distance with its minimum at zero, and maximum interpenetration [mm]; changed if elements are excluded
+      real(wp), intent(inout) :: h(:, :), approach
+      !> Do a column and a row of elements belong to this patch?
+      logical :: column(slot%problem%grid%mx), row(slot%problem%grid%my)
+      real(wp) :: s(2), x, lowest
+      integer :: ix, iy, side
+
+      associate (region => slot%region, plane => slot%plane, grid => slot%problem%grid, far => huge(1.0_wp))
+         if (all(abs([region%middle_x, region%middle_yz(1, :)]) >= far)) return
+         s = [-far, far]
+         do side = 1, 2
+            if (abs(region%middle_yz(1, side)) >= far) cycle
+            s(side) = dot_product(region%middle_yz(:, side) - plane%origin(2:3), plane%axes(2:3, 2))
+         end do
+         ! the axis of the plane points to smaller y if the surface is turned upside down
+         if (plane%axes(2, 2) < 0.0_wp) s = s([2, 1])
+         do iy = 1, grid%my
+            row(iy) = grid%y(iy) >= s(1) .and. grid%y(iy) <= s(2)
+            if (allocated(slot%curve)) row(iy) = slot%curve%y(iy) >= region%middle_yz(1, 1) .and. slot%curve%y(iy) &
+               & <= region%middle_yz(1, 2)
+         end do
+         do ix = 1, grid%mx
+            x = plane%origin(1) + grid%x(ix)
+            column(ix) = x >= region%middle_x(1) .and. x <= region%middle_x(2)
+         end do
+      end associate
+      ! a contact that is smaller than an element may have the centre of none on its side
+      if (all(column) .and. all(row) .or. .not. (any(column) .and. any(row))) return
+      do iy = 1, size(row)
+         do ix = 1, size(column)
+            if (.not. (column(ix) .and. row(iy))) h(ix, iy) = excluded_distance
+         end do
+      end do
+      lowest = minval(h)
+      h = h - lowest
+      approach = approach - lowest
+   end subroutine leave_to_others
+
+   !> Divide the elements among the parts of a blended patch: each belongs to the nearest one
+   subroutine divide_patch(rail, slot)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       type(patch_slot), intent(inout) :: slot
       type(profile_curve) :: section
-      real(wp) :: margin, y
+      real(wp) :: x, y, away, nearest
       integer :: ix, iy, k
 
       allocate(slot%problem%parts)
       associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
-         margin = part_margin*problem%spec%search%d_comb
          call start_places(rail, slot%region, slot%distance)
          section = rail%seen_from([plane%origin(2), rail%height(plane%origin(2))], plane%roll(), &
             & around=slot%distance%places(:slot%distance%n))
@@ -289,16 +328,16 @@ contains
             if (section%has(grid%y(iy))) y = y - sin(plane%roll())*section%height(grid%y(iy))
             if (allocated(slot%curve)) y = slot%curve%y(iy)
             do ix = 1, grid%mx
+               x = plane%origin(1) + grid%x(ix)
+               nearest = huge(nearest)
                do k = 1, size(slot%region%part)
                   associate (box => slot%region%part(k))
-                     if (y < box%y(1) - margin .or. y > box%y(2) + margin) cycle
-                     if (plane%origin(1) + grid%x(ix) < box%x(1) - margin) cycle
-                     if (plane%origin(1) + grid%x(ix) > box%x(2) + margin) cycle
+                     away = max(0.0_wp, box%x(1) - x, x - box%x(2))**2 + max(0.0_wp, box%y(1) - y, y - box%y(2))**2
                   end associate
+                  if (away >= nearest) cycle
+                  nearest = away
                   parts%label(ix, iy) = k
-                  exit
                end do
-               if (parts%label(ix, iy) == 0) slot%problem%h(ix, iy) = excluded_distance
             end do
          end do
       end associate

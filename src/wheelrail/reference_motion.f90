@@ -6,7 +6,7 @@
 module contact_wheelrail_reference_motion
    use contact_base_kinds, only : wp
    use contact_wheelrail_displacements, only : coordinate, displaced
-   use contact_wheelrail_flat_patch, only : patch_frame
+   use contact_wheelrail_flat_patch, only : lattice_lead, patch_frame
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, no_surface
    use contact_wheelrail_geometry, only : wheel_rail_geometry
@@ -22,7 +22,8 @@ module contact_wheelrail_reference_motion
 
    !> Motion of the reference of one patch per unit of a displacement of the wheelset
    type :: reference_motion
-      !> Derivatives of its origin in the track [mm], and of the contact angle [rad]
+      !> Derivatives of its origin in the track [mm], and of the contact angle [rad]. If the reference moves relative to the elements,
+      !> the origin is a point that moves with these
       real(wp) :: origin(3) = 0.0_wp, angle = 0.0_wp
       !> Derivatives of the factors between the parts of a blended patch, shape (parts, parts); unallocated if there are none
       real(wp), allocatable :: interaction(:, :)
@@ -39,8 +40,10 @@ module contact_wheelrail_reference_motion
    !> wheel, 2e-3 mm with 100 N, and round-off of a position in the track, 1e-13 mm, is 1e-6 of the motion of a patch
    real(wp), parameter :: locus_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-6_wp, 1.0e-6_wp], place_step = 1.0e-4_wp
    real(wp), parameter :: region_step(4) = [1.0e-7_wp, 1.0e-7_wp, 1.0e-10_wp, 1.0e-10_wp]
-   !> Maximum gap that is included: gaps beside the contact determine its border [mm]
-   real(wp), parameter :: near_contact = 0.5_wp
+   !> Gaps that are included: those of points beside others with a gap of at most this value, or that of near misses, up to this
+   !> number of points away, as they determine the border of a contact, and the parabola of a small one [mm]
+   real(wp), parameter :: near_contact = 0.02_wp
+   integer, parameter :: points_beside = 2
 
 contains
 
@@ -96,7 +99,7 @@ contains
          if (.not. above) high = at
          if (.not. (below .and. above)) step = 0.5_wp*step
          do k = 1, size(at)
-            call difference(geometry, low(k), high(k), 2.0_wp*step, motions(k, number))
+            call difference(problem, geometry, low(k), high(k), 2.0_wp*step, motions(k, number))
          end do
       end do
 
@@ -142,17 +145,23 @@ contains
    end function alike
 
    !> Difference quotient of a reference
-   subroutine difference(geometry, low, high, step, motion)
+   subroutine difference(problem, geometry, low, high, step, motion)
+      !> With the size of elements
+      type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(in) :: geometry
       type(contact_region), intent(in) :: low, high
       !> Distance between the two [mm] or [rad]
       real(wp), intent(in) :: step
       type(reference_motion), intent(inout) :: motion
       type(frame) :: from, to
+      real(wp) :: sides(2), lead(2)
 
+      sides = [problem%spec%search%dx, problem%spec%search%ds]
       from = patch_frame(geometry%rail_in_track, geometry%placement, low)
       to = patch_frame(geometry%rail_in_track, geometry%placement, high)
-      motion%origin = (to%origin - from%origin)/step
+      lead = lattice_lead(geometry%rail_in_track, geometry%placement, high, to, sides) &
+         & - lattice_lead(geometry%rail_in_track, geometry%placement, low, from, sides)
+      motion%origin = (to%origin - from%origin - matmul(from%axes(:, 1:2), lead))/step
       motion%angle = (high%alpha - low%alpha)/step
       if (allocated(high%interaction)) motion%interaction = (high%interaction - low%interaction)/step
    end subroutine difference
@@ -168,19 +177,21 @@ contains
       real(wp), intent(in) :: z
       type(gap_motion), intent(out) :: motion
       type(wheel_rail_placement) :: low(4), high(4)
-      real(wp) :: point(3), along(3), by(3), local(3), place, across
+      real(wp) :: point(3), along(3), by(3), local(3), place, across, near
       logical :: rolls
       integer :: i, number
 
       allocate(motion%gap(gap%n, coordinate%count), motion%x(gap%n, coordinate%count), source=0.0_wp)
       rolls = placement%roller_radius > 0.0_wp
+      near = max(near_contact, problem%spec%search%g_miss)
       do number = 1, coordinate%count
          low(number) = displaced(placement, number, -locus_step(number))
          high(number) = displaced(placement, number, locus_step(number))
       end do
       associate (wheel => problem%wheel, rail => geometry%rail_in_track)
          do i = 1, gap%n
-            if (gap%gap(i) >= no_surface .or. gap%gap(i) - (z - geometry%gap_height) > near_contact) cycle
+            if (gap%gap(i) >= no_surface) cycle
+            if (minval(gap%gap(max(1, i - points_beside):min(gap%n, i + points_beside))) - (z - geometry%gap_height) > near) cycle
             point = [gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) - gap%gap(i)]
             local = placement%wheel%to_local(point)
             place = wheel%s_at(local(2))

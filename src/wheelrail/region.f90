@@ -21,7 +21,10 @@ module contact_wheelrail_region
       type(region_box) :: box
       !> Reference: position [mm] in track coordinates and surface angle [rad]
       real(wp) :: x = 0.0_wp, y = 0.0_wp, alpha = 0.0_wp
-      !> The same at the deepest point
+      !> Reference in x and y that this region has in common with a neighbour [mm], and the share to which its lattice of elements is
+      !> the common one, 0...1: see `draw_lattices`
+      real(wp) :: common(2) = 0.0_wp, share = 0.0_wp
+      !> The same as the reference at the deepest point
       real(wp) :: deepest(3) = 0.0_wp
       !> Sum of weights
       real(wp) :: weight = 0.0_wp
@@ -33,6 +36,10 @@ module contact_wheelrail_region
       real(wp), allocatable :: seeds(:)
       !> Beginning of the overlap of other regions, in x and y, in track coordinates [mm]: grids are not extended beyond it
       real(wp) :: others_x(2) = [-huge(1.0_wp), huge(1.0_wp)], others_y(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      !> Middle between this region and its neighbours along the track, x, and across it, y and z, in track coordinates [mm]: the
+      !> overlap beyond it belongs to these. Shape (2), (coordinate, side)
+      real(wp) :: middle_x(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      real(wp) :: middle_yz(2, 2) = reshape([-huge(1.0_wp), 0.0_wp, huge(1.0_wp), 0.0_wp], [2, 2])
       !> Do the bodies interpenetrate?
       logical :: touches = .false.
       !> Parts of a blended patch with their bounds; unallocated for other patches, see `parts_of`

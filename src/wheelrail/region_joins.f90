@@ -8,7 +8,8 @@ module contact_wheelrail_region_joins
    implicit none (type, external)
    private
 
-   public :: avoid_vertical, join_regions, refer_to_deepest, shift_near_misses, side_by_side, sort_regions, turn_regions
+   public :: avoid_vertical, draw_lattices, join_regions, refer_to_deepest, shift_near_misses, side_by_side, &
+      & sort_regions, turn_regions
 
    !> Exponent of the decrease of the interaction factor with the distance of blended parts
    real(wp), parameter :: blend_exponent = 0.8_wp
@@ -198,6 +199,35 @@ contains
          end associate
       end do
    end subroutine turn_regions
+
+   !> Let the lattices of elements of neighbouring regions approach a common one with decreasing distance
+   !>
+   !> At the distance at which two regions are joined, the elements of both are those of the joined region, whose reference is the
+   !> centre of an element. Otherwise the discretisation, and with it the force, would jump there.
+   pure subroutine draw_lattices(search, regions)
+      !> Distances and angle between which lattices are moved
+      type(search_spec), intent(in) :: search
+      !> The common reference with the nearest neighbour is set; the angles must not have been turned yet
+      type(contact_region), intent(inout) :: regions(:)
+      real(wp) :: d, common(2), share
+      integer :: i, j
+
+      do i = 1, size(regions) - 1
+         do j = i + 1, size(regions)
+            associate (a => regions(i), b => regions(j))
+               if (j > i + 1 .and. .not. side_by_side(a%box, b%box)) cycle
+               d = distance(a%box, b%box, .true.)
+               if (d < search%d_sep .or. d > search%d_turn .or. abs(a%alpha - b%alpha) > search%a_sep) cycle
+               share = (search%d_turn - d)/max(search%d_turn - search%d_sep, tiny(d))
+               common = (a%weight*[a%x, a%y] + b%weight*[b%x, b%y])/(a%weight + b%weight)
+               if (share > a%share) a%common = common
+               if (share > b%share) b%common = common
+               a%share = max(a%share, share)
+               b%share = max(b%share, share)
+            end associate
+         end do
+      end do
+   end subroutine draw_lattices
 
    !> Move the reference of each region to its deepest point
    pure subroutine refer_to_deepest(regions)

@@ -7,9 +7,10 @@ module contact_wheelrail_regions
    use contact_base_choices, only : contact_location
    use contact_base_kinds, only : wp
    use contact_wheelrail_gap, only : gap_curve, most_finer, no_surface
-   use contact_wheelrail_region, only : contact_region, describe, describe_miss, describe_small, far_away, find_deepest
-   use contact_wheelrail_region_joins, only : avoid_vertical, join_regions, refer_to_deepest, shift_near_misses, side_by_side, &
-      & sort_regions, turn_regions
+   use contact_wheelrail_region, only : contact_region, describe, describe_miss, describe_small, far_away, find_deepest, &
+      & region_box
+   use contact_wheelrail_region_joins, only : avoid_vertical, draw_lattices, join_regions, refer_to_deepest, shift_near_misses, &
+      & side_by_side, sort_regions, turn_regions
    use contact_wheelrail_spec, only : search_spec
    use contact_wheelrail_spots, only : separate_spots, spot
    implicit none (type, external)
@@ -115,6 +116,7 @@ contains
          if (search%location == contact_location%first_contact) then
             call refer_to_deepest(regions)
          else
+            call draw_lattices(search, regions)
             call turn_regions(search, regions)
          end if
          call avoid_vertical(regions)
@@ -151,7 +153,8 @@ contains
       end do
    end subroutine remove_region
 
-   !> Set the positions where other regions begin: the load of overlap that belongs to two patches would be counted twice
+   !> Set the positions where other regions begin, and the middle between them and this one: the load of overlap that belongs to two
+   !> patches would be counted twice
    pure subroutine set_limits(regions)
       type(contact_region), intent(inout) :: regions(:)
       integer :: i, j
@@ -163,14 +166,30 @@ contains
                if (side_by_side(me%box, other)) then
                   if (other%x(1) > me%x) me%others_x(2) = min(me%others_x(2), other%x(1))
                   if (other%x(2) < me%x) me%others_x(1) = max(me%others_x(1), other%x(2))
+                  if (other%x(1) > me%box%x(2)) me%middle_x(2) = min(me%middle_x(2), 0.5_wp*(me%box%x(2) + other%x(1)))
+                  if (other%x(2) < me%box%x(1)) me%middle_x(1) = max(me%middle_x(1), 0.5_wp*(me%box%x(1) + other%x(2)))
                else
                   if (other%y(1) > me%y) me%others_y(2) = min(me%others_y(2), other%y(1))
                   if (other%y(2) < me%y) me%others_y(1) = max(me%others_y(1), other%y(2))
+                  call halve(me%box, other, me%middle_yz)
                end if
             end associate
          end do
       end do
    end subroutine set_limits
+
+   !> Set the middle between the bounds of two regions that do not overlap laterally, if the other one is nearer than those before
+   pure subroutine halve(own, other, middle)
+      type(region_box), intent(in) :: own, other
+      !> Middle towards lower and higher y: coordinates y and z [mm]
+      real(wp), intent(inout) :: middle(:, :)
+      real(wp) :: y
+      integer :: side
+
+      side = merge(1, 2, other%y(2) <= own%y(1))
+      y = 0.5_wp*(own%y(side) + other%y(3 - side))
+      if (merge(y > middle(1, 1), y < middle(1, 2), side == 1)) middle(:, side) = [y, 0.5_wp*(own%z(side) + other%z(3 - side))]
+   end subroutine halve
 
    !> One region per stretch of interpenetration, or per spot if it is divided along the track; the nearest misses
    recursive subroutine preliminary_regions(gap, g, weight_power, found, closer)

@@ -83,6 +83,9 @@ def main():
             except contact.ContactError as error:
                 answers.append({"error": str(error)})
                 break
+            if result.reason.startswith("force,"):
+                answers.append({"error": result.reason})
+                break
             patches = [{"place": list(map(float, patch.location[:4])), "fn": patch.fn, "fx": patch.fx, "pen": patch.approach,
                         "pmax": patch.max_pressure} for patch in result.patches]
             answers.append({"force": list(map(float, result.forces.track.force)), "z_ws": float(result.wheelset_position[2]),
