@@ -23,16 +23,22 @@ contains
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
       type(bounding_box) :: box
-      integer :: ix, iy
+      integer :: ix, iy, first
 
       box = bounding_box(size(division, 1) + 1, 0, size(division, 2) + 1, 0)
       do iy = 1, size(division, 2)
-         do ix = 1, size(division, 1)
+         do first = 1, size(division, 1)
+            if (division(first, iy) /= element%exterior) exit
+         end do
+         if (first > size(division, 1)) cycle
+         box%ix0 = min(box%ix0, first)
+         box%iy0 = min(box%iy0, iy)
+         box%iy1 = iy
+         ! only elements beyond the present end can extend the box
+         do ix = size(division, 1), max(first, box%ix1 + 1), -1
             if (division(ix, iy) == element%exterior) cycle
-            box%ix0 = min(box%ix0, ix)
-            box%ix1 = max(box%ix1, ix)
-            box%iy0 = min(box%iy0, iy)
-            box%iy1 = max(box%iy1, iy)
+            box%ix1 = ix
+            exit
          end do
       end do
    end function contact_box

@@ -49,41 +49,59 @@ contains
       real(wp), intent(out) :: pn(:, :)
       type(hertz_contact) :: hertz
       type(low_place) :: here
-      real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least
+      !> Smallest gap of each row [mm]
+      real(wp) :: low(grid%my)
+      real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least, ratio
       integer :: ix, iy, first, last
 
       pn = 0.0_wp
       if (size(gap) == 0) return
-      tolerance = equally_small*abs(minval(gap))
+      do iy = 1, grid%my
+         low(iy) = minval(gap(:, iy))
+      end do
+      tolerance = equally_small*abs(minval(low))
       overlap = -huge(overlap)
       sharpest = 0.0_wp
       do iy = 1, grid%my
          last = 0
          do
-            call next_run(gap(:, iy), tolerance, first, last)
+            call next_run(gap(:, iy), low(iy), tolerance, first, last)
             if (first == 0) exit
-            here = lowest_place(grid, gap, iy, first, last, 0.0_wp)
+            here = lowest_place(grid, gap, iy, first, last)
             if (-here%lowest > overlap + tolerance) sharpest = 0.0_wp
-            if (-here%lowest > overlap - tolerance) sharpest = max(sharpest, here%a1, here%b1)
+            if (-here%lowest > overlap - tolerance) then
+               call find_curvatures(grid, gap, iy, first, last, 0.0_wp, here)
+               sharpest = max(sharpest, here%a1, here%b1)
+            end if
             overlap = max(overlap, -here%lowest)
          end do
       end do
       if (.not. overlap > min_overlap) return
       least = min_curvature
       if (sharpest > 0.0_wp) least = min(least, min_share*sharpest)
+      ratio = 0.0_wp
       do iy = 1, grid%my
          last = 0
          do
-            call next_run(gap(:, iy), tolerance, first, last)
+            call next_run(gap(:, iy), low(iy), tolerance, first, last)
             if (first == 0) exit
-            here = lowest_place(grid, gap, iy, first, last, least)
+            here = lowest_place(grid, gap, iy, first, last)
             if (.not. here%lowest < 0.0_wp) cycle
-            hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap, modulus=modulus), here%a1, here%b1)
+            call find_curvatures(grid, gap, iy, first, last, least, here)
+            associate (load => hertz_load(normal_control%approach, pen=overlap, modulus=modulus))
+               if (ratio > 0.0_wp) then
+                  ! the ratio changes little from row to row
+                  hertz = hertz_by_curvatures(load, here%a1, here%b1, near=ratio)
+               else
+                  hertz = hertz_by_curvatures(load, here%a1, here%b1)
+               end if
+            end associate
+            ratio = min(hertz%aob, 1.0_wp/hertz%aob)
             depth = 1.0_wp - (here%lowest + overlap)/(here%b1*hertz%bb**2)
             if (.not. depth > 0.0_wp) cycle
             half_length = hertz%aa*sqrt(depth)
             highest = 1.5_wp*hertz%fn/(pi*hertz%aa*hertz%bb)*sqrt(depth)
-            do ix = 1, grid%mx
+            do ix = max(1, first - reach(grid, half_length)), min(grid%mx, last + reach(grid, half_length))
                if (.not. gap(ix, iy) < excluded_threshold) cycle
                pn(ix, iy) = max(pn(ix, iy), highest*sqrt(max(0.0_wp, 1.0_wp - ((grid%x(ix) - here%x)/half_length)**2)))
             end do
@@ -91,21 +109,29 @@ contains
       end do
    end subroutine analyn_pressure
 
+   !> Number of elements on either side of the smallest gap of a row within which there is pressure
+   pure integer function reach(grid, half_length)
+      type(potential_contact), intent(in) :: grid
+      !> Half the length of the contact in this row [mm]
+      real(wp), intent(in) :: half_length
+
+      reach = grid%mx
+      if (half_length < grid%mx*grid%dx) reach = int(half_length/grid%dx) + 2
+   end function reach
+
    !> The next group of adjacent elements in a row whose gaps equal the smallest one
    !>
    !> A row that is symmetric about a side of an element has two such elements; there is more than one group if two summits of
    !> equal height are in contact.
-   pure subroutine next_run(row, tolerance, first, last)
-      !> Gaps of the row [mm], tolerance for equality
-      real(wp), intent(in) :: row(:), tolerance
+   pure subroutine next_run(row, lowest, tolerance, first, last)
+      !> Gaps of the row and the smallest one [mm], tolerance for equality
+      real(wp), intent(in) :: row(:), lowest, tolerance
       !> First element of the group, 0 if there is none
       integer, intent(out) :: first
       !> On entry last element of the previous group, 0 initially; on exit of this one
       integer, intent(inout) :: last
-      real(wp) :: lowest
       integer :: ix
 
-      lowest = minval(row)
       first = 0
       do ix = last + 1, size(row)
          if (row(ix) > lowest + tolerance) then
@@ -117,14 +143,12 @@ contains
       end do
    end subroutine next_run
 
-   !> Mean position, gap and curvatures of a group
-   pure type(low_place) function lowest_place(grid, gap, iy, first, last, least) result(mean)
+   !> Mean position and gap of a group
+   pure type(low_place) function lowest_place(grid, gap, iy, first, last) result(mean)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
       !> Row, first and last element of the group
       integer, intent(in) :: iy, first, last
-      !> Lower bound of the curvatures [1/mm]
-      real(wp), intent(in) :: least
       real(wp) :: x, lowest
       integer :: ix
 
@@ -132,13 +156,34 @@ contains
          call lowest_point(grid, gap(:, iy), ix, x, lowest)
          mean%x = mean%x + x
          mean%lowest = mean%lowest + lowest
+      end do
+      if (first == last) return
+      mean%x = mean%x/(last - first + 1)
+      mean%lowest = mean%lowest/(last - first + 1)
+   end function lowest_place
+
+   !> Mean curvatures of a group
+   pure subroutine find_curvatures(grid, gap, iy, first, last, least, mean)
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(in) :: gap(:, :)
+      !> Row, first and last element of the group
+      integer, intent(in) :: iy, first, last
+      !> Lower bound of the curvatures [1/mm]
+      real(wp), intent(in) :: least
+      !> Curvatures are set
+      type(low_place), intent(inout) :: mean
+      integer :: ix
+
+      mean%a1 = 0.0_wp
+      mean%b1 = 0.0_wp
+      do ix = first, last
          mean%a1 = mean%a1 + max(curvature_along(grid, gap(:, iy), ix), least)
          mean%b1 = mean%b1 + max(curvature_across(grid, gap(ix, :), iy), least)
       end do
       if (first == last) return
-      mean = low_place(mean%x/(last - first + 1), mean%lowest/(last - first + 1), mean%a1/(last - first + 1), &
-         & mean%b1/(last - first + 1))
-   end function lowest_place
+      mean%a1 = mean%a1/(last - first + 1)
+      mean%b1 = mean%b1/(last - first + 1)
+   end subroutine find_curvatures
 
    !> Position of the smallest gap along a row: vertex of the parabola through three elements
    !>

@@ -62,9 +62,11 @@ contains
    !>
    !> Newton's method for log(ratio) as a function of log(g), whose slope is between 3/2 (circle) and 2 (slender ellipse), needs
    !> about five steps for any ratio. Unlike bisection of the modulus k it resolves slender ellipses.
-   elemental function axis_ratio(ratio) result(g)
+   elemental function axis_ratio(ratio, near) result(g)
       !> Ratio of the smaller to the larger curvature [-], 0 < ratio <= 1
       real(wp), intent(in) :: ratio
+      !> Estimate of the result, 0 < near <= 1; by default derived from the ratio
+      real(wp), intent(in), optional :: near
       real(wp) :: g
       integer, parameter :: max_steps = 50
       !> The error after a step is of the order of the step squared
@@ -75,6 +77,7 @@ contains
 
       ! D >= B, hence ratio >= g**2
       g = min(1.0_wp, sqrt(ratio))
+      if (present(near)) g = near
       do i = 1, max_steps
          integrals = complete_elliptic(g)
          step = (log(ratio) - log(g)*2.0_wp - log(integrals%d/integrals%b))/ratio_slope(g, integrals)
@@ -105,15 +108,17 @@ contains
    end function ratio_slope
 
    !> Solution for given curvatures
-   elemental function hertz_by_curvatures(load, a1, b1) result(hertz)
+   elemental function hertz_by_curvatures(load, a1, b1, near) result(hertz)
       !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
       !> Curvatures along x and y [1/mm], positive
       real(wp), intent(in) :: a1, b1
+      !> Estimate of the ratio of the smaller to the larger semi-axis, see `axis_ratio`
+      real(wp), intent(in), optional :: near
       type(hertz_contact) :: hertz
       real(wp) :: g
 
-      g = axis_ratio(min(a1, b1)/max(a1, b1))
+      g = axis_ratio(min(a1, b1)/max(a1, b1), near)
       hertz%a1 = a1
       hertz%b1 = b1
       hertz%aob = merge(g, 1.0_wp/g, a1 >= b1)

@@ -115,8 +115,7 @@ contains
       result%px = state%now%px
       result%py = state%now%py
       result%pmax = largest_pressure(result%pn, result%tangential%order)
-      result%fx = area*sum(result%px)
-      result%fy = area*sum(result%py)
+      call sum_up(problem, box, result)
       scale = result%mu_scal*result%fn + tiny(scale)
       if (problem%motion == motion%none) then
          result%fx_rel = 0.0_wp
@@ -125,7 +124,6 @@ contains
          result%fx_rel = result%fx/scale
          result%fy_rel = result%fy/scale
       end if
-      call sum_up(problem, box, result)
       if (problem%motion /= motion%none) then
          if (problem%n_forces >= 1) result%wx = result%wx + problem%dq*result%cksi
          if (problem%n_forces >= 2) result%wy = result%wy + problem%dq*result%ceta
@@ -141,7 +139,7 @@ contains
       end if
       if (.not. is_deferred(problem)) call displacements(problem, state, box, workspace, result)
       if (allocated(problem%simplified)) then
-         result%friction_power = area/(nmm_per_joule*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
+         result%friction_power = area/(nmm_per_joule*result%dt)*power_of_slip(box, result)
       else if (problem%motion /= motion%none) then
          associate (solution => workspace%solution)
             do iy = box%iy0, box%iy1
@@ -161,18 +159,38 @@ contains
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
 
-   !> Numbers of elements and moments
+   !> Sum of the products of tractions and slip; tractions are zero outside the contact [N/mm]
+   pure real(wp) function power_of_slip(box, result) result(power)
+      !> Contains the contact area
+      type(bounding_box), intent(in) :: box
+      type(patch_result), intent(in) :: result
+      real(wp) :: along, across
+      integer :: ix, iy
+
+      along = 0.0_wp
+      across = 0.0_wp
+      do iy = box%iy0, box%iy1
+         do ix = box%ix0, box%ix1
+            along = along + result%px(ix, iy)*result%sx(ix, iy)
+            across = across + result%py(ix, iy)*result%sy(ix, iy)
+         end do
+      end do
+      power = along + across
+   end function power_of_slip
+
+   !> Numbers of elements, forces and moments; tractions are zero outside the contact
    pure subroutine sum_up(problem, box, result)
       type(patch_problem), intent(in) :: problem
       !> Contains the contact area
       type(bounding_box), intent(in) :: box
-      !> Element states and tractions on entry; the numbers and moments are set
+      !> Element states and tractions on entry; the numbers, tangential forces and moments are set
       type(patch_result), intent(inout) :: result
-      real(wp) :: area, moment(3), x, y
+      real(wp) :: area, moment(3), force(2), x, y
       integer :: ix, iy, adhering, slipping, others
 
       area = problem%grid%dx*problem%grid%dy
       moment = 0.0_wp
+      force = 0.0_wp
       adhering = 0
       slipping = 0
       others = 0
@@ -190,11 +208,15 @@ contains
                others = others + 1
             end select
             x = problem%grid%x(ix)
+            force(1) = force(1) + result%px(ix, iy)
+            force(2) = force(2) + result%py(ix, iy)
             moment(1) = moment(1) + area*result%pn(ix, iy)*y
             moment(2) = moment(2) - area*result%pn(ix, iy)*x
             if (problem%motion /= motion%none) moment(3) = moment(3) + area*(result%py(ix, iy)*x - result%px(ix, iy)*y)
          end do
       end do
+      result%fx = area*force(1)
+      result%fy = area*force(2)
       result%ncon = adhering + slipping + others
       result%nadh = adhering
       result%nslip = slipping

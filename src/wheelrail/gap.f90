@@ -188,7 +188,7 @@ contains
       associate (lateral => gap%lateral)
          do k = 1, size(lateral) - 1
             if (.not. lateral(k) > lateral(k + 1)) cycle
-            if ((y - lateral(k))/gap%dy > tiny_part .or. (lateral(k + 1) - y)/gap%dy > tiny_part) cycle
+            if (y - lateral(k) > tiny_part*gap%dy .or. lateral(k + 1) - y > tiny_part*gap%dy) cycle
             point = locus_at(wheel, placement, rail, y, k, lateral(k), lateral(k + 1))
             lowest = min(lowest, z + roller_drop(placement, point(1), z) - point(3))
          end do

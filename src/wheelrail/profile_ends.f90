@@ -49,6 +49,7 @@ contains
       if (slot%result%ncon == 0) return
       known = .false.
       associate (grid => slot%problem%grid, h => slot%problem%h, result => slot%result)
+         if (.not. (has_missing(h) .or. any(result%division(:, [1, grid%my]) /= element%exterior))) return
          do iy = 1, grid%my
             do ix = 1, grid%mx
                if (result%division(ix, iy) == element%exterior) cycle
@@ -74,6 +75,21 @@ contains
          end do
       end associate
    end subroutine mark_profile_ends
+
+   !> Is a surface missing in an element?
+   pure logical function has_missing(h)
+      !> Undeformed distance [mm], shape (mx, my)
+      real(wp), intent(in) :: h(:, :)
+      integer :: ix, iy, number
+
+      number = 0
+      do iy = 1, size(h, 2)
+         do ix = 1, size(h, 1)
+            if (h(ix, iy) >= missing) number = number + 1
+         end do
+      end do
+      has_missing = number > 0
+   end function has_missing
 
    !> Find ends of the wheel's profile that are within the rail outside all patches
    !>

@@ -22,8 +22,8 @@ module contact_wheelrail_reference_motion
 
    !> Motion of the reference of one patch per unit of a displacement of the wheelset
    type :: reference_motion
-      !> Derivatives of its origin in the track [mm], and of the contact angle [rad]. If the reference moves relative to the elements,
-      !> the origin is a point that moves with these
+      !> Derivatives of its origin in the track [mm], and of the contact angle [rad]. If the reference moves relative to the
+      !> elements, the origin is a point that moves with these
       real(wp) :: origin(3) = 0.0_wp, angle = 0.0_wp
       !> Derivatives of the factors between the parts of a blended patch, shape (parts, parts); unallocated if there are none
       real(wp), allocatable :: interaction(:, :)
@@ -63,6 +63,8 @@ contains
       type(gap_motion), allocatable :: near(:)
       type(contact_region), allocatable :: at(:), low(:), high(:)
       type(wheel_rail_placement) :: at_gap
+      type(gap_curve) :: gap
+      type(gap_curve), allocatable :: closer(:)
       real(wp) :: step
       integer :: k, number
       logical :: below, above
@@ -78,6 +80,9 @@ contains
          end do
       end if
       is_smooth = .true.
+      gap = geometry%gap
+      allocate(closer(0))
+      if (size(near) > 0) closer = geometry%closer
       call regions_at(0, 0.0_wp, at)
       allocate(motions(size(at), coordinate%count))
       do number = 1, coordinate%count
@@ -112,25 +117,33 @@ contains
          real(wp), intent(in) :: step
          type(contact_region), allocatable, intent(out) :: regions(:)
          type(contact_region), allocatable :: misses(:)
-         type(gap_curve) :: gap
-         type(gap_curve), allocatable :: closer(:)
          integer :: k
 
-         gap = geometry%gap
-         allocate(closer(0))
-         if (size(near) > 0) closer = geometry%closer
          if (number > 0) then
-            gap%gap = gap%gap + step*whole%gap(:, number)
-            gap%x = gap%x + step*whole%x(:, number)
+            call displace(geometry%gap, whole, number, step, gap)
             do k = 1, size(near)
-               closer(k)%gap = closer(k)%gap + step*near(k)%gap(:, number)
-               closer(k)%x = closer(k)%x + step*near(k)%x(:, number)
+               call displace(geometry%closer(k), near(k), number, step, closer(k))
             end do
          end if
          call find_regions(gap, max(z, geometry%lowest_for_regions) - geometry%gap_height, problem%spec%search, &
             & problem%weight_power, regions, misses, closer)
       end subroutine regions_at
    end subroutine find_reference_motions
+
+   !> Gaps and longitudinal positions after a displacement
+   pure subroutine displace(from, motion, number, step, to)
+      !> Gap without displacement, and its derivatives
+      type(gap_curve), intent(in) :: from
+      type(gap_motion), intent(in) :: motion
+      !> Coordinate, and displacement [mm] or [rad]
+      integer, intent(in) :: number
+      real(wp), intent(in) :: step
+      !> Its copy; gaps and positions are set
+      type(gap_curve), intent(inout) :: to
+
+      to%gap(:) = from%gap + step*motion%gap(:, number)
+      to%x(:) = from%x + step*motion%x(:, number)
+   end subroutine displace
 
    !> Have two searches found the same numbers of patches and parts?
    pure logical function alike(a, b)

@@ -21,8 +21,8 @@ module contact_wheelrail_region
       type(region_box) :: box
       !> Reference: position [mm] in track coordinates and surface angle [rad]
       real(wp) :: x = 0.0_wp, y = 0.0_wp, alpha = 0.0_wp
-      !> Reference in x and y that this region has in common with a neighbour [mm], and the share to which its lattice of elements is
-      !> the common one, 0...1: see `draw_lattices`
+      !> Reference in x and y that this region has in common with a neighbour [mm], and the share to which its lattice of elements
+      !> is the common one, 0...1: see `draw_lattices`
       real(wp) :: common(2) = 0.0_wp, share = 0.0_wp
       !> The same as the reference at the deepest point
       real(wp) :: deepest(3) = 0.0_wp

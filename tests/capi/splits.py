@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Where contact patches join or separate, normal forces are continuous, and every vertical force has a height.
 
-Profiles with two and three contacts, on a track and on rollers, elements of 0.5 to 2 mm. The height at which the number of
-patches changes is found by bisection: the normal forces on both sides of it agree. With a prescribed vertical force the wheel then moves past
-lateral positions at which the patches separate: no call misses the force. Between the distances at which patches turn towards
-each other and are joined, derivatives agree with differences.
+Profiles with two and three contacts, on a track and on rollers, elements of 1 and 2 mm. The height at which the number of patches
+changes is found by bisection: the normal forces on both sides of it agree. With a prescribed vertical force the wheel then moves
+past lateral positions at which the patches separate: no call misses the force. Between the distances at which patches turn
+towards each other and are joined, derivatives agree with differences.
 """
 import os
 import sys
@@ -18,15 +18,15 @@ import contact
 
 warnings.simplefilter("ignore")
 SPEED, RADIUS = 25000.0, 460.0
-#: Largest difference of the normal forces where patches join or separate, relative to the vertical force: pressures are solved to 1e-8, and elements in planes
-#: through other references are shifted by up to some hundredths of a millimetre
+#: Largest difference of the normal forces where patches join or separate, relative to the vertical force: pressures are solved to
+#: 1e-8, and elements in planes through other references are shifted by up to some hundredths of a millimetre
 SAME = 1e-5
 #: The same if a third patch is near: the lattice of elements approaches that of the nearest neighbour only
 THIRD = 5e-4
 #: The same for the vertical force: creepages in the common plane are those of a rolling cone, and friction changes with them
 WITH_FRICTION = 5e-4
-#: Wheel, rail, radius of the roller [mm], cant, element, d_sep, d_comb [mm], yaw, roll [rad], force [N], lateral position [mm]; largest difference
-#: of normal forces
+#: Wheel, rail, radius of the roller [mm], cant, element, d_sep, d_comb [mm], yaw, roll [rad], force [N], lateral position [mm];
+#: largest difference of normal forces
 CASES = [("S1002", "60E1_worn", 500.0, 0.025, 1.0, 1.0, 0.5, 3e-3, 0.0, 60e3, 1.13, SAME),
          ("S1002", "60E1_worn", 900.0, 0.025, 2.0, 1.0, 0.25, 5.38379e-3, -4.6004e-5, 48709.9, 0.6225, THIRD),
          ("S1002", "60E1_worn", 900.0, 0.025, 2.0, 1.0, 0.25, 5.38379e-3, -4.6004e-5, 48709.9, 0.9575, SAME),
@@ -89,13 +89,13 @@ def joins(wheel, low, high, points=81):
 
 def derivatives(wheel, z, name):
     """Derivatives by y and z at a height against differences of the fourth order"""
+    step = 2e-7
     wheel.solve(z=z)
     exact = wheel.pair.jacobian()
-    for column, step in (("y", 2e-7), ("z", 2e-7)):
-        def at(k):
-            result = wheel.solve(**{"y": wheel.y, "z": z, column: (wheel.y if column == "y" else z) + k * step})
-            return force(result)
-        slope = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * step)
+    for column, direction in (("y", np.array([1.0, 0.0])), ("z", np.array([0.0, 1.0]))):
+        places = [np.array([wheel.y, z]) + k * step * direction for k in (-2, -1, 1, 2)]
+        low, below, above, high = (force(wheel.solve(*place)) for place in places)
+        slope = (8.0 * (above - below) - (high - low)) / (12.0 * step)
         found = np.array([exact[row, column] for row in ("fx_tr", "fy_tr", "fz_tr")])
         away = np.abs(found - slope).max() / np.abs(slope).max()
         check(away <= 1e-3, f"{name}: derivatives by {column} and differences: {away:.1e}")
