@@ -35,6 +35,8 @@ module contact_patch_level_errors
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
+   !> Power in rolling of second order with a layer, where slip begins suddenly and is largest at the trailing edge: factor of n^-1
+   real(wp), parameter :: sudden_slip_floor = 0.3_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002)
    real(wp), parameter :: temperature_floor(2) = [0.2_wp, 0.5_wp], turning_temperature_floor = 0.15_wp
@@ -205,6 +207,7 @@ contains
       floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
       if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
          & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
+      if (scale%is_layered .and. scale%order > first_order) floor = floor + sudden_slip_floor/scale%across
       floor = max(floor, sqrt(scale%adhesion)*unrelaxed(scale))*full_power
       e = e + heat
       if (scale%jumps) e = trusted(e, floor, trust_in(scale))
@@ -213,6 +216,7 @@ contains
       if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
    end function error_of_power
 
+   !> Error of frictional power in steady rolling [W]: the difference of the power of the motion and frictional power, with its
    !> sign, and the error of the power of the motion
    pure real(wp) function error_by_balance(scale, unit) result(e)
       type(scale_type), intent(in) :: scale
@@ -229,6 +233,7 @@ contains
       if (scale%jumps) e = max(e, trusted(part_of(scale, scale%order)*abs(scale%coarse_surplus), floor, trust_in(scale)))
    end function error_by_balance
 
+   !> Error of the elastic energy without contributions of solvers and window [J]: errors of its parts, whose signs vary between
    !> cases
    pure real(wp) function error_of_energy(scale) result(e)
       type(scale_type), intent(in) :: scale
@@ -252,6 +257,7 @@ contains
       e = max(e, dot_product(energy_floor, [scale%irregular, 1.0_wp]*floor) + more)
    end function error_of_energy
 
+   !> Error of the largest pressure: the error of pressures, and with order 1 the difference between the peak and the nearest
    !> element centre
    pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
       !> Solved patch, with the contributions of solvers and window
@@ -273,6 +279,7 @@ contains
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
 
+   !> Second difference at the largest value: twice its excess over the mean of its neighbours, in the direction in which it is
    !> larger
    pure real(wp) function largest_bend(field) result(bend)
       !> Shape (mx, my); zero before the first and after the last value

@@ -166,6 +166,7 @@ contains
       if (is_unseen(scale)) floor = floor*scale%irregular
    end function friction_floor
 
+   !> First-order contribution of elements that do not resolve the relaxation of the bodies, over the root of the fraction in
    !> adhesion
    pure real(wp) function unrelaxed(scale) result(floor)
       !> See type scale_type
@@ -194,6 +195,7 @@ contains
       is_long_step = scale%steps .and. scale%order <= first_order
    end function is_long_step
 
+   !> Relative error of tangential tractions in cases in which levels show little of it at a single point: in sliding and transient
    !> rolling, and if friction follows temperatures; zero otherwise
    pure real(wp) function traction_error(scale) result(e)
       !> See type scale_type; with differences of the levels

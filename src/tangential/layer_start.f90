@@ -21,6 +21,7 @@ contains
 
    !> Improve an estimate as long as marches reduce the residual; does nothing without a layer
    subroutine march_along_rows(problem, operator, r, trial, trial_slip, solution, residual)
+      !> Steady rolling: rigid slip, bounds, terms of the leading edge
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
