@@ -43,8 +43,6 @@ module contact_elastic_compliance
       procedure(normal_inverse_interface), deferred :: normal_inverse
       !> z = approximate inverse of A_tt applied to r
       procedure(tangential_inverse_interface), deferred :: tangential_inverse
-      !> z = approximate inverse of A - A' applied to r
-      procedure(tangential_inverse_interface), deferred :: steady_inverse
       !> u_n due to tangential tractions
       procedure(to_normal_interface), deferred :: normal_by_tangential
       !> u_t due to pressures; the difference between two time steps in steady rolling

@@ -7,8 +7,7 @@
 !> Small windows transform both tangential fields at once. With X = F(a + i b), and s and d half the sum and half the difference
 !> of the spectra xx and yy, the product with the block of xx, yy, xy is s X(k) + (d + i xy) conj(X(-k)), because these spectra
 !> are equal at k and -k. In this case xx and yy contain s and d, and the difference between two time steps is taken before the
-!> transform. The approximate inverse then has a shorter period in y: padding by a quarter of the window is as good as by a
-!> whole one. In x the sum along the path through the contact area needs the full padding.
+!> transform. Approximate inverses have a shorter period: padding by a quarter of the window is as good as by a whole one.
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -39,8 +38,6 @@ module contact_elastic_operator
       real(wp), allocatable, private :: ixx(:, :), iyy(:, :), ixy(:, :), inn(:, :)
       !> 1 - exp(i direction kappa), shape (kx)
       complex(wp), allocatable :: difference(:)
-      !> Inverse of the damped difference, shape (kx)
-      complex(wp), allocatable, private :: sum_up(:)
       complex(wp), allocatable :: s1(:, :), s2(:, :)
       integer, private :: direction = 0
       logical, private :: has_normal = .false., has_tangential = .false., has_coupling = .false.
@@ -51,7 +48,6 @@ module contact_elastic_operator
       procedure :: steady
       procedure :: normal_inverse
       procedure :: tangential_inverse
-      procedure :: steady_inverse
       procedure :: normal_by_tangential
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
@@ -59,9 +55,6 @@ module contact_elastic_operator
       !> Compute the spectra of all kernels
       procedure :: need_all
    end type elastic_operator
-
-   !> Maximum decay per element of sums along rolling: in windows of a few elements `decay` would suppress the sum completely
-   real(wp), parameter :: largest_decay = 0.9_wp
 
 contains
 
@@ -79,8 +72,6 @@ contains
       integer :: px, py, k
       complex(wp) :: turn
       logical :: same
-      !> Decay of the preconditioner per element, times sqrt(mx); chosen by measurement
-      real(wp), parameter :: decay = 0.5_wp
 
       same = self%is_for(model, dx, dy, mx, my)
       if (.not. same) then
@@ -109,12 +100,11 @@ contains
       if (.not. same) self%model = model
       if (self%direction /= direction) then
          self%direction = direction
-         if (allocated(self%difference)) deallocate(self%difference, self%sum_up)
-         allocate(self%difference(self%plan%kx), self%sum_up(self%plan%kx))
+         if (allocated(self%difference)) deallocate(self%difference)
+         allocate(self%difference(self%plan%kx))
          do k = 1, self%plan%kx
             turn = exp(cmplx(0.0_wp, direction*2.0_wp*pi*(k - 1)/self%plan%px, wp))
             self%difference(k) = 1.0_wp - turn
-            self%sum_up(k) = 1.0_wp/(1.0_wp - (1.0_wp - min(largest_decay, decay/sqrt(real(mx, wp))))*turn)
          end do
       end if
    end subroutine prepare
@@ -150,39 +140,40 @@ contains
    !> Compute the spectra for the tangential problem, on first use
    subroutine need_tangential(self)
       class(elastic_operator), intent(inout) :: self
-      integer :: py
+      integer :: px, py
 
       if (self%has_tangential) return
       call self%complete()
+      px = min(self%plan%px, fast_size(padded_a_little(self%mx)))
       py = self%plan%py
       if (self%my > 1) py = min(py, fast_size(padded_a_little(self%my)))
-      call tangential_spectra(self, self%plan%py, self%xx, self%yy, self%xy)
-      if (py == self%plan%py) then
+      call tangential_spectra(self, self%plan%px, self%plan%py, self%xx, self%yy, self%xy)
+      if (px == self%plan%px .and. py == self%plan%py) then
          self%ixx = self%xx
          self%iyy = self%yy
          self%ixy = self%xy
       else
-         call tangential_spectra(self, py, self%ixx, self%iyy, self%ixy)
+         call tangential_spectra(self, px, py, self%ixx, self%iyy, self%ixy)
       end if
-      call invert_block(real(self%plan%px, wp)*real(py, wp), self%ixx, self%iyy, self%ixy)
+      call invert_block(real(px, wp)*real(py, wp), self%ixx, self%iyy, self%ixy)
       if (self%small) then
          call self%pair%prepare(self%mx, self%my, self%plan%px, self%plan%py)
-         call self%inverse_pair%prepare(self%mx, self%my, self%plan%px, py)
+         call self%inverse_pair%prepare(self%mx, self%my, px, py)
          call replace_by_mean(self%xx, self%yy)
          call replace_by_mean(self%ixx, self%iyy)
       else
-         call self%inverse_plan%prepare(self%mx, self%my, self%plan%px, py)
+         call self%inverse_plan%prepare(self%mx, self%my, px, py)
       end if
       self%has_tangential = .true.
    end subroutine need_tangential
 
-   !> Spectra xx, yy, xy for a given period in y
-   subroutine tangential_spectra(self, py, xx, yy, xy)
+   !> Spectra xx, yy, xy for given periods
+   subroutine tangential_spectra(self, px, py, xx, yy, xy)
       class(elastic_operator), intent(in) :: self
-      integer, intent(in) :: py
+      integer, intent(in) :: px, py
       real(wp), allocatable, intent(inout) :: xx(:, :), yy(:, :), xy(:, :)
 
-      associate (t => self%table, px => self%plan%px)
+      associate (t => self%table)
          call make_spectrum(t%nx, t%ny, t%xx, .false., .false., px, py, xx)
          call make_spectrum(t%nx, t%ny, t%yy, .false., .false., px, py, yy)
          call make_spectrum(t%nx, t%ny, t%xy, .true., .true., px, py, xy)
@@ -334,34 +325,15 @@ contains
       real(wp), contiguous, intent(inout) :: z(:, :, :)
 
       call need_tangential(self)
-      call inverse_of_pair(self, r, z)
-   end subroutine tangential_inverse
-
-   subroutine steady_inverse(self, r, z)
-      class(elastic_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: r(:, :, :)
-      real(wp), contiguous, intent(inout) :: z(:, :, :)
-
-      call need_tangential(self)
-      call inverse_of_pair(self, r, z, self%sum_up)
-   end subroutine steady_inverse
-
-   subroutine inverse_of_pair(self, r, z, factor)
-      class(elastic_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: r(:, :, :)
-      real(wp), contiguous, intent(inout) :: z(:, :, :)
-      !> Per column of the spectrum
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-
       if (self%small) then
          call self%inverse_pair%forward(r)
-         call multiply_paired(self%ixx, self%iyy, self%ixy, self%inverse_pair%spectrum, factor)
+         call multiply_paired(self%ixx, self%iyy, self%ixy, self%inverse_pair%spectrum)
          call self%inverse_pair%backward(z)
       else
-         call self%inverse_plan%convolve_pair(self%ixx, self%iyy, self%ixy, r, z, factor)
+         call self%inverse_plan%convolve_pair(self%ixx, self%iyy, self%ixy, r, z)
       end if
       self%transforms = self%transforms + 4
-   end subroutine inverse_of_pair
+   end subroutine tangential_inverse
 
    subroutine normal_by_tangential(self, p, u)
       class(elastic_operator), intent(inout) :: self

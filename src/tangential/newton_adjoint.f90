@@ -14,7 +14,7 @@ module contact_tangential_newton_adjoint
    use contact_elastic_compliance, only : compliance
    use contact_numeric_vectors, only : add, add_four, inner, inner_four
    use contact_tangential_newton_jacobian, only : apply_d, fit_workspace, linear_system, linearise, new_system, newton_workspace, &
-      & restart
+      & restart, weigh_inverse
    use contact_tangential_newton_linear, only : precondition_field
    use contact_tangential_problem, only : apply_operator, slip_of, tangential_problem, tangential_solution
    use contact_tangential_slip_loops, only : jacobian_of_projection
@@ -83,6 +83,7 @@ contains
       call slip_of(problem, operator, at%p, at%creep, at%slip)
       call linearise(problem, system, at, workspace)
       workspace%weight = workspace%weight(mx:1:-1, my:1:-1)
+      call weigh_inverse(problem, workspace)
       workspace%direction = workspace%direction(mx:1:-1, my:1:-1, :)
       turned = problem
       if (allocated(turned%second)) then

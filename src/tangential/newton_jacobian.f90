@@ -16,7 +16,7 @@ module contact_tangential_newton_jacobian
    private
 
    public :: apply_d, apply_jacobian, add_radial, differentiate_return_map, fit_workspace, linear_system, linearise, &
-      & most_pieces, new_system, newton_workspace, restart
+      & most_pieces, new_system, newton_workspace, restart, weigh_inverse
 
    !> Maximum dimension of the Krylov space before a restart; chosen
    integer, parameter :: restart = 40
@@ -35,6 +35,8 @@ module contact_tangential_newton_jacobian
       real(wp), allocatable :: x(:), b(:), work(:)
       !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
       real(wp), allocatable :: weight(:, :), direction(:, :, :)
+      !> Weight in the preconditioner, see `weigh_inverse`
+      real(wp), allocatable :: inverse_weight(:, :)
       !> Trial tractions and slip, residual, and two fields of workspace
       real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), step(:, :, :), best_slip(:, :, :)
       !> Border columns after preconditioning
@@ -84,7 +86,7 @@ contains
       if (workspace%mx == mx .and. workspace%my == my) return
       if (allocated(workspace%basis)) then
          deallocate(workspace%basis, workspace%preconditioned, workspace%x, workspace%b, workspace%work)
-         deallocate(workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
+         deallocate(workspace%weight, workspace%inverse_weight, workspace%direction, workspace%trial, workspace%trial_slip)
          deallocate(workspace%residual, workspace%step, workspace%best_slip, workspace%border)
       end if
       ! memory is touched only when a vector is first used
@@ -92,7 +94,7 @@ contains
       if (.not. allocated(workspace%hessenberg)) &
          & allocate(workspace%hessenberg(restart + 1, restart), workspace%part(restart + 1, most_pieces))
       allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
-      allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
+      allocate(workspace%weight(mx, my), workspace%inverse_weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
       allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)
       allocate(workspace%residual(mx, my, 2), workspace%step(mx, my, 2), workspace%best_slip(mx, my, 2), source=0.0_wp)
       allocate(workspace%border(mx, my, 2, 2), source=0.0_wp)
@@ -114,6 +116,7 @@ contains
       if (allocated(workspace%point)) deallocate(workspace%point)
       if (problem%hardens()) then
          call linearise_return_map(problem, system, solution, workspace)
+         call weigh_inverse(problem, workspace)
          return
       end if
       workspace%trial_slip = solution%slip
@@ -124,7 +127,27 @@ contains
       end if
       call linearise_projection(problem%mx*problem%my, problem%contact, problem%bound, solution%p, workspace%trial_slip, system%r, &
          & workspace%weight, workspace%direction, workspace%residual)
+      call weigh_inverse(problem, workspace)
    end subroutine linearise
+
+   !> Weights of the preconditioner, from those of D
+   !>
+   !> The change of slip per step of steady rolling is small for tractions that vary slowly along a row, that of a single step is
+   !> large for tractions that vary slowly. A square and a root of the weights of D keep the eigenvalues of such tractions near 1.
+   subroutine weigh_inverse(problem, workspace)
+      !> Steady rolling or a time step
+      type(tangential_problem), intent(in) :: problem
+      !> Weights of D, and those of the preconditioner
+      type(newton_workspace), intent(inout) :: workspace
+
+      if (allocated(workspace%point)) then
+         workspace%inverse_weight = workspace%weight
+      else if (problem%steady) then
+         workspace%inverse_weight = workspace%weight**2
+      else
+         workspace%inverse_weight = sqrt(workspace%weight)
+      end if
+   end subroutine weigh_inverse
 
    !> The same if the yield limit has a slope
    subroutine linearise_return_map(problem, system, solution, workspace)

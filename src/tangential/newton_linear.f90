@@ -10,7 +10,7 @@ module contact_tangential_newton_linear
    use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, most_pieces, &
       & newton_workspace, restart
    use contact_tangential_problem, only : add_creepages, tangential_problem
-   use contact_tangential_slip_loops, only : join_parts
+   use contact_tangential_slip_loops, only : join_parts, project_change
    implicit none (type, external)
    private
 
@@ -22,6 +22,8 @@ module contact_tangential_newton_linear
    real(wp), parameter :: shortened = 0.1_wp
    !> Minimum length of a piece of a vector in the orthogonalisation, and minimum vector length for using threads; chosen
    integer, parameter :: least_piece = 1024, worth_threads = 40000
+   !> Decay of sums along a row per element, times sqrt(mx), and its maximum; chosen by measurement
+   real(wp), parameter :: decay = 0.3_wp, largest_decay = 0.9_wp
    !> Limits below which Schur complements are regarded as singular, absolute for one force, relative for two; round-off
    real(wp), parameter :: singular_one = 1.0e-12_wp, singular_two = 1.0e-14_wp
 
@@ -245,8 +247,9 @@ contains
       end do
    end subroutine precondition
 
-   !> u := (D C^-1 D / r + 1 - D) v for traction fields
+   !> u := (D C^-1 D / r + 1 - D) v for traction fields, in steady rolling with sums along rows after C^-1
    !>
+   !> D has the weights of `weigh_inverse` here.
    !> Weights and turns of the second-order scheme have no part in it: the inverse of turns amplifies angles that alternate from
    !> element to element at the leading edge, and with it GMRES stagnates, see doc/theory/second_order.md.
    subroutine precondition_field(problem, operator, system, workspace, v, u)
@@ -265,33 +268,59 @@ contains
       real(wp), allocatable :: whole(:, :, :)
 
       call copy_long(size(v), v, workspace%trial)
-      call apply_d(workspace, workspace%trial)
+      if (allocated(workspace%point)) then
+         call apply_d(workspace, workspace%trial)
+      else
+         call project_change(size(workspace%weight), workspace%inverse_weight, workspace%direction, workspace%trial)
+      end if
       if (allocated(problem%second)) then
          workspace%trial_slip = workspace%trial
          call problem%second%leave_stiff(workspace%trial_slip)
-         call invert_operator(problem, operator, workspace%trial_slip, u)
+         call operator%tangential_inverse(workspace%trial_slip, u)
       else
-         call invert_operator(problem, operator, workspace%trial, u)
+         call operator%tangential_inverse(workspace%trial, u)
       end if
+      if (problem%steady) call sum_along(problem, workspace%weight, u)
       if (allocated(workspace%point)) whole = u/system%r
-      call join_parts(problem%mx*problem%my, workspace%weight, workspace%direction, v, workspace%trial, system%r, u)
+      call join_parts(problem%mx*problem%my, workspace%inverse_weight, workspace%direction, v, workspace%trial, system%r, u)
       if (allocated(workspace%point)) call add_radial(workspace, whole, u)
       if (allocated(problem%second)) call problem%second%keep_stiff(v, u)
    end subroutine precondition_field
 
-   !> Inverse of the circulant
-   subroutine invert_operator(problem, operator, field, u)
+   !> Tractions of steady rolling from their differences between elements in a row, summed from the leading edge
+   !>
+   !> The sum decays, as the differences are those of an approximate inverse; not in a single row, where the sum is exact.
+   subroutine sum_along(problem, weight, u)
+      !> Rolling direction and size of the window
       type(tangential_problem), intent(in) :: problem
-      class(compliance), intent(inout) :: operator
-      real(wp), contiguous, intent(in) :: field(:, :, :)
+      !> 0 outside of the contact, where each sum starts anew
+      real(wp), contiguous, intent(in) :: weight(:, :)
+      !> Differences on entry, tractions on exit, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
+      real(wp) :: kept, x, y
+      integer :: first, last, step, ix, iy
 
-      if (problem%steady) then
-         call operator%steady_inverse(field, u)
-      else
-         call operator%tangential_inverse(field, u)
-      end if
-   end subroutine invert_operator
+      kept = 1.0_wp
+      if (problem%my > 1) kept = 1.0_wp - min(largest_decay, decay/sqrt(real(problem%mx, wp)))
+      first = merge(problem%mx, 1, problem%direction > 0)
+      last = problem%mx + 1 - first
+      step = merge(-1, 1, problem%direction > 0)
+      do iy = 1, problem%my
+         x = 0.0_wp
+         y = 0.0_wp
+         do ix = first, last, step
+            if (weight(ix, iy) > 0.0_wp) then
+               x = u(ix, iy, 1) + kept*x
+               y = u(ix, iy, 2) + kept*y
+            else
+               x = 0.0_wp
+               y = 0.0_wp
+            end if
+            u(ix, iy, 1) = x
+            u(ix, iy, 2) = y
+         end do
+      end do
+   end subroutine sum_along
 
    !> Preconditioned border columns and the inverse of their Schur complement
    subroutine prepare_border(problem, operator, system, workspace, preconditionings)
