@@ -5,14 +5,16 @@
 !> changes, preconditioned by the circulant inverse of A; for a prescribed force with directions of zero total force (the
 !> approach is the corresponding multiplier). Within nested iteration the number of transforms does not depend on the grid.
 module contact_normal_conjugate_gradient
-   use contact_base_constants, only : excluded_distance, excluded_threshold
+   use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_elastic_new_compliance, only : new_compliance
-   use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_grid_coarsening, only : shortest_side
+   use contact_normal_coarse_problem, only : coarsen, prolong
    use contact_normal_few_elements, only : area_factor, solve_few
+   use contact_normal_overlap, only : overlap_window, window_type
    use contact_normal_gradient_loops, only : choose_free, go_along, mean_gap, mean_of_free, project, &
       & residuals, turn_direction
    use contact_normal_last_answer, only : answer_type
@@ -39,6 +41,8 @@ module contact_normal_conjugate_gradient
       type(level_type), allocatable :: level(:)
       !> The last problem and its solution: tables of creep forces repeat one normal problem
       type(answer_type), private :: last
+      !> Window around the overlap, in a potential contact area that is much larger
+      type(level_type), private :: overlap
       !> Factor of the last contact of few elements, for sequences of problems
       type(area_factor) :: factor
    end type normal_workspace
@@ -78,6 +82,7 @@ contains
       type(solve_report), intent(inout) :: report
       !> Receives a line per iteration from flow-trace level 6 on; absent: no trace
       type(log_type), intent(inout), optional :: log
+      type(window_type) :: window
       real(wp) :: pairs_before
       integer :: k, products_before
       logical :: traced
@@ -100,8 +105,14 @@ contains
       products_before = operator%products
       report%ended = ending%not_started
       if (problem%follows) call solve_few(problem, operator, workspace%factor, p, pen, report)
-      if (report%ended /= ending%converged) &
-         & call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
+      if (report%ended /= ending%converged) then
+         window = overlap_window(problem, operator, pen)
+         if (window%mx > 0) then
+            call solve_in_window(problem, operator, workspace, window, p, pen, report, log)
+         else
+            call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
+         end if
+      end if
       call workspace%last%note_answer(problem, p, pen, report)
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
@@ -110,6 +121,37 @@ contains
          call workspace%level(k)%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_normal
+
+   !> Solve in a window that contains all elements that can be in contact
+   subroutine solve_in_window(problem, operator, workspace, window, p, pen, report, log)
+      !> Problem with a prescribed approach
+      type(normal_problem), intent(in) :: problem
+      class(compliance), intent(in) :: operator
+      type(normal_workspace), intent(inout) :: workspace
+      !> Part of the potential contact area
+      type(window_type), intent(in) :: window
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp), intent(inout) :: pen
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout), optional :: log
+      integer :: products_before, last_x, last_y
+
+      last_x = window%before_x + window%mx
+      last_y = window%before_y + window%my
+      associate (part => workspace%overlap)
+         call window%cut(problem, part%problem)
+         call new_compliance(operator%model, part%operator)
+         call part%operator%prepare(operator%model, problem%dx, problem%dy, window%mx, window%my, 1, &
+            & operator%y_first + window%before_y*problem%dy)
+         products_before = part%operator%products
+         part%p = p(window%before_x + 1:last_x, window%before_y + 1:last_y)
+         call solve_level(part%problem, part%operator, workspace, 1, part%p, pen, problem%eps, report, log)
+         p = 0.0_wp
+         p(window%before_x + 1:last_x, window%before_y + 1:last_y) = part%p
+         report%products = report%products + part%operator%products - products_before
+         call part%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
+      end associate
+   end subroutine solve_in_window
 
    !> Solve on one level: estimate from the next coarser one if this is useful, then iterate
    recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report, log)
@@ -368,65 +410,6 @@ contains
       p = p*(sum(p*p)/sum(p*level%u))
    end subroutine first_guess
 
-   !> The same problem with half as many elements per direction; distances are averaged
-   subroutine coarsen(fine, coarse)
-      type(normal_problem), intent(in) :: fine
-      type(normal_problem), intent(inout) :: coarse
-      integer :: fx, fy, mx, my, ix, iy, jx, jy, n
-      real(wp) :: h
-
-      fx = coarsening_factor(fine%mx)
-      fy = coarsening_factor(fine%my)
-      mx = coarse_size(fine%mx)
-      my = coarse_size(fine%my)
-      if (allocated(coarse%h)) then
-         if (any(shape(coarse%h) /= [mx, my])) deallocate(coarse%h)
-      end if
-      if (.not. allocated(coarse%h)) allocate(coarse%h(mx, my))
-      coarse%mx = mx
-      coarse%my = my
-      coarse%dx = fx*fine%dx
-      coarse%dy = fy*fine%dy
-      coarse%force_prescribed = fine%force_prescribed
-      coarse%fn = fine%fn
-      coarse%maxgs = fine%maxgs
-      coarse%deadline = fine%deadline
-      do iy = 1, my
-         do ix = 1, mx
-            h = 0.0_wp
-            n = 0
-            do jy = fy*(iy - 1) + 1, min(fy*iy, fine%my)
-               do jx = fx*(ix - 1) + 1, min(fx*ix, fine%mx)
-                  if (fine%h(jx, jy) > excluded_threshold) cycle
-                  h = h + fine%h(jx, jy)
-                  n = n + 1
-               end do
-            end do
-            coarse%h(ix, iy) = excluded_distance
-            if (n > 0) coarse%h(ix, iy) = h/n
-         end do
-      end do
-   end subroutine coarsen
-
-   !> Bilinear interpolation of pressures to the fine grid
-   subroutine prolong(pc, fine, p)
-      type(normal_problem), intent(in) :: fine
-      real(wp), contiguous, intent(in) :: pc(:, :)
-      real(wp), contiguous, intent(inout) :: p(:, :)
-      integer :: ix, iy, i0, i1, j0, j1, fx, fy
-      real(wp) :: a, b
-
-      fx = coarsening_factor(fine%mx)
-      fy = coarsening_factor(fine%my)
-      do iy = 1, fine%my
-         call coarse_neighbours(iy, fine%my, j0, j1, b)
-         do ix = 1, fine%mx
-            call coarse_neighbours(ix, fine%mx, i0, i1, a)
-            p(ix, iy) = (1.0_wp - b)*((1.0_wp - a)*pc(i0, j0) + a*pc(i1, j0)) + b*((1.0_wp - a)*pc(i0, j1) + a*pc(i1, j1))
-         end do
-      end do
-   end subroutine prolong
-
    !> Free the plans of all levels
    subroutine release_normal(workspace)
       !> Levels whose plans are freed; may be used again
@@ -434,6 +417,7 @@ contains
       integer :: k
 
       if (.not. allocated(workspace%level)) return
+      if (allocated(workspace%overlap%operator)) call workspace%overlap%operator%release()
       do k = 1, size(workspace%level)
          if (allocated(workspace%level(k)%operator)) call workspace%level(k)%operator%release()
       end do

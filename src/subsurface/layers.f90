@@ -6,7 +6,7 @@
 !> back. Depths are independent and shared among threads. Consecutive cases may keep the spectra of the responses.
 module contact_subsurface_layers
    use contact_base_kinds, only : wp
-   use contact_fft_plan, only : fft_plan, good_size
+   use contact_fft_plan, only : fast_size, fft_plan
    use contact_grid_potential_contact, only : potential_contact
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
       & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_y, &
@@ -153,8 +153,8 @@ contains
    pure subroutine pad(window)
       type(layer_window), intent(inout) :: window
 
-      window%px = good_size(2*window%nx + 1)
-      window%py = good_size(2*window%ny + 1)
+      window%px = fast_size(2*window%nx + 1)
+      window%py = fast_size(2*window%ny + 1)
    end subroutine pad
 
    !> Spectra of px, py, pn, scaled for the back transform

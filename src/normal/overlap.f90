@@ -1,0 +1,90 @@
+!> The part of the potential contact area in which the undeformed bodies overlap at a prescribed approach
+!>
+!> Pressures move the surfaces apart in all elements if no coefficient is negative. Elements outside of the overlap are then
+!> never in contact, and the normal problem may be solved in a window around it.
+module contact_normal_overlap
+   use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
+   use contact_normal_problem, only : normal_problem
+   implicit none (type, external)
+   private
+
+   public :: overlap_window, window_type
+
+   !> A window of elements within a larger one
+   type :: window_type
+      !> Size in elements; 0 if there is none
+      integer :: mx = 0, my = 0
+      !> Numbers of elements of the larger window before it
+      integer :: before_x = 0, before_y = 0
+   contains
+      !> Cut a problem out of a larger one
+      procedure :: cut
+   end type window_type
+
+   !> A window with a larger fraction of the elements is not worth its own coefficients; chosen
+   real(wp), parameter :: much_smaller = 0.6_wp
+   !> Sides are multiples of this number, so that the window is the same for similar approaches; chosen
+   integer, parameter :: unit_side = 8
+
+contains
+
+   !> Window around the overlap; of size 0 if it does not contain all contact, or is not much smaller
+   type(window_type) function overlap_window(problem, operator, pen) result(window)
+      !> Undeformed distance; the approach must be prescribed
+      type(normal_problem), intent(in) :: problem
+      !> Its coefficients are checked
+      class(compliance), intent(in) :: operator
+      !> Approach [mm]
+      real(wp), intent(in) :: pen
+      integer :: first(2), last(2), iy
+
+      if (problem%force_prescribed .or. problem%follows .or. allocated(problem%parts) .or. .not. operator%has_table()) return
+      first = huge(1)
+      last = 0
+      do iy = 1, problem%my
+         associate (row => problem%h(:, iy) < pen)
+            if (.not. any(row)) cycle
+            first = min(first, [findloc(row, .true., 1), iy])
+            last = max(last, [findloc(row, .true., 1, back=.true.), iy])
+         end associate
+      end do
+      if (last(1) == 0) return
+      call fit_side(problem%mx, first(1), last(1))
+      call fit_side(problem%my, first(2), last(2))
+      if (real(last(1) - first(1) + 1, wp)*(last(2) - first(2) + 1) > much_smaller*problem%mx*problem%my) return
+      if (.not. all(operator%table%nn >= 0.0_wp)) return
+      window = window_type(last(1) - first(1) + 1, last(2) - first(2) + 1, first(1) - 1, first(2) - 1)
+   end function overlap_window
+
+   !> Extend a range of elements to a multiple of the unit, within the larger window
+   pure subroutine fit_side(n, first, last)
+      !> Number of elements of the larger window
+      integer, intent(in) :: n
+      !> First and last element
+      integer, intent(inout) :: first, last
+      integer :: length
+
+      length = min(n, unit_side*((last - first + unit_side)/unit_side))
+      first = max(1, min(first, n - length + 1))
+      last = first + length - 1
+   end subroutine fit_side
+
+   subroutine cut(self, whole, part)
+      class(window_type), intent(in) :: self
+      !> Problem on the larger window
+      type(normal_problem), intent(in) :: whole
+      !> Receives size, distances, and limits
+      type(normal_problem), intent(inout) :: part
+
+      part%mx = self%mx
+      part%my = self%my
+      part%dx = whole%dx
+      part%dy = whole%dy
+      part%h = whole%h(self%before_x + 1:self%before_x + self%mx, self%before_y + 1:self%before_y + self%my)
+      part%force_prescribed = .false.
+      part%eps = whole%eps
+      part%maxgs = whole%maxgs
+      part%deadline = whole%deadline
+   end subroutine cut
+end module contact_normal_overlap
