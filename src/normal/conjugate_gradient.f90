@@ -14,6 +14,7 @@ module contact_normal_conjugate_gradient
    use contact_grid_coarsening, only : shortest_side
    use contact_normal_coarse_problem, only : coarsen, prolong
    use contact_normal_few_elements, only : area_factor, solve_few
+   use contact_normal_few_limits, only : add_limits, find_limits, limited_pressures
    use contact_normal_overlap, only : overlap_window, window_type
    use contact_normal_gradient_loops, only : choose_free, go_along, mean_gap, mean_of_free, project, &
       & residuals, turn_direction
@@ -342,6 +343,8 @@ contains
    end subroutine set_direction
 
    !> Step along the direction; negative pressures are set to zero, and the force is preserved
+   !>
+   !> Displacements are recomputed if more than a few pressures are limited, otherwise updated.
    subroutine step_along(problem, operator, level, alpha, p, exact_u)
       type(normal_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
@@ -352,25 +355,30 @@ contains
       real(wp), contiguous, intent(inout) :: p(:, :)
       !> Were the displacements recomputed rather than updated by those of the step?
       logical, intent(out) :: exact_u
+      type(limited_pressures) :: limits
       real(wp) :: mean
       integer :: n
+      logical :: is_limited
 
       n = problem%mx*problem%my
-      exact_u = go_along(n, alpha, level%d, p) < 0.0_wp
-      if (exact_u) then
-         if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
-      end if
-      if (problem%force_prescribed) then
-         mean = problem%fn/(sum(p)*problem%dx*problem%dy)
-         if (abs(mean - 1.0_wp) > same_force) then
-            p = p*mean
+      limits = find_limits(problem, operator, alpha, level%d, p)
+      is_limited = go_along(n, alpha, level%d, p) < 0.0_wp
+      exact_u = is_limited .and. limits%n < 0
+      if (is_limited) then
+         if (.not. any(p > 0.0_wp)) then
+            call load_lowest_element(problem, p)
             exact_u = .true.
          end if
       end if
+      mean = 1.0_wp
+      if (problem%force_prescribed) mean = problem%fn/(sum(p)*problem%dx*problem%dy)
+      if (abs(mean - 1.0_wp) > same_force) p = p*mean
       if (exact_u) then
          call pressure_displacement(problem, operator, p, level%u)
       else
          call add_long(n, alpha, level%q, level%u)
+         if (limits%n > 0) call add_limits(limits, problem, operator, level%u)
+         if (abs(mean - 1.0_wp) > same_force) level%u = mean*level%u
       end if
    end subroutine step_along
 

@@ -39,7 +39,8 @@ contains
       real(wp), intent(in) :: pen
       integer :: first(2), last(2), iy
 
-      if (problem%force_prescribed .or. problem%follows .or. allocated(problem%parts) .or. .not. operator%has_table()) return
+      if (problem%force_prescribed .or. problem%follows .or. allocated(problem%parts)) return
+      if (.not. operator%has_table() .or. allocated(operator%model%memory)) return
       first = huge(1)
       last = 0
       do iy = 1, problem%my
