@@ -30,8 +30,9 @@ contains
       type(normal_problem), intent(in) :: problem
       !> Operator of the window
       class(compliance), intent(in) :: operator
-      !> Length of the step, its direction, and the pressures before [N/mm2], shape (mx, my)
+      !> Length of the step
       real(wp), intent(in) :: alpha
+      !> Its direction, and the pressures before it [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: d(:, :), p(:, :)
       integer :: ix, iy
 

@@ -297,30 +297,51 @@ contains
       real(wp), contiguous, intent(in) :: weight(:, :)
       !> Differences on entry, tractions on exit, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
-      real(wp) :: kept, x, y
-      integer :: first, last, step, ix, iy
+      real(wp) :: kept
+      integer :: iy
 
       kept = 1.0_wp
       if (problem%my > 1) kept = 1.0_wp - min(largest_decay, decay/sqrt(real(problem%mx, wp)))
-      first = merge(problem%mx, 1, problem%direction > 0)
-      last = problem%mx + 1 - first
-      step = merge(-1, 1, problem%direction > 0)
-      do iy = 1, problem%my
-         x = 0.0_wp
-         y = 0.0_wp
-         do ix = first, last, step
-            if (weight(ix, iy) > 0.0_wp) then
-               x = u(ix, iy, 1) + kept*x
-               y = u(ix, iy, 2) + kept*y
-            else
-               x = 0.0_wp
-               y = 0.0_wp
-            end if
-            u(ix, iy, 1) = x
-            u(ix, iy, 2) = y
+      if (size(u) <= worth_threads) then
+         do iy = 1, problem%my
+            call sum_row(problem%mx, problem%direction, kept, weight(:, iy), u(:, iy, 1), u(:, iy, 2))
          end do
-      end do
+      else
+         !$omp parallel do
+         do iy = 1, problem%my
+            call sum_row(problem%mx, problem%direction, kept, weight(:, iy), u(:, iy, 1), u(:, iy, 2))
+         end do
+         !$omp end parallel do
+      end if
    end subroutine sum_along
+
+   !> Sums of both components along one row
+   pure subroutine sum_row(n, direction, kept, weight, x, y)
+      !> Number of elements, and the rolling direction
+      integer, intent(in) :: n, direction
+      !> Part of a sum that is kept from element to element, and weights of the row
+      real(wp), intent(in) :: kept, weight(n)
+      !> Differences on entry, tractions on exit
+      real(wp), intent(inout) :: x(n), y(n)
+      real(wp) :: sum_x, sum_y
+      integer :: ix, k
+
+      sum_x = 0.0_wp
+      sum_y = 0.0_wp
+      do k = 1, n
+         ix = k
+         if (direction > 0) ix = n + 1 - k
+         if (weight(ix) > 0.0_wp) then
+            sum_x = x(ix) + kept*sum_x
+            sum_y = y(ix) + kept*sum_y
+         else
+            sum_x = 0.0_wp
+            sum_y = 0.0_wp
+         end if
+         x(ix) = sum_x
+         y(ix) = sum_y
+      end do
+   end subroutine sum_row
 
    !> Preconditioned border columns and the inverse of their Schur complement
    subroutine prepare_border(problem, operator, system, workspace, preconditionings)
