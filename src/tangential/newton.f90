@@ -41,9 +41,9 @@ module contact_tangential_newton
    integer, parameter :: patience = 8
    !> Tolerance of the linear systems: maximum, and factor and exponent of the ratio of residuals of Eisenstat and Walker
    !> (1996), whose exponent is (1 + sqrt(5))/2
-   real(wp), parameter :: rough = 0.2_wp, forcing_factor = 1.0_wp, forcing_power = 1.5_wp
+   real(wp), parameter :: rough = 0.2_wp, forcing_factor = 0.5_wp, forcing_power = 1.5_wp
    !> Lower limits of that tolerance: this fraction of the tolerance of the problem, but not below the other value; chosen
-   real(wp), parameter :: enough = 1.0_wp, min_accuracy = 0.3_wp
+   real(wp), parameter :: enough = 0.3_wp, min_accuracy = 0.1_wp
    !> Step lengths tried in turn; the first that decreases the residual by this fraction of its length is accepted; chosen
    real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
    real(wp), parameter :: decrease = 0.1_wp
