@@ -23,15 +23,15 @@ module contact_patch_balances
 
 contains
 
-   !> Does frictional power equal the power of the motion? Not with viscoelastic bodies or a plastic layer, and not with given
+   !> Does frictional power equal the power of the motion? Not with viscoelastic bodies or a layer that yields, and not with given
    !> pressures that act on the tractions but do not depend on them
    pure logical function balances_power(problem) result(balances)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
 
       balances = problem%motion == motion%steady_rolling .and. .not. (allocated(problem%simplified) &
-         & .or. allocated(problem%model%memory) .or. problem%model%layer > 0.0_wp .or. problem%remembers_yield &
-         & .or. allocated(problem%parts) .or. (problem%model%coupled() .and. .not. problem%couples()))
+         & .or. allocated(problem%model%memory) .or. problem%remembers_yield .or. allocated(problem%parts) &
+         & .or. (problem%model%coupled() .and. .not. problem%couples()))
    end function balances_power
 
    !> Power of the tractions with creepages, spin and extra slip, dissipation negative [W]; huge if it is not known

@@ -67,8 +67,6 @@ module contact_patch_error_scales
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
-      !> Is there an elastic layer between the bodies?
-      logical :: is_layered = .false.
       !> Length of a step of transient rolling, in elements [-]
       real(wp) :: step = 0.0_wp
       !> Ratio of the relative error of the normal problem by the levels to the typical one with this number of elements, at least 1
@@ -186,9 +184,8 @@ contains
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx
-      scale%is_layered = problem%model%layer > 0.0_wp
       ! with the first order a time step is longer than some elements and shorter than others, and a layer adds a length scale
-      scale%clean = order == 2 .or. .not. (problem%motion == motion%transient_rolling .or. scale%is_layered)
+      scale%clean = order == 2 .or. .not. (problem%motion == motion%transient_rolling .or. problem%model%layer > 0.0_wp)
       ! tractions are singular at prescribed edges
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then

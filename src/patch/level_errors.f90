@@ -35,8 +35,6 @@ module contact_patch_level_errors
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Power in rolling of second order with a layer, where slip begins suddenly and is largest at the trailing edge: factor of n^-1
-   real(wp), parameter :: sudden_slip_floor = 0.3_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002)
    real(wp), parameter :: temperature_floor(2) = [0.2_wp, 0.5_wp], turning_temperature_floor = 0.15_wp
@@ -207,7 +205,6 @@ contains
       floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
       if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
          & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
-      if (scale%is_layered .and. scale%order > first_order) floor = floor + sudden_slip_floor/scale%across
       floor = max(floor, sqrt(scale%adhesion)*unrelaxed(scale))*full_power
       e = e + heat
       if (scale%jumps) e = trusted(e, floor, trust_in(scale))
