@@ -52,7 +52,8 @@ def constants_of_layers():
         far = np.log1p(ratio * np.pi) / np.pi + ratio * np.log1p(1 / (ratio * np.pi))
         fitted = e0 + ratio + np.log(1 + ratio * (c[0] + c[1] / (1 + c[2] * ratio**c[3]))) / np.pi
         close(fitted / scale, 1.0, 4e-3, f"layer of {ratio:.1e}: scale of the term")
-        close(1 - (1 - d0) / (1 + b[0] * ratio**b[1]), 0.75 - (near - far) / np.pi, 4e-3, f"layer of {ratio:.1e}: place of the edge")
+        fitted = 1 - (1 - d0) / (1 + b[0] * ratio**b[1])
+        close(fitted, 0.75 - (near - far) / np.pi, 4e-3, f"layer of {ratio:.1e}: place of the edge")
 
 
 def curvatures(a, b, fn):

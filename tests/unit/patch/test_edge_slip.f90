@@ -28,6 +28,10 @@ program test_edge_slip
    call suite%start("edge slip")
    call straight_edge()
    call oblique_edge()
+   ! displacements of a layer between the bodies as large as those of the bodies
+   problem%model%layer = 0.5_wp*diagonal
+   call oblique_edge()
+   problem%model%layer = 0.0_wp
    call vanishing_pressure()
    call unknown_gaps()
    call suite%finish()
@@ -56,7 +60,7 @@ contains
    !> The slip by the routine
    subroutine find_slip()
       call find_edge_terms(tangential%contact, pressure, gap, .false., dx, dy, tangential%direction, nu, gg, diagonal, &
-         & tangential%second)
+         & problem%model%layer, tangential%second)
       call edge_slip(problem, tangential, diagonal, p, pressure, change, gap_change, slip)
    end subroutine find_slip
 
@@ -99,7 +103,7 @@ contains
       call find_slip()
       do k = 0, 2
          call find_edge_terms(tangential%contact, pressure + k*step*change, gap + k*step*gap_change, .false., dx, dy, &
-            & tangential%direction, nu, gg, diagonal, ahead(k))
+            & tangential%direction, nu, gg, diagonal, problem%model%layer, ahead(k))
       end do
       largest = maxval(abs(slip))
       call suite%check(size(ahead(0)%at, 2) == 3*my, "three elements of each row have terms")
