@@ -420,7 +420,8 @@ def options():
             code, reason = cntc.calculate(1, -1, idebug=0), last_error(1, -1)[1]
             same(code, 0, f"{name}: error code of case {index + 1} ({reason})")
             forces.append(cntc.getglobalforces(1, -1)[:3])
-        check(np.abs(forces[0] - plain).max() > 1e-4, f"{name} acts: {forces[0]} instead of {plain}")
+        # without the choice all digits are the same; G = 2 only makes the default solver more accurate than EPS
+        check(np.abs(forces[0] - plain).max() > 1e-6, f"{name} acts: {forces[0]} instead of {plain}")
         if name == "M2 = 2":
             elastic = forces_without_damping(1)
             check(np.abs(forces[1] - elastic).max() > 1.0, "the forces of the library include damping")
