@@ -45,7 +45,7 @@ def creep_curve(rows):
             check(abs(ratios[-1] - 0.35) < 1e-4, "without layer it ends at the friction coefficient")
         else:
             # Tractions on a layer begin at zero at the leading edge and grow by creepage/L = 500 N/mm2 per mm, up to the bound of
-            # mu p0 root(2 d/a) = 200 root(d): in the middle row 2.1 N/mm are missing, over 10 mm of width times 0.8 that is 17 N of 70 kN
+            # mu p0 root(2 d/a) = 200 root(d): in the middle row 2.1 N/mm are missing, over 10 mm of width times 0.8, 17 N of 70 kN
             check(2e-4 < 0.35 - ratios[-1] < 4e-4, f"with a layer it ends at {ratios[-1]}, below the friction coefficient")
     check(all(abs(row[2]) < abs(row[1]) for row in rows[1:5]), "the layer makes the curve less steep")
     # Slope by Kalker's coefficient: Fx = G c^2 C11 cksi, C11 = 4.2 within 4 % at this ratio of the ellipse
