@@ -27,7 +27,7 @@ Consequences for the user: [how exact](../user/how_exact.md). One contact with a
 The error of the forces is the largest of those of FX and FY, relative to the friction bound, and MZ, relative to the bound times
 the root of a b; with prescribed forces the errors of the creepages replace those of FX and FY, relative to the creepage of full
 sliding. References: 80 and 160 elements along a side, extrapolated, with order 2 where it applies; their own error is about 1e-5
-there, and about 3e-4 for layers and transient rolling. In transient rolling the step is 0.15 a on every grid, and the reference
+there, and about 3e-4 for transient rolling. In transient rolling the step is 0.15 a on every grid, and the reference
 is the limit of fine elements with that step. The number of elements is that along each side of a potential contact 1.15 times
 (profiles 1.9, two patches 2, viscoelastic 1.3 times) as long as the contact; for wheels along 12 mm.
 """
