@@ -411,7 +411,7 @@ contains
       end if
    end subroutine read_wear
 
-   !> solve, gap_weight, and the names of the case for users
+   !> Keys `solve` and `gap_weight`, and the names of the case for users
    subroutine read_plain_keys(a, module_number, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number

@@ -29,6 +29,8 @@ MIXED = re.compile(r"\bdigits%\w+ ?(==|/=) ?(motion|normal_control|force_control
 PROCEDURE = re.compile(r"^ *(?:\w+ )*subroutine (\w+)\(.*?^ *end subroutine \1$", re.MULTILINE | re.DOTALL)
 CHANGED_INPUT = re.compile(r"(?:type|class)\((?:\w+_spec|input_case)\), intent\(inout\)")
 MADE_RESULT = re.compile(r"(?:type|class)\(\w+_result\), intent\((?:inout|out)\)")
+# First line of the text of a procedure or constant that begins in the middle of a sentence
+CUT_OFF = re.compile(r"   !> [a-z]{3,}(?:$|,| [a-z])")
 
 
 def written_back(text):
@@ -42,6 +44,8 @@ def written_back(text):
 def offences(lines, room="base"):
     """Number, line and reason of each line that breaks a rule"""
     for number, line in enumerate(lines, 1):
+        if CUT_OFF.match(line) and not (number > 1 and lines[number - 2].lstrip().startswith("!")):
+            yield number, line.strip(), "a sentence begins with a capital: its first line was lost"
         if room not in DOORS and DIGIT.search(line):
             yield number, line.strip(), "digits end at the reader; a case has choices and parts"
         if room == "base" and KEEP.search(line):
@@ -74,6 +78,9 @@ def main():
                              "   write(text, '(A, I0)') 'a', 1", "   read(number, form, iostat=status) value",
                              """   write(name, '("case_", i0)') k""", """   write(name, '("case_", I0)') k"""]))
     assert [line[0] for line in planted] == [1, 2, 5], planted
+    cut = ["", "   !> cases", "   !> A part", "   !> sign, and the rest", "", "   !> slip := slip + what", "",
+           "   !> sign, and that"]
+    assert [line[0] for line in offences(cut)] == [2, 8], "texts whose beginning is lost"
     digits = ["   if (spec%digits%c >= 2) return", "      integer :: none = 0, keep = 1", "   keep = 1"]
     assert [line[0] for line in offences(digits, "base")] == [1, 2], "digits and kept values in choices"
     assert [line[0] for line in offences(digits, "input")] == [], "digits of the reader"
