@@ -16,8 +16,9 @@ module contact_cases_accuracy
    use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, use_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
-      & smaller_tolerance, solver_tolerance, stopping_share, time_is_left
+      & smaller_tolerance, solver_tolerance, stopping_share
    use contact_cases_accuracy_series, only : has_history
+   use contact_cases_accuracy_time, only : time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method, use_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case

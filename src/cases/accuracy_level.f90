@@ -9,6 +9,7 @@ module contact_cases_accuracy_level
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, first_across, most_elements, prepare_level, &
       & smaller_tolerance, solver_tolerance
    use contact_cases_accuracy_series, only : has_history
+   use contact_cases_accuracy_time, only : most_in_time
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_patch_level_errors, only : share_of_residual
@@ -60,6 +61,7 @@ contains
          call contact_sides(spec, contact)
          call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), contact, grid%lengths, grid%counts)
          where (fixed > 0) grid%counts = fixed
+         call stay_below(most_in_time(spec), fixed, grid%counts)
       end if
       call stay_below(most_elements(spec%limits), fixed, grid%counts)
    end subroutine first_grid

@@ -24,7 +24,7 @@ module contact_cases_accuracy_plan
    public :: accuracy_law, acting_order, contact_sides, expected_across, expected_law, finer_across, first_across, &
       & first_order_alone, is_accuracy, is_near_enough, largest_accuracy, most_elements, most_levels, not_converged, &
       & observed_order, prepare_level, refuse_case, shorten_aspect, sides_of_window, smallest_accuracy, smaller_tolerance, &
-      & solver_tolerance, stopping_share, time_is_left
+      & solver_tolerance, stopping_share
 
    !> Range of accuracies that can be prescribed
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
@@ -88,8 +88,6 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
    !> Maximum fraction of the accuracy for the error of stopped iterations; above it the tolerance is reduced. Chosen
    real(wp), parameter :: stopping_share = 0.25_wp
-   !> Exponent of the number of elements in the time of a grid, and factor of reserve, to decide if there is time for another grid
-   real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
    !> Coefficient of friction in the expected error of unlike bodies if it is not constant
    real(wp), parameter :: usual_friction = 0.3_wp
    !> Maximum ratio of the sides of elements
@@ -392,18 +390,6 @@ contains
       if (limits%elements < huge(1_long)) most = real(min(int(largest_grid, long), limits%elements), wp)
       most = min(most, real(limits%bytes, wp)/real(bytes_per_element, wp))
    end function most_elements
-
-   !> Is there time for a grid of more elements?
-   logical function time_is_left(limits, seconds, ratio)
-      !> Limits of the case: elements, memory, time
-      type(case_limits), intent(in) :: limits
-      !> Time of the present grid [s]
-      real(wp), intent(in) :: seconds
-      !> Ratio of the number of elements of the next grid to that of the present one
-      real(wp), intent(in) :: ratio
-
-      time_is_left = reserve*seconds*ratio**time_power <= limits%deadline%left()
-   end function time_is_left
 
    !> Tolerance of the solvers for an accuracy
    pure real(wp) function solver_tolerance(asked) result(eps)

@@ -2,15 +2,14 @@
 !>
 !> Times are rough, sufficient to distinguish seconds from hours. They were measured for a ball on a plane, with half of the
 !> potential contact area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of
-!> 2022. Subsurface stresses are included in the memory only. Times of prescribed accuracies were measured with random contacts and
-!> wheels by tests/accuracy/cost.py, for the first case of its size in a process, including the plans of transforms, on a similar
-!> machine.
+!> 2022. Subsurface stresses are included in the memory only. Times of prescribed accuracies: contact_cases_accuracy_time.
 module contact_cases_estimate
-   use contact_base_choices, only : force_control, material_model, motion, normal_control, solver_choice
+   use contact_base_choices, only : force_control, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_accuracy_grid, only : first_counts, no_direction
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, most_elements
+   use contact_cases_accuracy_time, only : constant_time, has_outer_iterations, time_per_element
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
@@ -20,7 +19,7 @@ module contact_cases_estimate
    implicit none (type, external)
    private
 
-   public :: case_cost, cost_text, estimate_cost, typical_half_side
+   public :: case_cost, cost_text, estimate_cost, typical_half_side, usual_margin
 
    !> Cost of a case
    type :: case_cost
@@ -45,18 +44,13 @@ module contact_cases_estimate
    integer, parameter :: turns = 8
    !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
-   !> All grids of a case with an accuracy, time per element of the usual last grid [s]: pressures; with tractions; of a wheel,
-   !> whose height is searched. Time of each case, of files of profiles, and of each value of a profile [s]. Ratio of the number of
-   !> elements of that grid to those of the expected one, since some contacts need a finer one
-   real(wp), parameter :: accurate_pressures = 3.8e-6_wp, accurate_tractions = 8.5e-6_wp, accurate_wheel = 1.5e-5_wp, &
-      & accurate_case = 3.0e-3_wp, accurate_profiles = 6.0e-3_wp, accurate_value = 3.0e-6_wp, more_elements = 1.05_wp
+   !> Ratio of the number of elements of the last grid of a case with an accuracy to that of the expected one, since some contacts
+   !> need a finer one
+   real(wp), parameter :: more_elements = 1.05_wp
    !> Simplified methods, if allowed: time of one march per element [s]; number of marches that determine creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
-   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; potential contacts of profiles, of
-   !> which contact covers a smaller part
-   real(wp), parameter :: accurate_turns = 1.7_wp, remembering = 1.7_wp, accurate_trials = 1.1_wp, partly_covered = 0.8_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
-   real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
+   real(wp), parameter :: typical_radius = 400.0_wp, usual_margin = 1.25_wp
 
 contains
 
@@ -102,7 +96,7 @@ contains
       if (spec%classical .and. spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) &
          & tangential = by_convex_gs*n**1.5_wp
       if (is_varying_law(spec%friction_law)) tangential = changing_friction*tangential
-      if (is_dissimilar(spec)) then
+      if (has_outer_iterations(spec)) then
          tangential = tangential*min(spec%iteration%maxout, turns)
          cost%seconds = cost%seconds + pressures*n*(min(spec%iteration%maxout, turns) - 1)
       end if
@@ -123,9 +117,8 @@ contains
       type(potential_contact) :: grid
       type(approximate_method) :: chosen
       type(accuracy_law) :: law
-      real(wp) :: n, most, rate, sides(2), lengths(2)
+      real(wp) :: n, most, sides(2), lengths(2)
       integer :: counts(2)
-      logical :: remembers
 
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
       if (chosen%found) then
@@ -138,7 +131,7 @@ contains
       end if
       law = expected_law(spec)
       if (allocated(spec%wheel_rail)) then
-         n = (margin*expected_across(law, spec%iteration%accuracy))**2
+         n = (usual_margin*expected_across(law, spec%iteration%accuracy))**2
       else
          call contact_sides(spec, sides)
          call first_counts(spec%grid, expected_across(law, spec%iteration%accuracy), sides, lengths, counts)
@@ -146,7 +139,6 @@ contains
             & [spec%grid%mx, spec%grid%my] <= no_direction)), wp))
       end if
       n = more_elements*n
-      remembers = spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none
       most = most_elements(spec%limits)
       if (allocated(spec%wheel_rail)) most = min(most, real(spec%iteration%npot_max, wp))
       cost%at_most = n > most
@@ -155,27 +147,8 @@ contains
       grid%mx = nint(sqrt(n))
       grid%my = grid%mx
       cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
-      rate = accurate_tractions
-      if (spec%motion == motion%none) rate = accurate_pressures
-      if (allocated(spec%wheel_rail)) rate = accurate_wheel
-      if (is_dissimilar(spec)) rate = accurate_turns*rate
-      if (remembers) rate = remembering*rate
-      if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
-         & rate = accurate_trials*rate
-      if (allocated(spec%geometry%profile)) rate = partly_covered*rate
-      cost%seconds = accurate_case + rate*n
-      if (allocated(spec%wheel_rail)) cost%seconds = cost%seconds + accurate_profiles
-      if (allocated(spec%geometry%profile)) cost%seconds = cost%seconds + accurate_value*size(spec%geometry%profile)
+      cost%seconds = constant_time(spec) + time_per_element(spec)*n
    end subroutine estimate_accurate
-
-   !> Are there several outer iterations?
-   pure logical function is_dissimilar(spec)
-      type(case_spec), intent(in) :: spec
-      type(combined_material) :: material
-
-      material = combine(spec%material%poiss, spec%material%gg)
-      is_dissimilar = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
-   end function is_dissimilar
 
    !> Number of elements of a patch of wheel-rail contact, by Hertz for a ball; the maximum allowed number if no force is prescribed
    subroutine guess_patch(spec, cost)
@@ -189,7 +162,7 @@ contains
          & cost%elements = hopeless*int(spec%iteration%npot_max, long)
       if (spec%normal /= normal_control%force) return
       a = typical_half_side(spec, spec%wheel_rail%wheelset%fz)
-      n = (2.0_wp*margin*a)**2/(spec%wheel_rail%search%dx*spec%wheel_rail%search%ds)
+      n = (2.0_wp*usual_margin*a)**2/(spec%wheel_rail%search%dx*spec%wheel_rail%search%ds)
       cost%beyond_most = cost%elements > spec%iteration%npot_max .and. n > real(spec%iteration%npot_max, wp)
       if (n >= real(cost%elements, wp)) return
       cost%elements = nint(n, long)

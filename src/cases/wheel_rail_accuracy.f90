@@ -10,9 +10,10 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, first_order_alone, &
       & is_near_enough, most_elements, most_levels, not_converged, observed_order, prepare_level, &
-      & refuse_case, shorten_aspect, solver_tolerance, time_is_left
+      & refuse_case, shorten_aspect, solver_tolerance
+   use contact_cases_accuracy_time, only : most_in_time, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method
-   use contact_cases_estimate, only : typical_half_side
+   use contact_cases_estimate, only : typical_half_side, usual_margin
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
@@ -103,7 +104,8 @@ contains
       call prepare_level(report%eps, level)
       force = usual_force
       if (spec%normal == normal_control%force) force = spec%wheel_rail%wheelset%fz
-      sides = 2.0_wp*typical_half_side(spec, force)/first_across(law, report%asked)
+      sides = 2.0_wp*typical_half_side(spec, force)/min(first_across(law, report%asked), &
+         & sqrt(most_in_time(spec))/usual_margin)
       if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
       expected = 0.0_wp
       before = -1.0_wp

@@ -190,6 +190,21 @@ class Accuracy(Runs):
         told = self.solve("a.inp", rolling(influence=3), "--accuracy", "1e-4", "--limit-time=0.3")[1]["patches"][0]["accuracy"]
         self.assertRegex(told["reason"], "no time left|time limit")
 
+    def test_short_times(self):
+        """The first grid is so coarse that it ends in time: whatever the accuracy, there is a result with its error"""
+        source = random.Random(15)
+        texts = [(kind, text_of(contact(source, kind), 24, (0.0, 0.0))) for kind in ("forces", "dissimilar", "viscoelastic", "profile")]
+        texts.append(("wheel", wheel_text(WHEEL, 1, SOURCE / "examples" / "profiles")))
+        for kind, text in texts:
+            for seconds in (0.2, 0.8):
+                with self.subTest(kind=kind, seconds=seconds):
+                    _, record = self.solve("a.toml", text, "--accuracy", "1e-6", f"--limit-time={seconds}")
+                    told = record["accuracy"] if kind == "wheel" else record["patches"][0]["accuracy"]
+                    self.assertTrue(record["converged"])
+                    self.assertFalse(told["reached"])
+                    self.assertTrue(1e-6 < told["estimated"] < 0.2)
+                    self.assertRegex(told["reason"], "no time left|time limit")
+
     def test_refused(self):
         """Values out of range, and cases whose grid cannot be chosen"""
         (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")

@@ -1,0 +1,90 @@
+!> Time of a case with a prescribed accuracy: expected time per element, and grids for which there is time before the deadline
+!>
+!> Times were measured with random contacts and wheels by tests/accuracy/cost.py, for the first case of its size in a process,
+!> including the plans of transforms, on one core of a server of 2022. Single contacts take half or twice the time.
+module contact_cases_accuracy_time
+   use contact_base_choices, only : force_control, material_model, motion
+   use contact_base_kinds, only : wp
+   use contact_base_limits, only : case_limits
+   use contact_cases_spec, only : case_spec
+   use contact_elastic_material, only : combine, combined_material
+   implicit none (type, external)
+   private
+
+   public :: constant_time, has_outer_iterations, most_in_time, time_is_left, time_per_element
+
+   !> All grids of a case, time per element of the last one [s]: pressures; with tractions; of a wheel, whose height is searched
+   real(wp), parameter :: with_pressures = 3.8e-6_wp, with_tractions = 8.5e-6_wp, with_wheel = 1.5e-5_wp
+   !> Time of each case, of files of profiles, and of each value of a profile [s]
+   real(wp), parameter :: each_case = 3.0e-3_wp, each_files = 6.0e-3_wp, each_value = 3.0e-6_wp
+   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; potential contacts of profiles, of
+   !> which contact covers a smaller part
+   real(wp), parameter :: outer_iterations = 1.7_wp, remembering = 1.7_wp, trials = 1.1_wp, partly_covered = 0.8_wp
+   !> Fraction of the remaining time that the first grid may be expected to take: slow machines and slow contacts take several times
+   !> what is expected, and a case without a first grid has no result; chosen
+   real(wp), parameter :: first_share = 0.05_wp
+   !> Number of elements of a first grid that is tried in any time; chosen
+   real(wp), parameter :: fewest = 200.0_wp
+   !> Exponent of the number of elements in the time of a grid, and factor of reserve, to decide if there is time for another grid
+   real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
+
+contains
+
+   !> Expected time of all grids of a case per element of the last one [s]
+   pure real(wp) function time_per_element(spec) result(rate)
+      !> Case with an accuracy
+      type(case_spec), intent(in) :: spec
+
+      rate = with_tractions
+      if (spec%motion == motion%none) rate = with_pressures
+      if (allocated(spec%wheel_rail)) rate = with_wheel
+      if (has_outer_iterations(spec)) rate = outer_iterations*rate
+      if (spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none) rate = remembering*rate
+      if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
+         & rate = trials*rate
+      if (allocated(spec%geometry%profile)) rate = partly_covered*rate
+   end function time_per_element
+
+   !> Expected time that does not depend on the number of elements [s]
+   pure real(wp) function constant_time(spec) result(seconds)
+      !> Case with an accuracy
+      type(case_spec), intent(in) :: spec
+
+      seconds = each_case
+      if (allocated(spec%wheel_rail)) seconds = seconds + each_files
+      if (allocated(spec%geometry%profile)) seconds = seconds + each_value*size(spec%geometry%profile)
+   end function constant_time
+
+   !> Are there several outer iterations, between pressures and tractions?
+   pure logical function has_outer_iterations(spec)
+      !> Case
+      type(case_spec), intent(in) :: spec
+      type(combined_material) :: material
+
+      material = combine(spec%material%poiss, spec%material%gg)
+      has_outer_iterations = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
+   end function has_outer_iterations
+
+   !> Maximum number of elements of the first grid, so that it ends before the deadline also on a slow machine; huge without deadline
+   real(wp) function most_in_time(spec) result(most)
+      !> Case with an accuracy, whose deadline has been started
+      type(case_spec), intent(in) :: spec
+      real(wp) :: left
+
+      most = huge(1.0_wp)
+      left = spec%limits%deadline%left()
+      if (left < huge(1.0_wp)) most = max(fewest, first_share*(left - constant_time(spec))/time_per_element(spec))
+   end function most_in_time
+
+   !> Is there time for a grid of more elements?
+   logical function time_is_left(limits, seconds, ratio)
+      !> Limits of the case: elements, memory, time
+      type(case_limits), intent(in) :: limits
+      !> Time of the present grid [s]
+      real(wp), intent(in) :: seconds
+      !> Ratio of the number of elements of the next grid to that of the present one
+      real(wp), intent(in) :: ratio
+
+      time_is_left = reserve*seconds*ratio**time_power <= limits%deadline%left()
+   end function time_is_left
+end module contact_cases_accuracy_time
