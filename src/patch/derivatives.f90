@@ -9,6 +9,7 @@ module contact_patch_derivatives
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_responses, only : pressure_responses
+   use contact_patch_kinematics, only : shift_by_slip
    use contact_patch_order, only : edge_slip, spin_offset_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -30,6 +31,8 @@ module contact_patch_derivatives
       real(wp), allocatable :: by_distance(:, :)
       !> To the creepages [N, N mm] and the spin [N mm, N mm2]
       real(wp) :: by_creepage(6, 3) = 0.0_wp
+      !> To the inputs that change the slip of the elements, shape (6, inputs); zero if there are none
+      real(wp), allocatable :: by_slip(:, :)
       !> To the coefficient of friction
       real(wp) :: by_friction(6) = 0.0_wp
       !> Largest relative residual of the linear systems
@@ -78,7 +81,7 @@ contains
    end subroutine obstacle_to_derivatives
 
    !> Derivatives at the solution of a patch
-   subroutine differentiate_patch(problem, distance, workspace, result, derivatives)
+   subroutine differentiate_patch(problem, distance, workspace, result, derivatives, slip)
       !> What was solved, without obstacle
       type(patch_problem), intent(in) :: problem
       !> Changes of the undeformed distance, approach taken off, by each input [mm per unit], shape (mx, my, inputs); only values
@@ -90,11 +93,14 @@ contains
       type(patch_result), intent(in) :: result
       !> Gets all of them
       type(patch_derivatives), intent(out) :: derivatives
+      !> Changes of the extra slip by inputs of their own [- per unit], shape (mx, my, 2, inputs)
+      real(wp), contiguous, intent(in), optional :: slip(:, :, :, :)
       real(wp), allocatable :: response(:, :, :), x(:)
       real(wp) :: area, row
       integer :: ix, iy, k
 
       allocate(derivatives%by_distance(6, size(distance, 3)), source=0.0_wp)
+      if (present(slip)) allocate(derivatives%by_slip(6, size(slip, 4)), source=0.0_wp)
       if (result%ncon == 0) return
       allocate(response, mold=distance)
       call differentiate_pressures(problem, -distance, workspace, result, response, derivatives%reached)
@@ -110,7 +116,7 @@ contains
             end do
          end associate
       end do
-      if (problem%motion /= motion%none) call differentiate_tractions(problem, response, workspace, result, derivatives)
+      if (problem%motion /= motion%none) call differentiate_tractions(problem, response, workspace, result, derivatives, slip)
    end subroutine differentiate_patch
 
    !> Changes of the pressures by displacements of the bodies
@@ -151,20 +157,22 @@ contains
    end subroutine differentiate_pressures
 
    !> Fx, Fy and Mz
-   subroutine differentiate_tractions(problem, response, workspace, result, derivatives)
+   subroutine differentiate_tractions(problem, response, workspace, result, derivatives, extra)
       type(patch_problem), intent(in) :: problem
       !> Changes of the pressures, shape (mx, my, inputs)
       real(wp), contiguous, intent(in) :: response(:, :, :)
       type(patch_workspace), intent(inout) :: workspace
       type(patch_result), intent(in) :: result
       type(patch_derivatives), intent(inout) :: derivatives
+      !> Changes of the extra slip, shape (mx, my, 2, inputs)
+      real(wp), contiguous, intent(in), optional :: extra(:, :, :, :)
       !> The sums of tractions
       integer, parameter :: row(3) = [fx, fy, mz]
       type(bounding_box) :: box
       real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
       real(wp), allocatable :: slip(:, :, :), gap(:, :)
       real(wp), allocatable :: x(:), y(:)
-      real(wp) :: area, reached, offset, s(2)
+      real(wp) :: area, reached, offset, s(2), sums(3)
       integer :: j, k, ix, iy
 
       box = contact_box(result%division)
@@ -201,6 +209,12 @@ contains
             pressure = result%pn(box%ix0:box%ix1, box%iy0:box%iy1)
             derivatives%by_friction(row(j)) = sum(by_bound(:, :, j)*pressure)
          end do
+         if (present(extra)) then
+            do k = 1, size(extra, 4)
+               call sums_by_slip(problem, result%tangential%order, box, by_slip, extra(:, :, :, k), sums)
+               derivatives%by_slip(row, k) = sums
+            end do
+         end if
          do k = 1, size(response, 3)
             pressure = response(box%ix0:box%ix1, box%iy0:box%iy1, k)
             do j = 1, 3
@@ -217,6 +231,30 @@ contains
          end do
       end associate
    end subroutine differentiate_tractions
+
+   !> Changes of sums of tractions by a change of the extra slip
+   pure subroutine sums_by_slip(problem, order, box, by_slip, extra, sums)
+      type(patch_problem), intent(in) :: problem
+      !> Order of the discretisation
+      integer, intent(in) :: order
+      type(bounding_box), intent(in) :: box
+      !> Derivatives of the sums by the rigid slip per step [N, N mm per mm], shape (box, 2, sums)
+      real(wp), intent(in) :: by_slip(:, :, :, :)
+      !> [- per unit], shape (mx, my, 2)
+      real(wp), intent(in) :: extra(:, :, :)
+      !> [N, N mm per unit]
+      real(wp), intent(out) :: sums(:)
+      real(wp) :: shift(problem%grid%mx, problem%grid%my)
+      integer :: i, j
+
+      sums = 0.0_wp
+      do i = 1, 2
+         shift = shift_by_slip(problem, order, extra(:, :, i))
+         do j = 1, size(sums)
+            sums(j) = sums(j) + sum(by_slip(:, :, i, j)*shift(box%ix0:box%ix1, box%iy0:box%iy1))
+         end do
+      end do
+   end subroutine sums_by_slip
 
    !> Changes of the distance of the surfaces in the elements ahead of the leading ones
    !>

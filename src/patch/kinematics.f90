@@ -10,7 +10,7 @@ module contact_patch_kinematics
    implicit none (type, external)
    private
 
-   public :: rigid_slip, previous_displacement
+   public :: rigid_slip, previous_displacement, shift_by_slip
 
    !> Components of a step relative to its length below this value are round-off of sine and cosine
    real(wp), parameter :: no_shift = 1.0e-10_wp
@@ -46,14 +46,26 @@ contains
          if (iy > 1) result%wy(:, iy) = result%wy(:, 1)
       end do
       if (.not. allocated(problem%extra_slip)) return
-      if (result%tangential%order == 2) then
-         result%wx = result%wx + problem%dq*half_ahead(problem%extra_slip(:, :, 1), rolling_direction(problem))
-         result%wy = result%wy + problem%dq*half_ahead(problem%extra_slip(:, :, 2), rolling_direction(problem))
-         return
-      end if
-      result%wx = result%wx + problem%dq*problem%extra_slip(:, :, 1)
-      result%wy = result%wy + problem%dq*problem%extra_slip(:, :, 2)
+      result%wx = result%wx + shift_by_slip(problem, result%tangential%order, problem%extra_slip(:, :, 1))
+      result%wy = result%wy + shift_by_slip(problem, result%tangential%order, problem%extra_slip(:, :, 2))
    end subroutine rigid_slip
+
+   !> Rigid slip per step of an extra slip [mm], by the second order in the middle of the step; shape (mx, my)
+   pure function shift_by_slip(problem, order, slip) result(shift)
+      !> With the distance per step and the rolling direction
+      type(patch_problem), intent(in) :: problem
+      !> Order of the discretisation
+      integer, intent(in) :: order
+      !> One component of the slip relative to the rolling velocity [-], shape (mx, my)
+      real(wp), intent(in) :: slip(:, :)
+      real(wp) :: shift(size(slip, 1), size(slip, 2))
+
+      if (order == 2) then
+         shift = problem%dq*half_ahead(slip, rolling_direction(problem))
+      else
+         shift = problem%dq*slip
+      end if
+   end function shift_by_slip
 
    !> A field half an element ahead: mean with the next element, linear extrapolation at the end of the grid
    pure function half_ahead(field, direction) result(ahead)

@@ -19,7 +19,7 @@ module contact_wheelrail_curved_patch
    private
 
    public :: curved_reference, curved_rows, new_curved_reference, straight_reference, surface_heights
-   public :: surface_slip, fit_creepages, curved_forces
+   public :: surface_motion, curved_forces
 
    !> The reference curve at the rows of a grid, in track coordinates
    type :: curved_reference
@@ -277,6 +277,40 @@ contains
          wheel(:, iy) = merge(n, -nothing_there, found)
       end do
    end subroutine surface_heights
+
+   !> Slip element by element on a reference surface: creepages that approximate it best, and the remainder
+   subroutine surface_motion(rail, wheel, curve, grid, on_rail, on_wheel, inside, rail_share, forward, motion, slip)
+      !> Motion of the bodies in track axes
+      type(rigid_motion), intent(in) :: rail, wheel
+      !> Positions and normals of the rows
+      type(curved_reference), intent(in) :: curve
+      !> Columns and rows
+      type(potential_contact), intent(in) :: grid
+      !> Heights of the surfaces [mm], shape (mx, my)
+      real(wp), intent(in) :: on_rail(:, :), on_wheel(:, :)
+      !> Elements that determine the creepages, shape (mx, my)
+      logical, intent(in) :: inside(:, :)
+      !> Fraction of the compliance due to the rail [-]
+      real(wp), intent(in) :: rail_share
+      !> Forward velocity, which is the rolling velocity on a track [mm/s]; 0 to keep that of the contact reference
+      real(wp), intent(in) :: forward
+      !> On entry the motion at the contact reference, on return that of the elements
+      type(contact_motion), intent(inout) :: motion
+      !> Remainder [-], shape (mx, my, 2)
+      real(wp), allocatable, intent(out) :: slip(:, :, :)
+      real(wp) :: before
+
+      before = motion%veloc
+      if (forward > 0.0_wp) motion%veloc = forward
+      call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, rail_share, slip)
+      if (.not. motion%veloc > 0.0_wp) then
+         slip = 0.0_wp
+         return
+      end if
+      slip = slip/motion%veloc
+      motion%cphi = motion%cphi*before/motion%veloc
+      call fit_creepages(grid, inside, slip, motion)
+   end subroutine surface_motion
 
    !> Velocity of the rail minus that of the wheel at opposite points of the undeformed surfaces, in the axes of the rows
    !>

@@ -8,7 +8,7 @@ module contact_wheelrail_displacements
    implicit none (type, external)
    private
 
-   public :: coordinate, displaced, displacement_at, turn_of
+   public :: coordinate, displaced, displacement_at, jacobian_input, turn_of
 
    type :: coordinate_list
       !> Lateral position and height [mm], roll and yaw [rad]
@@ -18,6 +18,19 @@ module contact_wheelrail_displacements
    end type coordinate_list
    !> Coordinates of the wheelset
    type(coordinate_list), parameter :: coordinate = coordinate_list()
+
+   type :: input_list
+      !> Position of the wheelset [mm], [rad]; the numbers of `coordinate`
+      integer :: y = coordinate%y, z = coordinate%z, roll = coordinate%roll, yaw = coordinate%yaw
+      !> Velocities [mm/s], [rad/s]; on a roller `vs` is its pitch rate [rad/s]
+      integer :: vs = 5, vy = 6, vroll = 7, vyaw = 8, vpitch = 9
+      !> Vertical force [N]
+      integer :: fz = 10
+      !> Number of inputs
+      integer :: count = 10
+   end type input_list
+   !> Columns of the matrix of derivatives
+   type(input_list), parameter :: jacobian_input = input_list()
 
 contains
 

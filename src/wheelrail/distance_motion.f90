@@ -7,7 +7,7 @@ module contact_wheelrail_distance_motion
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_displacements, only : coordinate, displacement_at
-   use contact_wheelrail_flat_patch, only : distance_scratch, start_places
+   use contact_wheelrail_flat_patch, only : distance_scratch, nothing_there, start_places
    use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
@@ -22,7 +22,7 @@ module contact_wheelrail_distance_motion
 contains
 
    !> Derivatives of the distance in the elements that are in contact, and of the approach
-   subroutine differentiate_distance(problem, geometry, slot, motions, distance, approach)
+   subroutine differentiate_distance(problem, geometry, slot, motions, distance, approach, heights)
       !> Profiles
       type(wheel_rail_problem), intent(in) :: problem
       !> Position of the bodies
@@ -35,14 +35,18 @@ contains
       real(wp), contiguous, intent(inout) :: distance(:, :, :)
       !> Change of the approach [mm per unit]
       real(wp), intent(out) :: approach(:)
+      !> Changes of the heights of rail and wheel over the plane [mm per unit], shape (mx, my, 2, coordinates), in contact, where
+      !> the bodies overlap, and two elements around, 0 elsewhere; if allocated
+      real(wp), allocatable, intent(inout) :: heights(:, :, :, :)
       type(profile_curve) :: section
       type(frame) :: seen
       type(distance_scratch) :: scratch
-      real(wp) :: x, s, rail, start(2), point(3), normal(3), lift, rise(4)
+      real(wp) :: x, s, rail, start(2), point(3), normal(3), lift, wheel_rise(4), rail_rise
       integer :: ix, iy, k, lowest(2)
-      logical :: found, rolls
+      logical :: needed(slot%problem%grid%mx, slot%problem%grid%my), found, rolls
 
       distance = 0.0_wp
+      if (allocated(heights)) heights = 0.0_wp
       associate (placement => geometry%placement, plane => slot%plane, grid => slot%problem%grid, h => slot%problem%h, &
          & track_rail => geometry%rail_in_track)
          rolls = placement%roller_radius > 0.0_wp
@@ -53,12 +57,17 @@ contains
             & around=scratch%places(:scratch%n))
          seen = placement%wheel%seen_from_here(plane)
          lowest = minloc(h)
+         needed = slot%result%pn > 0.0_wp
+         needed(lowest(1), lowest(2)) = .true.
+         ! the slip ahead of the leading elements counts, and slopes are differences of heights
+         if (allocated(heights)) needed = around(around(needed .or. slot%on_rail < slot%on_wheel)) &
+            & .and. min(-slot%on_rail, slot%on_wheel) > -nothing_there
          do iy = 1, grid%my
-            if (.not. (any(slot%result%pn(:, iy) > 0.0_wp) .or. iy == lowest(2))) cycle
+            if (.not. any(needed(:, iy))) cycle
             s = grid%y(iy)
             start = [problem%wheel%s_at(seen%origin(2) + seen%axes(2, 2)*s), 0.0_wp]
             do ix = 1, grid%mx
-               if (.not. (slot%result%pn(ix, iy) > 0.0_wp .or. all([ix, iy] == lowest))) cycle
+               if (.not. needed(ix, iy)) cycle
                x = grid%x(ix)
                call wheel_height(problem%wheel, placement%wheel_radius, seen, x, s, start(1), start(2), found)
                if (.not. found) cycle
@@ -66,10 +75,11 @@ contains
                normal = matmul(placement%wheel%axes, normal)
                point = plane%to_parent([x, s, start(2)])
                do k = 1, coordinate%count
-                  rise(k) = rising(point, normal, displacement_at(placement, k, point), motions(k))
+                  wheel_rise(k) = rising(point, normal, displacement_at(placement, k, point), motions(k))
                end do
                ! the distance is the height of the rail's surface minus that of the wheel's
                rail = start(2) + h(ix, iy) - slot%problem%pen
+               if (allocated(heights)) rail = slot%on_rail(ix, iy)
                point = plane%to_parent([x, s, rail])
                if (rolls) then
                   normal = roller_normal(track_rail, placement%roller_radius, point)
@@ -77,7 +87,9 @@ contains
                   normal = matmul(plane%axes, section_normal(s))
                end if
                do k = 1, coordinate%count
-                  distance(ix, iy, k) = rising(point, normal, [0.0_wp, 0.0_wp, 0.0_wp], motions(k)) - rise(k)
+                  rail_rise = rising(point, normal, [0.0_wp, 0.0_wp, 0.0_wp], motions(k))
+                  distance(ix, iy, k) = rail_rise - wheel_rise(k)
+                  if (allocated(heights)) heights(ix, iy, :, k) = [rail_rise, wheel_rise(k)]
                end do
             end do
          end do
@@ -108,6 +120,22 @@ contains
          normal = [0.0_wp, -section%z%slope(place), section%y%slope(place)]
       end function section_normal
    end subroutine differentiate_distance
+
+   !> Elements of a set, and those beside them
+   pure function around(set) result(wider)
+      !> Shape (mx, my)
+      logical, intent(in) :: set(:, :)
+      logical :: wider(size(set, 1), size(set, 2))
+      integer :: mx, my
+
+      mx = size(set, 1)
+      my = size(set, 2)
+      wider = set
+      wider(2:, :) = wider(2:, :) .or. set(:mx - 1, :)
+      wider(:mx - 1, :) = wider(:mx - 1, :) .or. set(2:, :)
+      wider(:, 2:) = wider(:, 2:) .or. set(:, :my - 1)
+      wider(:, :my - 1) = wider(:, :my - 1) .or. set(:, 2:)
+   end function around
 
    !> Normal of the wheel's surface in its own axes, not of unit length
    pure subroutine wheel_normal(wheel, radius, point, place, normal)

@@ -4,42 +4,28 @@
 !>
 !>    position and angle of the references   search repeated with changed gaps      contact_wheelrail_reference_motion
 !>    undeformed distance                    in closed form                         contact_wheelrail_distance_motion
-!>    creepages                              central differences of their formula   this module
+!>    creepages, slip of each element        central differences of their formula   contact_wheelrail_slip_motion
 !>    pressures and tractions                linear systems                         contact_patch_derivatives
 !>    axes and levers of the forces          in closed form                         this module
 !>
 !> Contact areas and element divisions are kept. With a prescribed vertical force the height is a function of the other inputs.
 module contact_wheelrail_jacobian
-   use contact_base_choices, only : force_control, motion, variation
+   use contact_base_choices, only : contact_location, force_control, motion, variation
    use contact_base_kinds, only : wp
    use contact_patch_derivatives, only : differentiate_patch, obstacle_to_derivatives, patch_derivatives
-   use contact_wheelrail_creepage, only : contact_motion, flat_creepage
-   use contact_wheelrail_displacements, only : coordinate, displaced, displacement_at, turn_of
+   use contact_wheelrail_displacements, only : coordinate, displacement_at, jacobian_input, turn_of
    use contact_wheelrail_distance_motion, only : differentiate_distance
-   use contact_wheelrail_frame, only : cross, frame, roll_axes
+   use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
-   use contact_wheelrail_placement, only : rail_motion, side_sign, wheel_motion, wheel_rail_placement
-   use contact_wheelrail_problem, only : follows_surface, parameters_at, wheel_rail_problem
+   use contact_wheelrail_placement, only : side_sign, wheel_rail_placement
+   use contact_wheelrail_problem, only : parameters_at, wheel_rail_problem
    use contact_wheelrail_reference_motion, only : find_reference_motions, reference_motion
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : pair_spec
+   use contact_wheelrail_slip_motion, only : differentiate_slip
    implicit none (type, external)
    private
 
    public :: differentiate_wheel_rail, jacobian_input, jacobian_row, jacobian_state, wheel_rail_jacobian
-
-   type :: input_list
-      !> Position of the wheelset [mm], [rad]
-      integer :: y = 1, z = 2, roll = 3, yaw = 4
-      !> Velocities [mm/s], [rad/s]; on a roller `vs` is its pitch rate [rad/s]
-      integer :: vs = 5, vy = 6, vroll = 7, vyaw = 8, vpitch = 9
-      !> Vertical force [N]
-      integer :: fz = 10
-      !> Number of inputs
-      integer :: count = 10
-   end type input_list
-   !> Columns of the matrix of derivatives
-   type(input_list), parameter :: jacobian_input = input_list()
 
    type :: row_list
       !> First component of force on the rail and its moment about the rail marker, in track axes
@@ -75,9 +61,6 @@ module contact_wheelrail_jacobian
 
    !> Maximum relative residual that is accepted [-]
    real(wp), parameter :: good = 1.0e-4_wp
-   !> Steps of the central differences of creepages: displacements [mm], rotations [rad], and velocities relative to the rolling
-   !> velocity; as the formula is smooth, errors are round-off, 1e-8 of the derivatives
-   real(wp), parameter :: creepage_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-7_wp, 1.0e-7_wp], velocity_step = 1.0e-4_wp
    !> Step of the contact angle, for friction that depends on it [rad]
    real(wp), parameter :: angle_step = 1.0e-6_wp
    !> Vertical stiffness below this value is regarded as zero [N/mm]
@@ -156,8 +139,8 @@ contains
          reason = "the calculation did not end with a solution"
       else if (problem%force /= force_control%creepages) then
          reason = "derivatives are not available for a prescribed longitudinal force and a rail on springs"
-      else if (memory%geometry%searches_table .or. follows_surface(problem)) then
-         reason = "derivatives are not available for bodies that vary, curved patches, and slip along the locus"
+      else if (memory%geometry%searches_table .or. problem%spec%search%location == contact_location%conformal) then
+         reason = "derivatives are not available for bodies that vary, and curved patches"
       else if (problem%variation == variation%by_angle .and. memory%used > 0) then
          if (allocated(memory%slot(1)%problem%friction)) reason = "derivatives are not available for friction laws that vary"
       end if
@@ -179,19 +162,25 @@ contains
       type(reference_motion), intent(in) :: motions(:)
       type(wheel_rail_jacobian), intent(inout) :: jacobian
       type(patch_derivatives) :: d
-      real(wp), allocatable :: distance(:, :, :)
+      real(wp), allocatable :: distance(:, :, :), heights(:, :, :, :), slip(:, :, :, :)
       real(wp) :: approach(4), creepage(3, 10), force(3), moment(3), change(6), turn(3), friction, lever(3)
       integer :: k
+      logical :: rolls
 
       associate (slot => memory%slot(number), geometry => memory%geometry)
          allocate(distance(slot%problem%grid%mx, slot%problem%grid%my, coordinate%count))
-         call differentiate_distance(problem, geometry, slot, motions, distance, approach)
+         rolls = slot%problem%motion == motion%steady_rolling
+         if (allocated(slot%curve)) allocate(heights(slot%problem%grid%mx, slot%problem%grid%my, 2, coordinate%count))
+         call differentiate_distance(problem, geometry, slot, motions, distance, approach, heights)
          call add_interactions(slot, motions, distance)
-         call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d)
-         jacobian%reached = max(jacobian%reached, d%reached)
          creepage = 0.0_wp
-         if (slot%problem%motion == motion%steady_rolling) &
-            & call differentiate_creepages(problem, memory, slot, motions, approach, creepage)
+         if (rolls) call differentiate_slip(problem, geometry, slot, motions, approach, heights, creepage, slip)
+         if (allocated(slip)) then
+            call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d, slip)
+         else
+            call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d)
+         end if
+         jacobian%reached = max(jacobian%reached, d%reached)
          friction = 0.0_wp
          if (problem%variation == variation%by_angle .and. slot%problem%motion /= motion%none) &
             & friction = (friction_at(slot%plane%roll() + angle_step) - friction_at(slot%plane%roll() - angle_step)) &
@@ -200,6 +189,7 @@ contains
          moment = matmul(slot%plane%axes, slot%moment)
          do k = 1, jacobian_input%vpitch
             change = matmul(d%by_creepage, creepage(:, k))
+            if (allocated(slip)) change = change + d%by_slip(:, k)
             turn = 0.0_wp
             lever = 0.0_wp
             if (k <= coordinate%count) then
@@ -288,89 +278,4 @@ contains
          end do
       end associate
    end subroutine add_place_of_wheel
-
-   !> Derivatives of creepages and spin with respect to position and velocities
-   subroutine differentiate_creepages(problem, memory, slot, motions, approach, creepage)
-      type(wheel_rail_problem), intent(in) :: problem
-      type(wheel_rail_memory), intent(in) :: memory
-      type(patch_slot), intent(in) :: slot
-      type(reference_motion), intent(in) :: motions(:)
-      !> Derivatives of the approach [mm per unit]
-      real(wp), intent(in) :: approach(:)
-      !> Derivatives of CKSI, CETA, CPHI, shape (3, inputs)
-      real(wp), intent(inout) :: creepage(:, :)
-      type(pair_spec), allocatable :: spec
-      real(wp) :: step, pitch_rate
-      integer :: k
-
-      allocate(spec, source=problem%spec)
-      pitch_rate = memory%geometry%pitch_rate
-      do k = 1, coordinate%count
-         step = creepage_step(k)
-         creepage(:, k) = (creepages_at(k, step) - creepages_at(k, -step))/(2.0_wp*step)
-      end do
-      do k = jacobian_input%vs, jacobian_input%vpitch
-         step = velocity_step*max(slot%motion%veloc, 1.0_wp)
-         if (k >= jacobian_input%vroll .or. (k == jacobian_input%vs .and. spec%roller)) &
-            & step = step/memory%geometry%placement%wheel_radius
-         creepage(:, k) = (creepages_with(k, step) - creepages_with(k, -step))/(2.0_wp*step)
-      end do
-
-   contains
-
-      !> Creepages after a displacement
-      function creepages_at(number, step) result(values)
-         integer, intent(in) :: number
-         real(wp), intent(in) :: step
-         real(wp) :: values(3)
-         type(frame) :: plane
-
-         associate (motion => motions(number))
-            plane%origin = slot%plane%origin + step*motion%origin
-            plane%axes = matmul(roll_axes(step*motion%angle), slot%plane%axes)
-            values = creepages(displaced(memory%geometry%placement, number, step), plane, &
-               & slot%problem%pen + step*approach(number))
-         end associate
-      end function creepages_at
-
-      !> Creepages with another velocity
-      function creepages_with(number, step) result(values)
-         integer, intent(in) :: number
-         real(wp), intent(in) :: step
-         real(wp) :: values(3)
-
-         associate (w => spec%wheelset, old => problem%spec%wheelset, input => jacobian_input)
-            if (number == input%vs .and. spec%roller) then
-               w%rpitch = old%rpitch + step
-            else if (number == input%vs) then
-               w%vs = old%vs + step
-            end if
-            if (number == input%vy) w%vy = old%vy + step
-            if (number == input%vroll) w%vroll = old%vroll + step
-            if (number == input%vyaw) w%vyaw = old%vyaw + step
-            if (number == input%vpitch) pitch_rate = memory%geometry%pitch_rate + step
-            values = creepages(memory%geometry%placement, slot%plane, slot%problem%pen)
-            w%vs = old%vs
-            w%rpitch = old%rpitch
-            w%vy = old%vy
-            w%vroll = old%vroll
-            w%vyaw = old%vyaw
-            pitch_rate = memory%geometry%pitch_rate
-         end associate
-      end function creepages_with
-
-      !> Creepages and spin, as in `set_motion` of contact_wheelrail_patch_inputs
-      function creepages(placement, plane, approach) result(values)
-         type(wheel_rail_placement), intent(in) :: placement
-         type(frame), intent(in) :: plane
-         real(wp), intent(in) :: approach
-         real(wp) :: values(3)
-         type(contact_motion) :: motion
-
-         motion = flat_creepage(rail_motion(spec, placement), wheel_motion(spec, placement, pitch_rate), &
-            & placement%wheelset%axes(:, 2), pitch_rate, plane%origin, plane%origin + approach*plane%axes(:, 3), plane%roll(), &
-            & spec%roller)
-         values = [motion%cksi, motion%ceta, motion%cphi]
-      end function creepages
-   end subroutine differentiate_creepages
 end module contact_wheelrail_jacobian

@@ -10,8 +10,8 @@ module contact_wheelrail_patch_inputs
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_carry_over, only : place_on_lattice
    use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
-   use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
-      & surface_heights, surface_slip
+   use contact_wheelrail_curved_patch, only : curved_rows, new_curved_reference, straight_reference, surface_heights, &
+      & surface_motion
    use contact_wheelrail_flat_patch, only : lattice_lead, patch_frame, patch_grid, shift_distance, start_places, &
       & undeformed_distance
    use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
@@ -384,7 +384,7 @@ contains
       type(patch_slot), intent(inout) :: slot
       real(wp), intent(in) :: approach
       type(rigid_motion) :: rail, wheel
-      real(wp) :: on_wheel(3), pitch_rate
+      real(wp) :: on_wheel(3), pitch_rate, forward
 
       pitch_rate = geometry%pitch_rate
       rail = rail_motion(problem%spec, geometry%placement)
@@ -398,7 +398,13 @@ contains
                & plane%roll(), problem%spec%roller)
          end if
       end associate
-      if (allocated(slot%curve)) call set_surface_slip(problem, rail, wheel, slot)
+      if (allocated(slot%curve)) then
+         ! on a track the rolling velocity is the forward velocity, unless the wheel turns without moving forward
+         forward = 0.0_wp
+         if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller) forward = abs(problem%spec%wheelset%vs)
+         call surface_motion(rail, wheel, slot%curve, slot%problem%grid, slot%on_rail, slot%on_wheel, &
+            & slot%on_rail < slot%on_wheel, problem%rail_share, forward, slot%motion, slot%problem%extra_slip)
+      end if
       associate (patch => slot%problem)
          patch%creep = [slot%motion%cksi, slot%motion%ceta]
          patch%spin = slot%motion%cphi
@@ -425,29 +431,4 @@ contains
             & .and. .not. allocated(patch%simplified) .and. .not. patch%remembers_yield
       end associate
    end subroutine set_motion
-
-   !> Slip element by element on a reference surface: creepages that approximate it best, and the remainder
-   subroutine set_surface_slip(problem, rail, wheel, slot)
-      type(wheel_rail_problem), intent(in) :: problem
-      type(rigid_motion), intent(in) :: rail, wheel
-      !> On entry with the motion at the contact reference
-      type(patch_slot), intent(inout) :: slot
-      real(wp) :: before
-
-      associate (patch => slot%problem)
-         before = slot%motion%veloc
-         ! on a track the rolling velocity is the forward velocity, unless the wheel turns without moving forward
-         if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller &
-            & .and. abs(problem%spec%wheelset%vs) > 0.0_wp) slot%motion%veloc = abs(problem%spec%wheelset%vs)
-         call surface_slip(rail, wheel, slot%curve, patch%grid, slot%on_rail, slot%on_wheel, problem%rail_share, &
-            & patch%extra_slip)
-         if (.not. slot%motion%veloc > 0.0_wp) then
-            patch%extra_slip = 0.0_wp
-            return
-         end if
-         patch%extra_slip = patch%extra_slip/slot%motion%veloc
-         slot%motion%cphi = slot%motion%cphi*before/slot%motion%veloc
-         call fit_creepages(patch%grid, slot%on_rail < slot%on_wheel, patch%extra_slip, slot%motion)
-      end associate
-   end subroutine set_surface_slip
 end module contact_wheelrail_patch_inputs

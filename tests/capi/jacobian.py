@@ -4,7 +4,7 @@
 Differences are of solutions to a relative 1e-11, over steps so small that hardly an element changes its state. Each row is compared
 relative to its largest entry, with inputs scaled by amounts that move a wheel similarly: 1 mm, 1/750 rad, 20 mm/s at 20 m/s.
 
-    jacobian.py --random 400 --seed 2
+    jacobian.py --random 400 --seed 2 --location 3
 
 compares random wheels of 100 N to 200 kN instead, and lists those with deviations above ten times the error of the differences.
 """
@@ -137,6 +137,16 @@ def agree(order):
     compare(f"order {order}, two parts of a light wheel", make(cant=0.05, d_comb=0.5, d_sep=60.0, order=order),
             position(6.1, yaw=0.01, roll=0.0, fz=1e3))
     compare(f"order {order}, a light wheel", make(order=order), position(0.0, yaw=0.01, roll=0.0, fz=100.0))
+    for y in (0.0, 5.4, 6.0):
+        along = make(order=order)
+        along.set_flags(ic_discns=3)
+        compare(f"order {order}, slip of each element, y = {y} mm", along, position(y), scale=3.0 if y > 5.0 else 1.0)
+    parts = make("left", cant=0.05, d_comb=0.5, d_sep=60.0, order=order)
+    parts.set_flags(ic_discns=3)
+    compare(f"order {order}, slip of each element in two parts", parts, position(6.1, side=-1, yaw=-0.01, roll=0.0, fz=90e3))
+    turned = make(roller=True, order=order)
+    turned.set_flags(ic_discns=3)
+    compare(f"order {order}, slip of each element on a roller", turned, position(1.0, roller=True))
     still = make(order=order)
     still.set_flags(ic_tang=0)
     compare(f"order {order}, without friction", still, position(1.3))
@@ -194,7 +204,7 @@ def refusals():
     refused("apart", pair, "do not touch")
 
 
-def random_wheels(count, seed):
+def random_wheels(count, seed, location):
     """Random wheels; those whose differences include an element that comes into contact are ignored"""
     profiles = f"{top}/examples/profiles"
     deviate = 0
@@ -212,6 +222,7 @@ def random_wheels(count, seed):
         pair = make("right" if side > 0 else "left", **options)
         pair.set_rail(f"{profiles}/{names[0]}")
         pair.set_wheel(f"{profiles}/{names[1]}")
+        pair.set_flags(ic_discns=location)
         jacobian, error, worth = deviation(pair, at)
         if jacobian.state == "exact" and error.max() > 10.0 * max(worth, 5e-6):
             deviate += 1
@@ -223,9 +234,10 @@ def random_wheels(count, seed):
 parser = argparse.ArgumentParser()
 parser.add_argument("--random", type=int, metavar="WHEELS")
 parser.add_argument("--seed", type=int, default=1)
+parser.add_argument("--location", type=int, default=2, choices=(2, 3), help="digit D: slip of the reference, or of each element")
 asked = parser.parse_args()
 if asked.random:
-    random_wheels(asked.random, asked.seed)
+    random_wheels(asked.random, asked.seed, asked.location)
     sys.exit()
 for both in (1, 2):
     agree(both)

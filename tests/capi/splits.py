@@ -4,7 +4,8 @@
 Profiles with two and three contacts, on a track and on rollers, elements of 1 and 2 mm. The height at which the number of patches
 changes is found by bisection: the normal forces on both sides of it agree. With a prescribed vertical force the wheel then moves
 past lateral positions at which the patches separate: no call misses the force. Between the distances at which patches turn
-towards each other and are joined, derivatives agree with differences.
+towards each other and are joined, derivatives agree with differences. With the slip of each element, tangential forces are
+continuous, too.
 """
 import os
 import sys
@@ -87,6 +88,23 @@ def joins(wheel, low, high, points=81):
         yield a, b
 
 
+def slip_of_elements(order):
+    """With the slip of each element (D = 3) no force changes where two patches join; with D = 2 FX and FY do by 1.6 % FZ"""
+    wheel = Wheel("S1002", "60E1", 0.0, 0.05, 0.5, 8.0, 4.0, 1.5e-3, 0.0, 39200.0, 5.85, eps=1e-6, order=order)
+    wheel.pair.set_flags(ic_discns=3)
+    low, high = 5.8, 5.9
+    check([len(wheel.solve(y=y).patches) for y in (low, high)] == [2, 1], "D = 3: two patches, and one")
+    while high - low > 1e-9:
+        middle = 0.5 * (low + high)
+        if len(wheel.solve(y=middle).patches) == 2:
+            low = middle
+        else:
+            high = middle
+    jump = np.abs(force(wheel.solve(y=low)) - force(wheel.solve(y=high))).max() / wheel.load
+    check(jump <= 1e-6, f"D = 3, order {order}: forces differ by {jump:.1e} at {low:.6f} mm")
+    wheel.pair.close()
+
+
 def derivatives(wheel, z, name):
     """Derivatives by y and z at a height against differences of the fourth order"""
     step = 2e-7
@@ -101,6 +119,8 @@ def derivatives(wheel, z, name):
         check(away <= 1e-3, f"{name}: derivatives by {column} and differences: {away:.1e}")
 
 
+for both in (1, 2):
+    slip_of_elements(both)
 for *case, same in CASES:
     name = " ".join(str(word) for word in case)
     wheel = Wheel(*case)
