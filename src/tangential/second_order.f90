@@ -59,9 +59,9 @@ module contact_tangential_second_order
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
    real(wp), parameter :: outermost = 1.7_wp
-   !> Factor of the terms behind an oblique edge, which the second and third elements share; empirical, see
-   !> doc/theory/second_order.md
-   real(wp), parameter :: behind_edge = (d0 + 0.5_wp)/(d0 + 1.0_wp)
+   !> Maximum term behind an oblique edge relative to the compliance of an element: elements that are short along the direction of
+   !> rolling are beyond the fit, and equations with a larger negative term need not have a solution; chosen
+   real(wp), parameter :: largest_oblique = 0.5_wp
    !> Terms above this part of the compliance of an element are stiff; chosen
    real(wp), parameter :: stiff_share = 0.5_wp
 
@@ -159,12 +159,14 @@ contains
             ! next to a layer the bodies do not see the steps of the edge
             oblique = oblique/(1.0_wp + layer*gg/(2.0_wp*dx*nx))
          end if
+         ! one of its principal values is negative
+         oblique = min(1.0_wp, largest_oblique*diagonal/max(norm2(oblique([1, 3])), tiny(1.0_wp)))*oblique
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
          ! the terms behind move from element to element as the edge does, so that forces are continuous
-         part(1) = behind_edge*unit/(unit + excess)
-         part(2) = behind_edge - part(1)
+         part(1) = unit/(unit + excess)
+         part(2) = 1.0_wp - part(1)
          do j = 1, min(2, length(k) - 1)
             behind = behind + 1
             second%at(:, behind) = [ix - j*direction, iy]
