@@ -187,6 +187,7 @@ class WheelRail(Element):
             raise ValueError(f"contact_angle = {contact_angle!r} is none of {', '.join(_ANGLES)}")
         super().__init__(motion, units)
         self.side = side
+        self._sides: tuple[float, float] | None = None
         self.set_flags(ic_config=_SIDES[side, roller], own_angle=_ANGLES[contact_angle])
 
     def set_grid(self, dx: float, ds: float, *, a_sep: float = np.pi / 2, d_sep: float | None = None,
@@ -196,7 +197,8 @@ class WheelRail(Element):
         Parameters
         ----------
         dx, ds
-            Sides of an element along and across the rail [L].
+            Sides of an element along and across the rail [L]. They are doubled until a patch has at most ``ic_npomax`` elements
+            (`set_flags`), 20,000 unless set, with a warning.
         a_sep
             Patches whose planes differ by more than this angle are never combined [A].
         d_sep, d_comb
@@ -209,6 +211,17 @@ class WheelRail(Element):
                  [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
                   4 * millimetre if d_comb is None else d_comb])
         self._do(cntc.setrollingstepsize, self.number, -1, 0.0, step)
+        self._sides = dx, ds
+
+    def _warn_of_large_elements(self, patch: Patch, what: str) -> None:
+        """Warn of elements that are larger than those of `set_grid`, unless an accuracy chooses them"""
+        if self._sides is None or max(patch.dx / self._sides[0], patch.dy / self._sides[1]) < 1.5:
+            return
+        most, accuracy = cntc.getflags(self.number, -1, [cntc.CNTC["ic_npomax"], cntc.CNTC["own_accuracy"]])
+        if accuracy:
+            return
+        warnings.warn(f"the elements of {what} have sides of {patch.dx:.4g} x {patch.dy:.4g} in place of {self._sides[0]:.4g} x "
+                      f"{self._sides[1]:.4g}, because there are at most ic_npomax = {most}", ContactWarning, stacklevel=3)
 
     def set_rail(self, profile: str | os.PathLike[str] | ArrayLike, scale: float = 1.0, smooth: float = 0.0) -> None:
         """Rail profile: a file, or an array of y, z of shape (n, 2) with z down; scale is the factor to mm."""
@@ -310,6 +323,7 @@ class WheelRail(Element):
         for icp, patch in enumerate(patches, 1):
             warn_of_border(patch, f"contact patch {icp}")
             warn_of_few_elements(patch, f"contact patch {icp}")
+            self._warn_of_large_elements(patch, f"contact patch {icp}")
         values = cntc.getglobalforces(number, -1).reshape(4, 2, 3)
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
         buried = buried_ends(number)

@@ -101,7 +101,7 @@ contains
       integer, allocatable :: at(:, :), first(:)
       integer, allocatable :: length(:)
       real(wp), allocatable :: place(:), share(:)
-      real(wp) :: slope, nx, ny, scale, excess, unit, mean, part(2), oblique(3)
+      real(wp) :: slope, nx, ny, flexibility, scale, excess, unit, mean, part(2), oblique(3)
       integer :: ix, iy, k, n, last, behind, j
 
       n = count_edges(contact, direction)
@@ -144,7 +144,8 @@ contains
          slope = edge_slope(place, first, iy, place(k))
          nx = 1.0_wp/sqrt(1.0_wp + (slope*dx/dy)**2)
          ny = -slope*dx/dy*nx
-         unit = 2.0_wp/gg*dx*nx*e0
+         flexibility = 2.0_wp/gg*dx*nx
+         unit = flexibility*e0
          scale = unit*share(k)
          excess = max(scale, 0.0_wp)
          if (is_known(gap(ix, iy))) then
@@ -155,9 +156,9 @@ contains
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
          if (layer > 0.0_wp) then
-            second%kappa(:, k) = layer_terms(scale/unit, 2.0_wp/gg*dx*nx, nu, layer, [nx, direction*ny])
+            second%kappa(:, k) = layer_terms(scale/unit, flexibility, nu, layer, [nx, direction*ny])
             ! next to a layer the bodies do not see the steps of the edge
-            oblique = oblique/(1.0_wp + layer*gg/(2.0_wp*dx*nx))
+            oblique = oblique/(1.0_wp + layer/flexibility)
          end if
          ! one of its principal values is negative
          oblique = min(1.0_wp, largest_oblique*diagonal/max(norm2(oblique([1, 3])), tiny(1.0_wp)))*oblique

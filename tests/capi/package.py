@@ -284,7 +284,7 @@ def warned(call):
 
 
 def doubts():
-    """Truncated contact, and stresses near the surface between centres, give warnings"""
+    """Truncated contact, larger elements, and stresses near the surface between centres give warnings"""
     with contact.Problem() as problem:
         problem.set_material(g=1.0, nu=0.28)
         problem.set_friction(0.3)
@@ -323,6 +323,17 @@ def doubts():
             result, told = warned(pair.solve)
         same([patch.border for patch in result.patches], [("outer end of the rail profile",)], "end of the rail")
         same([text.split(" reaches")[0] for text in told], ["contact patch 1"], "warning of the end of the rail")
+    with contact.WheelRail() as pair:
+        braked_wheel(pair)
+        pair.set_rail(rows)
+        pair.set_flags(ic_npomax=1000)
+        result, told = warned(pair.solve)
+        same(result.patches[0].dx, 0.8, "elements are twice as large")
+        text = "the elements of contact patch 1 have sides of 0.8 x 0.8 in place of 0.4 x 0.4, because there are at most "
+        same(told, [text + "ic_npomax = 1000"], "warning of larger elements")
+        pair.set_flags(ic_npomax=20000)
+        result, told = warned(pair.solve)
+        same((result.patches[0].dx, told), (0.4, []), "elements as they are asked for")
 
 
 def braked_wheel(pair):

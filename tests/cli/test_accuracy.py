@@ -193,7 +193,8 @@ class Accuracy(Runs):
     def test_short_times(self):
         """The first grid is so coarse that it ends in time: whatever the accuracy, there is a result with its error"""
         source = random.Random(15)
-        texts = [(kind, text_of(contact(source, kind), 24, (0.0, 0.0))) for kind in ("forces", "dissimilar", "viscoelastic", "profile")]
+        kinds = "forces", "dissimilar", "viscoelastic", "profile"
+        texts = [(kind, text_of(contact(source, kind), 24, (0.0, 0.0))) for kind in kinds]
         texts.append(("wheel", wheel_text(WHEEL, 1, SOURCE / "examples" / "profiles")))
         for kind, text in texts:
             for seconds in (0.2, 0.8):
