@@ -168,6 +168,7 @@ contains
             & difference/scale_of(fine%rows(k), scale))
       end do
       result%errors%traction = traction_error(scale)
+      result%errors%cancelled = scale%cancelled
       do k = 1, fine%length
          if (fine%rows(k)%law == error_law%none .or. is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)

@@ -69,6 +69,8 @@ module contact_patch_result
       !> Error of tangential tractions, relative to them, where the levels indicate little of the error at a point, see
       !> contact_patch_traction_errors [-]
       real(wp) :: traction = 0.0_wp
+      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in rolling [-]
+      real(wp) :: cancelled = 0.0_wp
       !> Number of elements in contact on the coarse level
       integer :: ncon = 0
    end type error_estimate

@@ -11,8 +11,8 @@ module contact_patch_traction_errors
    implicit none (type, external)
    private
 
-   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, is_long_step, is_unseen, part_of, rough_floor, &
-      & sliding_part, traction_error, trust_in, trusted, unrelaxed
+   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, is_first, is_long_step, is_unseen, part_of, &
+      & rough_floor, sliding_part, traction_error, trust_in, trusted, unrelaxed
 
    !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
    !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
