@@ -263,7 +263,8 @@ contains
          return
       end if
       general = energy_floor*scale%irregular*floor(1)
-      parts(1) = sign(trusted(abs(parts(1)), general, peak_trust(1)), parts(1))
+      ! tractions of dissimilar bodies may change their pressures within an element or two
+      if (.not. scale%coupling > 0.0_wp) parts(1) = sign(trusted(abs(parts(1)), general, peak_trust(1)), parts(1))
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
       e = max(e, general + merge(1.0_wp, 2.0_wp, is_first(scale))*floor(2) + more)

@@ -41,6 +41,10 @@ THOSE_THAT_LIED = (16, 22, 23, 59)
 #: against the rms over offsets
 FIRST, FIRST_SEED, FIRST_COUNT = ("forces", "slender", "forces", "one_force"), 72001, 120
 FIRST_NUMBERS, FIRST_BOUNDS = (18, 26, 46, 62, 71, 79, 80, 89), {"forces": (0.3, 5.0, 1.0)}
+#: Energy and stresses by the first order, in whose estimates the signs of errors count: seed, count, numbers of the contacts among
+#: all kinds, and bounds against the rms over offsets
+SIGNED_SEED, SIGNED_COUNT, SIGNED_NUMBERS = 84001, 96, (6, 30, 45, 56, 71, 83)
+SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9), "max_tresca": (0.2, 5.0, 0.9)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
 #: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
@@ -256,9 +260,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
-    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "first"),
-                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, or moments and sliding "
-                        "by the first order; fail if bounds are missed")
+    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "first", "signed"),
+                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, moments and sliding by "
+                        "the first order, or energy and stresses by the first order; fail if bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
@@ -276,6 +280,8 @@ def main():
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
         asked.kinds = ",".join(FIRST)
+    elif asked.check == "signed":
+        asked.count, asked.seed, asked.sizes, asked.places = SIGNED_COUNT, SIGNED_SEED, "16,30", 4
     elif asked.check:
         asked.count, asked.seed, asked.sizes, asked.places = 60, COUPLED_SEED, "16,30", 2
         asked.kinds, asked.order = ",".join(COUPLED), ("--order", "2")
@@ -285,7 +291,7 @@ def main():
     limits = tuple(int(word) for word in asked.sizes.split(","))
     with tempfile.TemporaryDirectory() as name:
         program = os.environ["CONTACT_PROGRAM"]
-        only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS}.get(asked.check, ())
+        only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
         if asked.wheels:
@@ -315,6 +321,8 @@ def main():
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), COUPLED_BOUNDS) or 0)
     elif asked.check == "first":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), FIRST_BOUNDS, against=3) or 0)
+    elif asked.check == "signed":
+        sys.exit(misses(by_total, sum(not places for _, _, places in rows), SIGNED_BOUNDS, against=3) or 0)
     elif asked.check == "wheels":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), WHEEL_BOUNDS) or 0)
     elif asked.check:
