@@ -17,7 +17,7 @@ module contact_elastic_operator
    use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_even, multiply_paired, replace_by_mean, &
       & spectrum_floor
    use contact_fft_paired, only : paired_plan
-   use contact_fft_plan, only : fast_size, fft_plan, largest_fast_size
+   use contact_fft_plan, only : fast_line_size, fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
    private
 
@@ -76,7 +76,7 @@ contains
       same = self%is_for(model, dx, dy, mx, my)
       if (.not. same) then
          ! one more element than for a plain product, for the shifted kernel of steady rolling
-         px = fast_size(2*mx + 1)
+         px = merge(fast_line_size(2*mx + 1), fast_size(2*mx + 1), my == 1)
          py = merge(1, fast_size(2*my), my == 1)
          call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
          self%diagonal = own_coefficients(self%table, model)
@@ -116,8 +116,7 @@ contains
       integer :: px, py
 
       if (self%has_normal) return
-      px = min(self%plan%px, fast_size(padded_a_little(self%mx)))
-      py = min(self%plan%py, fast_size(padded_a_little(self%my)))
+      call pad_a_little(self, px, py)
       call self%normal_inverse_plan%prepare(self%mx, self%my, px, py)
       associate (t => self%table)
          call make_spectrum(t%nx, t%ny, t%nn, .false., .false., self%plan%px, self%plan%py, self%nn)
@@ -129,13 +128,17 @@ contains
       self%has_normal = .true.
    end subroutine need_normal
 
-   !> Number of elements of a period for an approximate inverse: a quarter more than the window
-   pure integer function padded_a_little(n) result(period)
-      !> Number of elements of the window
-      integer, intent(in) :: n
+   !> Period for an approximate inverse: a quarter more elements than the window
+   pure subroutine pad_a_little(self, px, py)
+      class(elastic_operator), intent(in) :: self
+      integer, intent(out) :: px, py
+      integer :: n
 
-      period = n + (n + 3)/4
-   end function padded_a_little
+      n = self%mx + (self%mx + 3)/4
+      px = min(self%plan%px, merge(fast_line_size(n), fast_size(n), self%my == 1))
+      py = 1
+      if (self%my > 1) py = min(self%plan%py, fast_size(self%my + (self%my + 3)/4))
+   end subroutine pad_a_little
 
    !> Compute the spectra for the tangential problem, on first use
    subroutine need_tangential(self)
@@ -144,9 +147,7 @@ contains
 
       if (self%has_tangential) return
       call self%complete()
-      px = min(self%plan%px, fast_size(padded_a_little(self%mx)))
-      py = self%plan%py
-      if (self%my > 1) py = min(py, fast_size(padded_a_little(self%my)))
+      call pad_a_little(self, px, py)
       call tangential_spectra(self, self%plan%px, self%plan%py, self%xx, self%yy, self%xy)
       if (px == self%plan%px .and. py == self%plan%py) then
          self%ixx = self%xx

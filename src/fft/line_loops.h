@@ -2,33 +2,6 @@
  *
  * Two complex numbers are processed at once. Each loop ends with the remaining one of an odd number. */
 
-/* Products of two spectra with a symmetric 2 by 2 block, then with a scalar unless turn is null */
-TARGET static void OF(block)(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
-  const double re = turn ? turn[0] : 1.0, im = turn ? turn[1] : 0.0;
-  const four along = {re, re, re, re}, across = {-im, im, -im, im};
-  int k = 0;
-  for (; k + 1 < n; k += 2) {
-    const four x = EACH_TWICE(xx + k), y = EACH_TWICE(yy + k), w = EACH_TWICE(xy + k);
-    const four here = FOUR(a + 2 * k), there = FOUR(b + 2 * k);
-    four first = x * here + w * there, second = w * here + y * there;
-    if (turn) {
-      first = along * first + across * PARTS_SWAPPED(first);
-      second = along * second + across * PARTS_SWAPPED(second);
-    }
-    FOUR(a + 2 * k) = first;
-    FOUR(b + 2 * k) = second;
-  }
-  if (k == n) return;
-  for (int i = 2 * k; i < 2 * k + 2; i++) {
-    const double here = a[i], there = b[i];
-    a[i] = xx[k] * here + xy[k] * there;
-    b[i] = xy[k] * here + yy[k] * there;
-  }
-  if (!turn) return;
-  turn_number(re, im, a + 2 * k);
-  turn_number(re, im, b + 2 * k);
-}
-
 /* Product of a complex spectrum and a real one */
 TARGET static void OF(one)(int n, const double *xx, double *a) {
   int k = 0;
@@ -102,44 +75,4 @@ TARGET static void OF(turn_pair)(int px, const double *factor, double *z) {
   if (k == n) return;
   turn_number(factor[2 * k], factor[2 * k + 1], z + 2 * k);
   turn_number(factor[2 * k], -factor[2 * k + 1], z + 2 * (px - k));
-}
-
-/* Twice the transforms of two rows, from that of the first + i times the second; both values of a frequency are adjacent */
-TARGET static void OF(apart)(int px, const double *z, size_t stride, double *both) {
-  int k = 1;
-  for (; k + 1 <= px / 2; k += 2) {
-    const four here = FOUR(z + 2 * k), there = NUMBERS_SWAPPED(FOUR(z + 2 * (px - k - 1)));
-    const four first = here + conjugate * there, second = PARTS_SWAPPED(there) + conjugate * PARTS_SWAPPED(here);
-    FOUR(both + stride * k) = FIRST_OF_BOTH(first, second);
-    FOUR(both + stride * (k + 1)) = SECOND_OF_BOTH(first, second);
-  }
-  if (k > px / 2) return;
-  {
-    const double *here = z + 2 * k, *there = z + 2 * (px - k);
-    double *to = both + stride * k;
-    to[0] = here[0] + there[0];
-    to[1] = here[1] - there[1];
-    to[2] = there[1] + here[1];
-    to[3] = there[0] - here[0];
-  }
-}
-
-/* Transform of the first row + i times the second, from the adjacent values of both */
-TARGET static void OF(together)(int px, size_t stride, const double *both, double *z) {
-  const int n = (px + 1) / 2;
-  int k = 1;
-  for (; k + 1 < n; k += 2) {
-    const four a = FOUR(both + stride * k), b = FOUR(both + stride * (k + 1));
-    const four first = FIRST_OF_BOTH(a, b), second = PARTS_SWAPPED(SECOND_OF_BOTH(a, b));
-    FOUR(z + 2 * k) = first - conjugate * second;
-    FOUR(z + 2 * (px - k - 1)) = NUMBERS_SWAPPED(conjugate * first + second);
-  }
-  if (k >= n) return;
-  {
-    const double *from = both + stride * k;
-    z[2 * k] = from[0] - from[3];
-    z[2 * k + 1] = from[1] + from[2];
-    z[2 * (px - k)] = from[0] + from[3];
-    z[2 * (px - k) + 1] = from[2] - from[1];
-  }
 }

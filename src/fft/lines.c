@@ -1,24 +1,18 @@
 /* Time-consuming operations on rows and columns between their transforms, described in lines.f90; lanes.h explains why they are in
  * C. Complex numbers are pairs of real ones. */
 #include "../base/lanes.h"
-#include <stddef.h>
 
 #define NUMBERS_SWAPPED(v) __builtin_shufflevector(v, v, 2, 3, 0, 1)
 #define REAL_PARTS(v) __builtin_shufflevector(v, v, 0, 0, 2, 2)
 #define IMAGINARY_PARTS(v) __builtin_shufflevector(v, v, 1, 1, 3, 3)
-#define FIRST_OF_BOTH(v, w) __builtin_shufflevector(v, w, 0, 1, 4, 5)
-#define SECOND_OF_BOTH(v, w) __builtin_shufflevector(v, w, 2, 3, 6, 7)
 
 static const four conjugate = {1.0, -1.0, 1.0, -1.0};
 
-void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b);
 void contact_lines_one(int n, const double *xx, double *a);
 void contact_lines_turn(int n, const double *turn, double *a);
 void contact_lines_opposites(int n, const double *mean, const double *half, const double *mixed, double *x, double *y);
 void contact_lines_pair(int px, const double *xx, const double *yy, const double *xy, double *z);
 void contact_lines_turn_pair(int px, const double *factor, double *z);
-void contact_lines_apart(int px, const double *z, int rows, double *both);
-void contact_lines_together(int px, int rows, const double *both, double *z);
 
 static void turn_number(double re, double im, double *z) {
   const double keep = z[0];
@@ -39,10 +33,6 @@ static void multiply_pair(double xx, double yy, double xy, double *here, double 
 #define LOOPS "../fft/line_loops.h"
 #include "../base/twice.h"
 
-void contact_lines_block(int n, const double *xx, const double *yy, const double *xy, const double *turn, double *a, double *b) {
-  CALL(block, n, xx, yy, xy, turn, a, b);
-}
-
 void contact_lines_one(int n, const double *xx, double *a) { CALL(one, n, xx, a); }
 
 void contact_lines_turn(int n, const double *turn, double *a) { CALL(turn, n, turn, a); }
@@ -56,7 +46,3 @@ void contact_lines_pair(int px, const double *xx, const double *yy, const double
 }
 
 void contact_lines_turn_pair(int px, const double *factor, double *z) { CALL(turn_pair, px, factor, z); }
-
-void contact_lines_apart(int px, const double *z, int rows, double *both) { CALL(apart, px, z, 2 * (size_t)rows, both); }
-
-void contact_lines_together(int px, int rows, const double *both, double *z) { CALL(together, px, 2 * (size_t)rows, both, z); }

@@ -1,21 +1,23 @@
 !> Zero-padded real transforms of a rectangular window, and convolutions based on them
 !>
-!> Two rows are transformed at once, as real and imaginary part of a complex row: FFTW has vector code for complex transforms
-!> only. Zero rows are not transformed forward, and rows that are not needed are not transformed back. A convolution processes
-!> the spectrum column by column (transform, multiply by the kernel, transform back), so that the complete spectrum is never
-!> stored. Each row and each column is transformed independently, so that results do not depend on the number of threads.
+!> Two rows are transformed at once, as real and imaginary part of a complex row, and four such lines together. Zero rows are not
+!> transformed forward, and rows that are not needed are not transformed back. A convolution processes the spectrum four columns at
+!> a time (transform, multiply by the kernel, transform back), so that the complete spectrum is never stored. Results do not depend
+!> on the number of threads. A window of one row is transformed by the library, and both fields of a pair at once.
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_ptr
    use contact_base_kinds, only : wp
+   use contact_fft_four_lines, only : columns_at_once, four_columns_backward, four_columns_forward, four_columns_one, &
+      & four_columns_two, four_rows_backward, four_rows_forward, line_factors, rows_at_once, work_size
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
-   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, lanes, plan_complex
-   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, separate_rows, turn_two
-   use contact_fft_sizes, only : fast_size, good_size, largest_fast_size
+   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, plan_complex
+   use contact_fft_lines, only : multiply_one, multiply_two, turn_two
+   use contact_fft_sizes, only : fast_line_size, fast_size, good_size, largest_fast_size
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
 
-   public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size, start_planner
+   public :: fft_plan, kernel_spectrum, good_size, fast_line_size, fast_size, largest_fast_size, start_planner
 
    !> Padded windows of more elements are shared among threads; smaller ones are done before threads are awake
    integer, parameter :: worth_threads = 40000
@@ -29,13 +31,14 @@ module contact_fft_plan
       integer :: mx = 0, my = 0, px = 0, py = 0
       !> Number of frequencies kept in x: px/2 + 1
       integer :: kx = 0
-      !> Rows of one or two fields after their transform, space for (my, 2, kx)
+      !> Rows of one or two fields after their transform, space for (4, my, 2, (kx + 3)/4), in the arrangement of four_lines
       complex(wp), allocatable, private :: half(:)
-      !> Pairs of rows: padded, transformed, and transformed back, shape (px, lanes, 3, threads)
-      complex(wp), allocatable, private :: row(:, :, :, :)
-      !> Columns: padded, those of two fields transformed, and transformed back, shape (py, lanes, 4, threads)
-      complex(wp), allocatable, private :: column(:, :, :, :)
-      type(plan_set), private :: rows, columns
+      !> Steps of the transforms of rows and columns, and their workspace, one column per thread
+      type(line_factors), private :: rows, columns
+      real(wp), allocatable, private :: work(:, :)
+      !> A window of one row: the row padded, transformed, and transformed back, shape (px, 3), and its plans
+      complex(wp), allocatable, private :: line(:, :)
+      type(plan_set), private :: line_plans
    contains
       !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare => prepare_plan
@@ -69,48 +72,57 @@ contains
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
 
-      if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%rows%plan(line_forward))) return
+      if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py .and. allocated(self%half)) return
       call self%release()
       self%mx = mx
       self%my = my
       self%px = px
       self%py = py
       self%kx = px/2 + 1
-      allocate(self%half(2*my*self%kx))
-      call fit_buffers(self, 1)
-      call get_line_plans(self%rows, self%row(:, :, 1, 1), self%row(:, :, 2, 1))
-      call get_line_plans(self%columns, self%column(:, :, 1, 1), self%column(:, :, 2, 1))
+      if (py == 1) then
+         allocate(self%half(2*self%kx), self%line(px, 3))
+         self%line = 0.0_wp
+         call get_line_plans(self)
+         return
+      end if
+      allocate(self%half(2*my*columns_at_once*blocks_of_columns(self)))
+      call self%rows%prepare(px)
+      call self%columns%prepare(py)
+      call fit_workspace(self, 1)
    end subroutine prepare_plan
 
-   !> Allocate buffers for a number of threads; their padding remains zero
-   subroutine fit_buffers(self, threads)
+   !> Number of blocks of four frequencies in x
+   pure integer function blocks_of_columns(self) result(blocks)
+      type(fft_plan), intent(in) :: self
+
+      blocks = (self%kx + columns_at_once - 1)/columns_at_once
+   end function blocks_of_columns
+
+   !> Allocate workspace for a number of threads
+   subroutine fit_workspace(self, threads)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: threads
 
-      if (allocated(self%row)) then
-         if (size(self%row, 4) >= threads) return
-         deallocate(self%row, self%column)
+      if (allocated(self%work)) then
+         if (size(self%work, 2) >= threads) return
+         deallocate(self%work)
       end if
-      allocate(self%row(self%px, min(lanes, (self%my + 1)/2), 3, threads), source=(0.0_wp, 0.0_wp))
-      allocate(self%column(self%py, min(lanes, self%kx), 4, threads), source=(0.0_wp, 0.0_wp))
-   end subroutine fit_buffers
+      allocate(self%work(work_size(max(self%px, self%py)), threads))
+   end subroutine fit_workspace
 
-   !> Plans for lines, from one buffer to another of the same shape
-   subroutine get_line_plans(plans, from, to)
-      type(plan_set), intent(inout) :: plans
-      complex(wp), contiguous, intent(inout) :: from(:, :), to(:, :)
-      integer :: n, many
+   !> Plans of a window of one row
+   subroutine get_line_plans(self)
+      type(fft_plan), intent(inout) :: self
+      integer :: n
 
-      n = size(from, 1)
-      many = size(from, 2)
+      n = self%px
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call plans%take(plan_kind%lines, many, n, 1)
-      if (.not. plans%is_kept) then
-         plans%plan(line_forward) = plan_complex(n, many, from, 1, n, to, 1, n, forwards)
-         plans%plan(line_backward) = plan_complex(n, many, from, 1, n, to, 1, n, backwards)
-         call plans%keep(plan_kind%lines, many, n, 1)
+      call self%line_plans%take(plan_kind%lines, 1, n, 1)
+      if (.not. self%line_plans%is_kept) then
+         self%line_plans%plan(line_forward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, forwards)
+         self%line_plans%plan(line_backward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, backwards)
+         call self%line_plans%keep(plan_kind%lines, 1, n, 1)
       end if
       !$omp end critical (contact_fft_planner)
    end subroutine get_line_plans
@@ -121,19 +133,15 @@ contains
       real(wp), contiguous, intent(in) :: field(:, :)
       !> Spectrum, shape (py, kx)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      integer :: k, l, n
+      integer :: k
 
       if (self%py == 1) then
-         call rows_forward(self, 1, 1, 1, 1, field, spectrum)
+         call transform_line(self, field, spectrum)
          return
       end if
-      call rows_forward(self, 1, 1, self%my, self%my, field, self%half)
-      n = size(self%column, 2)
-      do k = 1, self%kx, n
-         call columns_forward(self, 1, k, 1, 1, self%half)
-         do l = k, min(k + n - 1, self%kx)
-            spectrum(:, l) = self%column(:, l - k + 1, 2, 1)
-         end do
+      call transform_rows(self, 1, 1, self%my, self%my, field, self%half)
+      do k = 1, self%kx, columns_at_once
+         call transform_columns(self, 1, k, self%half, spectrum(:, k:))
       end do
    end subroutine transform_forward
 
@@ -143,20 +151,17 @@ contains
       complex(wp), contiguous, intent(in) :: spectrum(:, :)
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(inout) :: field(:, :)
-      integer :: k, l, n
+      integer :: k
 
       if (self%py == 1) then
-         call rows_backward(self, 1, 1, 1, 1, spectrum, field)
+         call transform_line_back(self, spectrum, field)
          return
       end if
-      n = size(self%column, 2)
-      do k = 1, self%kx, n
-         do l = k, min(k + n - 1, self%kx)
-            self%column(:, l - k + 1, 2, 1) = spectrum(:, l)
-         end do
-         call columns_backward(self, 1, k, 1, 1, self%half)
+      do k = 1, self%kx, columns_at_once
+         call four_columns_backward(self%columns%steps, self%columns%positions, self%columns%factors, self%my, &
+            & min(columns_at_once, self%kx + 1 - k), spectrum(:, k), self%half(1 + self%my*(k - 1)), self%work)
       end do
-      call rows_backward(self, 1, 1, self%my, self%my, self%half, field)
+      call transform_rows_back(self, 1, 1, self%my, self%my, self%half, field)
    end subroutine transform_backward
 
    !> Real or imaginary parts of a transform, those of opposite frequencies in y added
@@ -195,19 +200,27 @@ contains
       logical, intent(in) :: imaginary
       real(wp), intent(in) :: sign_y
       real(wp), intent(inout) :: spectrum(self%py, self%kx)
+      complex(wp) :: columns(self%py, columns_at_once)
       integer :: first, k, l, last
 
-      if (stage == 1) then
-         call find_share(self%my, 2*size(self%row, 2), t, threads, first, last)
-         call rows_forward(self, t, first, last, self%my, quarter, self%half)
+      if (self%py == 1) then
+         if (t > 1 .or. stage > 1) return
+         call transform_line(self, quarter, self%half)
+         do k = 1, self%kx
+            call fold(1, self%half(k), imaginary, sign_y, spectrum(:, k))
+         end do
          return
       end if
-      call find_share(self%kx, size(self%column, 2), t, threads, first, last)
-      do k = first, last, size(self%column, 2)
-         if (self%py > 1) call columns_forward(self, t, k, 1, 1, self%half)
-         do l = k, min(k + size(self%column, 2) - 1, last)
-            if (self%py == 1) self%column(1, l - k + 1, 2, t) = self%half(l)
-            call fold(self%py, self%column(:, l - k + 1, 2, t), imaginary, sign_y, spectrum(:, l))
+      if (stage == 1) then
+         call find_share(self%my, rows_at_once, t, threads, first, last)
+         call transform_rows(self, t, first, last, self%my, quarter, self%half)
+         return
+      end if
+      call find_share(self%kx, columns_at_once, t, threads, first, last)
+      do k = first, last, columns_at_once
+         call transform_columns(self, t, k, self%half, columns)
+         do l = k, min(k + columns_at_once - 1, last)
+            call fold(self%py, columns(:, l - k + 1), imaginary, sign_y, spectrum(:, l))
          end do
       end do
    end subroutine share_of_quarter
@@ -236,7 +249,13 @@ contains
       !> Product of the field and the kernel, same shape
       real(wp), contiguous, intent(inout) :: product(:, :)
 
-      call make_product(self, 1, field, product, kernel)
+      if (self%py == 1) then
+         call transform_line(self, field, self%half)
+         call multiply_one(self%kx, kernel, self%half)
+         call transform_line_back(self, self%half, product)
+      else
+         call make_product(self, 1, field, product, kernel)
+      end if
    end subroutine convolve
 
    subroutine convolve_pair(self, xx, yy, xy, fields, products, factor)
@@ -285,13 +304,13 @@ contains
       end do
    end subroutine make_product
 
-   !> Number of threads that share the lines; they have buffers
+   !> Number of threads that share the lines; they have workspace
    integer function threads_of(self) result(threads)
       type(fft_plan), intent(inout) :: self
 
       threads = 1
       !$ if (self%px*self%py > worth_threads) threads = omp_get_max_threads()
-      call fit_buffers(self, threads)
+      if (self%py > 1) call fit_workspace(self, threads)
    end function threads_of
 
    !> What falls to one of some threads
@@ -307,17 +326,13 @@ contains
       integer :: first, last
 
       if (stage == 2) then
-         call find_share(self%kx, size(self%column, 2), t, threads, first, last)
-         if (self%py > 1) then
-            call multiply_columns(self, t, first, last, n, xx, yy, xy, factor)
-         else if (t == 1) then
-            call multiply_one(self%kx, xx, self%half)
-         end if
+         call find_share(self%kx, columns_at_once, t, threads, first, last)
+         call multiply_columns(self, t, first, last, n, self%half, xx, yy, xy, factor)
          return
       end if
-      call find_share(n*self%my, 2*size(self%row, 2), t, threads, first, last)
-      if (stage == 1) call rows_forward(self, t, first, last, n*self%my, fields, self%half)
-      if (stage == 3) call rows_backward(self, t, first, last, n*self%my, self%half, products)
+      call find_share(n*self%my, rows_at_once, t, threads, first, last)
+      if (stage == 1) call transform_rows(self, t, first, last, n*self%my, fields, self%half)
+      if (stage == 3) call transform_rows_back(self, t, first, last, n*self%my, self%half, products)
    end subroutine share_of_stage
 
    !> Lines of a thread, in whole blocks that are transformed together
@@ -332,34 +347,104 @@ contains
    end subroutine find_share
 
    !> Transform columns first to last, multiply, and transform back
-   subroutine multiply_columns(self, t, first, last, n, xx, yy, xy, factor)
+   subroutine multiply_columns(self, t, first, last, n, half, xx, yy, xy, factor)
       type(fft_plan), intent(inout) :: self
       integer, intent(in) :: t, first, last, n
-      real(wp), contiguous, intent(in) :: xx(:, :)
-      real(wp), contiguous, intent(in), optional :: yy(:, :), xy(:, :)
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-      integer :: f, k, l
+      !> Rows of all fields after their transform
+      complex(wp), intent(inout) :: half(n*self%my, columns_at_once*blocks_of_columns(self))
+      real(wp), intent(in) :: xx(self%py, self%kx)
+      real(wp), intent(in), optional :: yy(self%py, self%kx), xy(self%py, self%kx)
+      complex(wp), intent(in), optional :: factor(self%kx)
+      integer :: columns, k
 
-      do k = first, last, size(self%column, 2)
-         do f = 1, n
-            call columns_forward(self, t, k, f, n, self%half)
+      associate (plan => self%columns)
+         do k = first, last, columns_at_once
+            columns = min(columns_at_once, last + 1 - k)
+            if (n == 1) then
+               call four_columns_one(plan%steps, plan%positions, plan%factors, self%my, columns, xx(:, k), half(:, k), &
+                  & self%work(:, t))
+            else if (present(factor)) then
+               call four_columns_two(plan%steps, plan%positions, plan%factors, self%my, columns, xx(:, k), yy(:, k), &
+                  & xy(:, k), factor(k:), half(:, k), self%work(:, t))
+            else
+               call four_columns_two(plan%steps, plan%positions, plan%factors, self%my, columns, xx(:, k), yy(:, k), &
+                  & xy(:, k), half=half(:, k), work=self%work(:, t))
+            end if
          end do
-         do l = k, min(k + size(self%column, 2) - 1, last)
-            associate (a => self%column(:, l - k + 1, 2, t), b => self%column(:, l - k + 1, 3, t))
-               if (n == 1) then
-                  call multiply_one(self%py, xx(:, l), a)
-               else if (present(factor)) then
-                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), factor(l), a, b)
-               else
-                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), a=a, b=b)
-               end if
-            end associate
-         end do
-         do f = 1, n
-            call columns_backward(self, t, k, f, n, self%half)
-         end do
-      end do
+      end associate
    end subroutine multiply_columns
+
+   !> Transform the columns that start at k
+   subroutine transform_columns(self, t, k, half, spectrum)
+      type(fft_plan), intent(inout) :: self
+      !> Thread
+      integer, intent(in) :: t, k
+      !> Rows of one field after their transform
+      complex(wp), intent(in) :: half(self%my, columns_at_once*blocks_of_columns(self))
+      !> Receives these columns
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+
+      call four_columns_forward(self%columns%steps, self%columns%positions, self%columns%factors, self%my, &
+         & min(columns_at_once, self%kx + 1 - k), half(:, k), spectrum, self%work(:, t))
+   end subroutine transform_columns
+
+   !> Transform rows first to last
+   subroutine transform_rows(self, t, first, last, rows, field, half)
+      type(fft_plan), intent(inout) :: self
+      !> Thread
+      integer, intent(in) :: t
+      !> The first is 1, 9, 17 ...; number of all rows
+      integer, intent(in) :: first, last, rows
+      real(wp), intent(in) :: field(self%mx, rows)
+      !> Rows after their transform
+      complex(wp), intent(inout) :: half(columns_at_once, rows, blocks_of_columns(self))
+      integer :: iy
+
+      do iy = first, last, rows_at_once
+         call four_rows_forward(self%rows%steps, self%rows%positions, self%rows%factors, self%mx, &
+            & min(rows_at_once, rows + 1 - iy), rows, field(:, iy), half(1, iy, 1), self%work(:, t))
+      end do
+   end subroutine transform_rows
+
+   !> Transform rows first to last back
+   subroutine transform_rows_back(self, t, first, last, rows, half, field)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: t, first, last, rows
+      complex(wp), intent(in) :: half(columns_at_once, rows, blocks_of_columns(self))
+      real(wp), intent(inout) :: field(self%mx, rows)
+      integer :: iy
+
+      do iy = first, last, rows_at_once
+         call four_rows_backward(self%rows%steps, self%rows%positions, self%rows%factors, self%mx, &
+            & min(rows_at_once, rows + 1 - iy), rows, half(1, iy, 1), field(:, iy), self%work(:, t))
+      end do
+   end subroutine transform_rows_back
+
+   !> Transform a window of one row
+   subroutine transform_line(self, field, spectrum)
+      type(fft_plan), intent(inout) :: self
+      real(wp), intent(in) :: field(self%mx)
+      complex(wp), intent(inout) :: spectrum(self%kx)
+
+      self%line(:self%mx, 1) = field
+      call execute_complex(self%line_plans%plan(line_forward), self%line(:, 1), self%line(:, 2))
+      spectrum = self%line(:self%kx, 2)
+   end subroutine transform_line
+
+   !> The same back, from a spectrum of real values
+   subroutine transform_line_back(self, spectrum, field)
+      type(fft_plan), intent(inout) :: self
+      complex(wp), intent(in) :: spectrum(self%kx)
+      real(wp), intent(inout) :: field(self%mx)
+      integer :: k
+
+      self%line(:self%kx, 2) = spectrum
+      do k = 2, (self%px + 1)/2
+         self%line(self%px + 2 - k, 2) = conjg(spectrum(k))
+      end do
+      call execute_complex(self%line_plans%plan(line_backward), self%line(:, 2), self%line(:, 3))
+      field = self%line(:self%mx, 3)%re
+   end subroutine transform_line_back
 
    !> Product of two fields on a window of one row: their transform need not be separated
    subroutine multiply_lines(self, fields, products, xx, yy, xy, factor)
@@ -370,111 +455,20 @@ contains
       complex(wp), contiguous, intent(in), optional :: factor(:)
       integer :: ix
 
-      associate (row => self%row(:, 1, 1, 1), done => self%row(:, 1, 2, 1), back => self%row(:, 1, 3, 1))
+      associate (row => self%line(:, 1), done => self%line(:, 2), back => self%line(:, 3))
          do ix = 1, self%mx
             row(ix) = cmplx(fields(ix, 1), fields(ix, 2), wp)
          end do
-         call execute_complex(self%rows%plan(line_forward), row, done)
+         call execute_complex(self%line_plans%plan(line_forward), row, done)
          call multiply_two(self%px, xx, yy, xy, done)
          if (present(factor)) call turn_two(self%px, factor, done)
-         call execute_complex(self%rows%plan(line_backward), done, back)
+         call execute_complex(self%line_plans%plan(line_backward), done, back)
          do ix = 1, self%mx
             products(ix, 1) = back(ix)%re
             products(ix, 2) = back(ix)%im
          end do
       end associate
    end subroutine multiply_lines
-
-   !> Transform rows first to last, two at once
-   subroutine rows_forward(self, t, first, last, rows, field, half)
-      type(fft_plan), intent(inout) :: self
-      !> Thread
-      integer, intent(in) :: t
-      !> The first is odd; number of all rows
-      integer, intent(in) :: first, last, rows
-      real(wp), intent(in) :: field(self%mx, rows)
-      !> Rows after their transform
-      complex(wp), intent(inout) :: half(rows, self%kx)
-      integer :: iy, jy, ix, l
-
-      associate (row => self%row(:, :, 1, t))
-         do iy = first, last, 2*size(row, 2)
-            do l = 1, size(row, 2)
-               jy = iy + 2*(l - 1)
-               if (jy < rows) then
-                  do ix = 1, self%mx
-                     row(ix, l) = cmplx(0.5_wp*field(ix, jy), 0.5_wp*field(ix, jy + 1), wp)
-                  end do
-               else
-                  ! an odd last row has no partner
-                  row(:self%mx, l) = 0.0_wp
-                  if (jy == rows) row(:self%mx, l)%re = 0.5_wp*field(:, jy)
-               end if
-            end do
-            call execute_complex(self%rows%plan(line_forward), row, self%row(:, :, 2, t))
-            do l = 1, size(row, 2)
-               jy = iy + 2*(l - 1)
-               if (jy <= rows) call separate_rows(self%px, self%row(:, l, 2, t), rows, jy, half)
-            end do
-         end do
-      end associate
-   end subroutine rows_forward
-
-   !> Transform rows first to last back, two at once
-   subroutine rows_backward(self, t, first, last, rows, half, field)
-      type(fft_plan), intent(inout) :: self
-      integer, intent(in) :: t, first, last, rows
-      complex(wp), intent(in) :: half(rows, self%kx)
-      real(wp), intent(inout) :: field(self%mx, rows)
-      integer :: iy, jy, ix, l
-
-      associate (row => self%row(:, :, 3, t))
-         do iy = first, last, 2*size(row, 2)
-            do l = 1, size(row, 2)
-               jy = iy + 2*(l - 1)
-               if (jy <= rows) call put_together(self%px, rows, jy, half, self%row(:, l, 2, t))
-            end do
-            call execute_complex(self%rows%plan(line_backward), self%row(:, :, 2, t), row)
-            do l = 1, size(row, 2)
-               jy = iy + 2*(l - 1)
-               if (jy > rows) exit
-               do ix = 1, self%mx
-                  field(ix, jy) = row(ix, l)%re
-               end do
-               if (jy == rows) exit
-               do ix = 1, self%mx
-                  field(ix, jy + 1) = row(ix, l)%im
-               end do
-            end do
-         end do
-      end associate
-   end subroutine rows_backward
-
-   !> Transform the columns of the block that starts at k, of field f of n
-   subroutine columns_forward(self, t, k, f, n, half)
-      type(fft_plan), intent(inout) :: self
-      integer, intent(in) :: t, k, f, n
-      complex(wp), intent(in) :: half(self%my, n, self%kx)
-      integer :: l
-
-      do l = k, min(k + size(self%column, 2) - 1, self%kx)
-         call copy(self%my, half(:, f, l), self%column(:, l - k + 1, 1, t))
-      end do
-      call execute_complex(self%columns%plan(line_forward), self%column(:, :, 1, t), self%column(:, :, 1 + f, t))
-   end subroutine columns_forward
-
-   !> Transform the columns back
-   subroutine columns_backward(self, t, k, f, n, half)
-      type(fft_plan), intent(inout) :: self
-      integer, intent(in) :: t, k, f, n
-      complex(wp), intent(inout) :: half(self%my, n, self%kx)
-      integer :: l
-
-      call execute_complex(self%columns%plan(line_backward), self%column(:, :, 1 + f, t), self%column(:, :, 4, t))
-      do l = k, min(k + size(self%column, 2) - 1, self%kx)
-         call copy(self%my, self%column(:, l - k + 1, 4, t), half(:, f, l))
-      end do
-   end subroutine columns_backward
 
    !> Spectrum of a full period of real values
    subroutine kernel_spectrum(period, spectrum)
@@ -492,9 +486,10 @@ contains
    subroutine release_plan(self)
       class(fft_plan), intent(inout) :: self
 
-      call self%rows%release()
-      call self%columns%release()
+      call self%line_plans%release()
       self%mx = 0
-      if (allocated(self%half)) deallocate(self%half, self%row, self%column)
+      if (allocated(self%half)) deallocate(self%half)
+      if (allocated(self%work)) deallocate(self%work)
+      if (allocated(self%line)) deallocate(self%line)
    end subroutine release_plan
 end module contact_fft_plan

@@ -4,10 +4,13 @@ module contact_fft_sizes
    implicit none (type, external)
    private
 
-   public :: fast_size, good_size, largest_fast_size
+   public :: fast_line_size, fast_size, good_size, largest_fast_size
 
    !> Windows whose padded sides are not longer are small
    integer, parameter :: largest_fast_size = 128
+   !> Longer lengths that are transformed fast by four_lines, by measurement: no longer length takes less time
+   integer, parameter :: long_lengths(*) = [144, 160, 192, 200, 216, 256, 288, 320, 384, 400, 432, 512, 576, 640, 648, 720, &
+      & 768, 800, 864, 960, 1024, 1152, 1280, 1296, 1536, 1600, 1728, 2048, 2304, 2400, 2560]
 
 contains
 
@@ -33,15 +36,29 @@ contains
       end do
    end function good_size
 
-   !> Even length of at least n that is transformed quickly, or 1 for n <= 1
+   !> Even length of at least n that is transformed quickly in windows of several rows, or 1 for n <= 1
    pure integer function fast_size(n)
       !> Number of points that are needed, with those of the padding
       integer, intent(in) :: n
 
-      if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
+      if (n > long_lengths(size(long_lengths))) then
          fast_size = good_size(n)
+      else if (n > largest_fast_size) then
+         fast_size = minval(long_lengths, long_lengths >= n)
       else
-         fast_size = minval(fast_lengths, fast_lengths >= n)
+         fast_size = fast_line_size(n)
       end if
    end function fast_size
+
+   !> The same for a window of one row, which the library transforms
+   pure integer function fast_line_size(n)
+      !> Number of points that are needed, with those of the padding
+      integer, intent(in) :: n
+
+      if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
+         fast_line_size = good_size(n)
+      else
+         fast_line_size = minval(fast_lengths, fast_lengths >= n)
+      end if
+   end function fast_line_size
 end module contact_fft_sizes

@@ -569,7 +569,36 @@ contains
       call stress_invariants(s, hyd, vm, tr, s1, s2, s3)
       call suite%close_to([hyd, vm, tr, s1, s2, s3], [0.0_wp, 5.0_wp*sqrt(3.0_wp), 10.0_wp, 5.0_wp, 0.0_wp, -5.0_wp], 1e-14_wp, &
          & "pure shear")
+      call groups_of_points(suite)
    end subroutine invariants
+
+   !> Points are processed four at once: each gets what it gets alone, and one that is undefined remains so
+   subroutine groups_of_points(suite)
+      use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
+      type(test_suite), intent(inout) :: suite
+      integer, parameter :: n = 7
+      real(wp) :: s(6, n), hyd(n), vm(n), tr(n), s1(n), s2(n), s3(n)
+      integer :: k
+
+      do k = 1, n
+         s(:, k) = 10.0_wp**(40*(k - 4))*[2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 2.0_wp]
+      end do
+      s(:, 3) = 0.0_wp
+      s(:, 5) = [1.0_wp, 0.3_wp, -0.2_wp, 4.0_wp, 0.7_wp, -3.0_wp]
+      call stress_invariants(s, hyd, vm, tr, s1, s2, s3)
+      do k = 1, n
+         call suite%check(all(abs([s1(k), s2(k), s3(k)] - principal_stresses(s(:, k))) <= 0.0_wp), "alone and with others")
+         if (k == 3 .or. k == 5) cycle
+         call suite%close_to([s1(k), s2(k), s3(k)]/s(2, k), [4.0_wp, 1.0_wp, 1.0_wp], 4e-15_wp, "any magnitude")
+      end do
+      ! sums of the principal values and of their products in pairs
+      call suite%close_to([s1(5) + s2(5) + s3(5), s1(5)*s2(5) + s2(5)*s3(5) + s3(5)*s1(5)], &
+         & [2.0_wp, 4.0_wp - 12.0_wp - 3.0_wp - 0.3_wp**2 - 0.2_wp**2 - 0.7_wp**2], 2e-14_wp, "general")
+      s(2, 2) = ieee_value(1.0_wp, ieee_quiet_nan)
+      call stress_invariants(s, hyd, vm, tr, s1, s2, s3)
+      call suite%check(all(ieee_is_nan([vm(2), tr(2), s1(2), s2(2), s3(2)])), "undefined")
+      call suite%check(.not. any(ieee_is_nan([s1(1), s1(3), s1(4)])), "others remain defined")
+   end subroutine groups_of_points
 
    !> Hooke's law, written anew
    pure function stress_of(du, gg, nu) result(s)

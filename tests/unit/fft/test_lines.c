@@ -7,22 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest line, rows, and complex numbers of a buffer, one more of which on either side must stay as it is */
-enum { LONGEST = 19, ROWS = 5, ROOM = LONGEST * ROWS, GUARD = 1 };
+/* Longest line, one more number of which on either side must stay as it is */
+enum { LONGEST = 19, ROOM = LONGEST, GUARD = 1 };
 
 typedef struct {
   double complex a[ROOM + 2 * GUARD], b[ROOM + 2 * GUARD];
 } buffers;
 
 typedef struct {
-  void (*block)(int, const double *, const double *, const double *, const double *, double *, double *);
   void (*one)(int, const double *, double *);
   void (*turn)(int, const double *, double *);
   void (*opposites)(int, const double *, const double *, const double *, double *, double *);
   void (*pair)(int, const double *, const double *, const double *, double *);
   void (*turn_pair)(int, const double *, double *);
-  void (*apart)(int, const double *, size_t, double *);
-  void (*together)(int, size_t, const double *, double *);
 } loops;
 
 static double complex turned, factor[LONGEST];
@@ -37,23 +34,19 @@ static double complex any_complex(void) {
 
 static double *reals(double complex *z) { return (double *)z; }
 
-enum { BLOCK, TURNED_BLOCK, ONE, TURN, OPPOSITES, PAIR, TURN_PAIR, APART, TOGETHER, KINDS };
+enum { ONE, TURN, OPPOSITES, PAIR, TURN_PAIR, KINDS };
 
 /* What is tried, with n numbers; true if it takes a line of that length, as those of real rows are even or 1 */
 static int takes(int kind, int n) { return kind < PAIR || n == 1 || n % 2 == 0; }
 
 static void try_loop(const loops *l, int kind, int n, buffers *z) {
-  double *a = reals(z->a + GUARD), *b = reals(z->b + GUARD), *row = reals(z->a + GUARD + 2);
+  double *a = reals(z->a + GUARD), *b = reals(z->b + GUARD);
   switch (kind) {
-    case BLOCK: l->block(n, xx, yy, xy, NULL, a, b); break;
-    case TURNED_BLOCK: l->block(n, xx, yy, xy, reals(&turned), a, b); break;
     case ONE: l->one(n, xx, a); break;
     case TURN: l->turn(n, reals(&turned), a); break;
     case OPPOSITES: l->opposites(n, xx, yy, xy, a, b); break;
     case PAIR: l->pair(n, xx, yy, xy, a); break;
-    case TURN_PAIR: l->turn_pair(n, reals(factor), a); break;
-    case APART: l->apart(n, b, 2 * ROWS, row); break;
-    default: l->together(n, 2 * ROWS, row, b); break;
+    default: l->turn_pair(n, reals(factor), a); break;
   }
 }
 
@@ -61,16 +54,10 @@ static void try_loop(const loops *l, int kind, int n, buffers *z) {
 static void define(int kind, int n, buffers *z) {
   const buffers from = *z;
   const double complex *a = from.a + GUARD, *b = from.b + GUARD;
-  double complex *to_a = z->a + GUARD, *to_b = z->b + GUARD, *row = z->a + GUARD + 2;
-  const double complex factor_of_all = kind == TURNED_BLOCK ? turned : 1.0;
+  double complex *to_a = z->a + GUARD, *to_b = z->b + GUARD;
   for (int k = 0; k < n; k++) {
     const int back = (n - k) % n, at = k <= n / 2 ? k : back;
     switch (kind) {
-      case BLOCK:
-      case TURNED_BLOCK:
-        to_a[k] = factor_of_all * (xx[k] * a[k] + xy[k] * b[k]);
-        to_b[k] = factor_of_all * (xy[k] * a[k] + yy[k] * b[k]);
-        break;
       case ONE: to_a[k] = xx[k] * a[k]; break;
       case TURN: to_a[k] = turned * a[k]; break;
       case OPPOSITES:
@@ -78,16 +65,7 @@ static void define(int kind, int n, buffers *z) {
         to_b[n - 1 - k] = xx[k] * b[n - 1 - k] + (yy[k] + I * xy[k]) * conj(a[k]);
         break;
       case PAIR: to_a[k] = 0.5 * (xx[at] + yy[at]) * a[k] + (0.5 * (xx[at] - yy[at]) + I * xy[at]) * conj(a[back]); break;
-      case TURN_PAIR: to_a[k] = (at == k ? factor[at] : conj(factor[at])) * a[k]; break;
-      case APART:
-        if (k == 0 || k > n / 2) break;
-        row[ROWS * k] = b[k] + conj(b[back]);
-        row[ROWS * k + 1] = (b[k] - conj(b[back])) / I;
-        break;
-      default:
-        if (k == 0 || 2 * k == n) break;
-        to_b[k] = at == k ? a[2 + ROWS * at] + I * a[3 + ROWS * at] : conj(a[2 + ROWS * at]) + I * conj(a[3 + ROWS * at]);
-        break;
+      default: to_a[k] = (at == k ? factor[at] : conj(factor[at])) * a[k]; break;
     }
   }
 }
@@ -102,11 +80,10 @@ static int differences(const buffers *found, const buffers *right) {
 }
 
 int main(void) {
-  const loops anywhere = {block_anywhere, one_anywhere, turn_anywhere, opposites_anywhere,
-                          pair_anywhere, turn_pair_anywhere, apart_anywhere, together_anywhere};
+  const loops anywhere = {one_anywhere, turn_anywhere, opposites_anywhere, pair_anywhere, turn_pair_anywhere};
   int wrong = 0, unlike = 0, tried = 0, wide = 0;
 #ifdef __x86_64__
-  const loops avx2 = {block_avx2, one_avx2, turn_avx2, opposites_avx2, pair_avx2, turn_pair_avx2, apart_avx2, together_avx2};
+  const loops avx2 = {one_avx2, turn_avx2, opposites_avx2, pair_avx2, turn_pair_avx2};
   wide = __builtin_cpu_supports("avx2");
 #endif
   for (int n = 1; n < LONGEST; n++)

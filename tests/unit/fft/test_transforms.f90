@@ -7,9 +7,10 @@ program transforms
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    type(test_suite) :: suite
-   !> Windows and padded windows: squares, lines, odd lengths, primes
-   integer, parameter :: sizes(4, 6) = reshape([3, 5, 6, 10, 8, 8, 16, 16, 1, 7, 1, 14, 9, 1, 18, 1, 6, 11, 14, 22, 13, 4, 26, 9], &
-      & [4, 6])
+   !> Windows and padded windows: squares, lines, odd lengths, primes; all factors of lengths first and last, more and less than
+   !> half a line, incomplete groups of rows and columns
+   integer, parameter :: sizes(4, 13) = reshape([3, 5, 6, 10, 8, 8, 16, 16, 1, 7, 1, 14, 9, 1, 18, 1, 6, 11, 14, 22, 13, 4, 26, 9, &
+      & 20, 17, 40, 35, 31, 24, 64, 48, 50, 11, 64, 30, 12, 9, 90, 72, 30, 3, 30, 8, 9, 12, 50, 27, 5, 16, 24, 32], [4, 13])
    !> Round-off of sums of some hundred terms of order one
    real(wp), parameter :: tolerance = 2.0e-13_wp
    integer :: k
@@ -78,6 +79,7 @@ contains
       call suite%close_to(maxval(abs(kernel - spectrum)), 0.0_wp, tolerance*mx*my, "kernel " // name)
       call plan%backward(spectrum, back)
       call suite%close_to(maxval(abs(back/(real(px, wp)*py) - field)), 0.0_wp, tolerance, "back again " // name)
+      call compare_products(plan, field, spectrum, name)
       call plan%release()
 
       ! differences of two fields need two columns of padding
@@ -101,4 +103,49 @@ contains
          & "second field " // name)
       call pair%release()
    end subroutine compare
+
+   !> Products with kernels, whose spectra are real and even, are those of the spectra
+   subroutine compare_products(plan, field, spectrum, name)
+      type(fft_plan), intent(inout) :: plan
+      !> A field and its spectrum
+      real(wp), contiguous, intent(in) :: field(:, :)
+      complex(wp), contiguous, intent(in) :: spectrum(:, :)
+      character(len=*), intent(in) :: name
+      real(wp), allocatable :: block(:, :, :), expected(:, :), fields(:, :, :), products(:, :, :)
+      complex(wp), allocatable :: factor(:), other(:, :), turned(:, :)
+      real(wp) :: angle
+      integer :: k, l, n
+
+      allocate(block(plan%py, plan%kx, 3), factor(plan%kx), other(plan%py, plan%kx), expected(plan%mx, plan%my))
+      do k = 1, plan%kx
+         factor(k) = exp(cmplx(0.0_wp, 2.0_wp*pi*(k - 1)/plan%px, wp))
+         do l = 1, plan%py
+            angle = 2.0_wp*pi*(l - 1)/plan%py
+            block(l, k, :) = [2.0_wp + cos(angle)/k, 3.0_wp + cos(2.0_wp*angle)/k, 0.5_wp/k + 0.1_wp*cos(3.0_wp*angle)]
+         end do
+      end do
+      allocate(fields(plan%mx, plan%my, 2), products(plan%mx, plan%my, 2))
+      fields(:, :, 1) = field
+      fields(:, :, 2) = 1.0_wp - field**2
+      call plan%forward(fields(:, :, 2), other)
+      turned = block(:, :, 1)*spectrum
+      call plan%backward(turned, expected)
+      call plan%convolve(block(:, :, 1), field, products(:, :, 1))
+      call suite%close_to(maxval(abs(products(:, :, 1) - expected))/maxval(abs(expected)), 0.0_wp, tolerance, "product " // name)
+      do n = 1, 4
+         ! with and without a factor, both fields
+         turned = block(:, :, merge(1, 3, n < 3))*spectrum + block(:, :, merge(3, 2, n < 3))*other
+         if (mod(n, 2) == 0) then
+            do k = 1, plan%kx
+               turned(:, k) = factor(k)*turned(:, k)
+            end do
+            call plan%convolve_pair(block(:, :, 1), block(:, :, 2), block(:, :, 3), fields, products, factor)
+         else
+            call plan%convolve_pair(block(:, :, 1), block(:, :, 2), block(:, :, 3), fields, products)
+         end if
+         call plan%backward(turned, expected)
+         call suite%close_to(maxval(abs(products(:, :, merge(1, 2, n < 3)) - expected))/maxval(abs(expected)), 0.0_wp, tolerance, &
+            & "product of two " // name)
+      end do
+   end subroutine compare_products
 end program transforms
