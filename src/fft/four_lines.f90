@@ -48,9 +48,11 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_rows_forward")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the rows, their number, 8 at most, and that of all rows
          integer(c_int), value :: mx, rows, all_rows
@@ -59,7 +61,7 @@ module contact_fft_four_lines
          !> Receives their transforms, shape (4, all_rows, (px/2 + 4)/4), from the first of them on: real parts of four
          !> frequencies, and their imaginary parts
          complex(c_double_complex), intent(inout) :: half(*)
-         !> Of work_size
+         !> Workspace, of work_size
          real(c_double), intent(inout) :: work(*)
       end subroutine four_rows_forward
 
@@ -68,9 +70,11 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_rows_backward")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the rows, their number, 8 at most, and that of all rows
          integer(c_int), value :: mx, rows, all_rows
@@ -85,15 +89,19 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_columns_forward")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the columns, and their number, 4 at most
          integer(c_int), value :: my, columns
-         !> From the first of these columns on
+         !> Rows after their transform, as in four_rows_forward, from the first of these columns on
          complex(c_double_complex), intent(in) :: half(*)
+         !> Receives these columns of the spectrum, shape (py, columns)
          complex(c_double_complex), intent(inout) :: spectrum(*)
+         !> Workspace, of work_size
          real(c_double), intent(inout) :: work(*)
       end subroutine four_columns_forward
 
@@ -102,15 +110,19 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_columns_backward")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the columns, and their number, 4 at most
          integer(c_int), value :: my, columns
-         !> From the first of these columns on
+         !> These columns of the spectrum, shape (py, columns)
          complex(c_double_complex), intent(in) :: spectrum(*)
+         !> Receives rows before their transform back, from the first of these columns on
          complex(c_double_complex), intent(inout) :: half(*)
+         !> Workspace, of work_size
          real(c_double), intent(inout) :: work(*)
       end subroutine four_columns_backward
 
@@ -119,15 +131,19 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_columns_one")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the columns, and their number, 4 at most
          integer(c_int), value :: my, columns
-         !> From the first of these columns on
+         !> Spectrum of the kernel, shape (py, columns)
          real(c_double), intent(in) :: xx(*)
+         !> Rows after their transform, from the first of these columns on; on exit before their transform back
          complex(c_double_complex), intent(inout) :: half(*)
+         !> Workspace, of work_size
          real(c_double), intent(inout) :: work(*)
       end subroutine four_columns_one
 
@@ -136,17 +152,21 @@ module contact_fft_four_lines
          & bind(c, name="contact_four_columns_two")
          import :: c_double, c_double_complex, c_int, line_steps
          implicit none (type, external)
-         !> Components of line_factors for the padded length
+         !> Steps for the padded length
          type(line_steps), intent(in) :: steps
+         !> Positions of the frequencies
          integer(c_int), intent(in) :: positions(*)
+         !> Factors between the steps
          complex(c_double_complex), intent(in) :: factors(*)
          !> Length of the columns, and their number, 4 at most
          integer(c_int), value :: my, columns
-         !> From the first of these columns on
+         !> Spectra of the block, shape (py, columns)
          real(c_double), intent(in) :: xx(*), yy(*), xy(*)
          !> Scalar for each column; absent: 1
          complex(c_double_complex), intent(in), optional :: turn(*)
+         !> Rows of both fields after their transform, from the first of these columns on; on exit before their transform back
          complex(c_double_complex), intent(inout) :: half(*)
+         !> Workspace, of work_size
          real(c_double), intent(inout) :: work(*)
       end subroutine four_columns_two
    end interface
@@ -164,6 +184,7 @@ contains
 
    subroutine prepare(self, n)
       class(line_factors), intent(inout) :: self
+      !> Length
       integer, intent(in) :: n
       complex(wp) :: roots(0:n - 1)
       integer :: at, j, k, length, p, r
