@@ -7,7 +7,7 @@ program test_falling_friction
    use contact_base_choices, only : motion, time_link
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, part_source
-   use contact_test_case_builder, only : creep, grid_case, test_case
+   use contact_test_case_builder, only : creep, grid_case, start_case, test_case
    use contact_test_harness, only : test_suite
    use contact_friction_new_law, only : friction_model
    implicit none (type, external)
@@ -26,15 +26,15 @@ program test_falling_friction
 contains
 
    !> One element, transient rolling
-   type(test_case) function element_case(wx) result(case)
+   type(case_spec) function element_case(wx) result(spec)
       !> Rigid slip in a step [mm]
       real(wp), intent(in) :: wx
 
-      case%spec = grid_case(0.01_wp, 0.01_wp, 10.0_wp, 1, 1, 0.5_wp, 0.5_wp)
-      call creep(case%spec, motion%transient_rolling, wx/step)
-      case%spec%rolling%dq = step
-      case%spec%rolling%veloc = veloc
-      case%spec%iteration%maxin = 1000
+      spec = grid_case(0.01_wp, 0.01_wp, 10.0_wp, 1, 1, 0.5_wp, 0.5_wp)
+      call creep(spec, motion%transient_rolling, wx/step)
+      spec%rolling%dq = step
+      spec%rolling%veloc = veloc
+      spec%iteration%maxin = 1000
    end function element_case
 
    !> Compliance and pressure from a case that sticks
@@ -42,7 +42,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
 
-      case = element_case(1.0e-6_wp)
+      call start_case(case, element_case(1.0e-6_wp))
       case%spec%friction%sets(1)%fstat = 10.0_wp
       call case%run(suite, "sticking")
       pressure = case%result%pn(1, 1)
@@ -73,7 +73,7 @@ contains
          do k = 1, 9
             factor = 0.35_wp + 0.05_wp*k
             w = compliance*pressure*factor
-            case = element_case(w)
+            call start_case(case, element_case(w))
             case%spec%friction_law = friction_model%linear
             case%spec%friction%sets(1) = falling(2.0_wp)
             case%spec%friction%memdst = 0.0_wp
@@ -99,7 +99,7 @@ contains
       w = 0.35_wp*compliance*pressure
       slip = w - 0.2_wp*compliance*pressure
       do start = -1, 1
-         case = element_case(w)
+         call start_case(case, element_case(w))
          case%spec%friction_law = friction_model%linear
          case%spec%friction%sets(1) = falling(0.5_wp)
          call suite%check(slip > 2.0_wp*case%spec%friction%sets(1)%sabsh1*dt, "sliding is a solution")

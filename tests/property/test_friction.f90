@@ -10,7 +10,7 @@ program test_friction
    use contact_friction_law, only : friction_law, friction_set
    use contact_friction_new_law, only : friction_model, new_friction_law
    use contact_grid_element_division, only : element
-   use contact_test_case_builder, only : creep, forces, grid_case, test_case
+   use contact_test_case_builder, only : creep, forces, grid_case, start_case, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    integer, parameter :: laws(3) = [friction_model%linear, friction_model%rational, friction_model%exponential]
@@ -34,16 +34,16 @@ program test_friction
 contains
 
    !> Rolling sphere, partly slipping
-   type(test_case) function rolling_case(kind) result(case)
+   type(case_spec) function rolling_case(kind) result(spec)
       !> Member of motion
       integer, intent(in) :: kind
 
-      case%spec = grid_case(0.005_wp, 0.007_wp, 40.0_wp, 18, 15, 0.15_wp, 0.17_wp, eps=1.0e-8_wp)
-      case%spec%material%gg = 8.0e2_wp
-      call creep(case%spec, kind, 0.004_wp, 0.001_wp, 0.0008_wp, mu=0.3_wp)
-      case%spec%rolling%veloc = 2.0e4_wp
-      case%spec%iteration%maxin = 500
-      case%spec%iteration%omgslp = 1.0_wp
+      spec = grid_case(0.005_wp, 0.007_wp, 40.0_wp, 18, 15, 0.15_wp, 0.17_wp, eps=1.0e-8_wp)
+      spec%material%gg = 8.0e2_wp
+      call creep(spec, kind, 0.004_wp, 0.001_wp, 0.0008_wp, mu=0.3_wp)
+      spec%rolling%veloc = 2.0e4_wp
+      spec%iteration%maxin = 500
+      spec%iteration%omgslp = 1.0_wp
    end function rolling_case
 
    !> Parameters that fall by a third over slip velocities of these cases
@@ -85,15 +85,13 @@ contains
       set%fkin = 0.3_wp
       do kind = motion%shift, motion%steady_rolling
          do n = 0, 2
-            call plain%release()
-            plain = rolling_case(kind)
+            call start_case(plain, rolling_case(kind))
             if (kind == motion%shift) plain%spec%kinematics%cphi = 1.0e-4_wp
             if (n == 1) call forces(plain%spec, -0.6_wp)
             if (n == 2) call forces(plain%spec, -0.5_wp, 0.3_wp)
             call plain%run(suite, "Coulomb")
             do k = 1, size(laws)
-               call case%release()
-               case = test_case(plain%spec)
+               call start_case(case, plain%spec)
                call give_law(case, laws(k), set)
                case%spec%friction%memdst = 0.01_wp*(k - 1)
                call case%run(suite, "no strength")
@@ -104,8 +102,7 @@ contains
          end do
       end do
       set%dfheat = 0.0_wp
-      call case%release()
-      case = test_case(plain%spec)
+      call start_case(case, plain%spec)
       call give_law(case, friction_model%temperature, set)
       call give_heat(case)
       call case%run(suite, "no strength")
@@ -124,14 +121,12 @@ contains
 
       choice = [friction_model%coulomb, laws, friction_model%temperature]
       do k = 1, size(choice)
-         call one%release()
-         one = rolling_case(motion%steady_rolling)
+         call start_case(one, rolling_case(motion%steady_rolling))
          call give_law(one, choice(k), falling())
          one%spec%friction%memdst = 0.05_wp
          call give_heat(one)
          call one%run(suite, "one set")
-         call many%release()
-         many = test_case(one%spec)
+         call start_case(many, one%spec)
          many%spec%friction%sets = spread(one%spec%friction%sets(1), 1, 15)
          call many%run(suite, "a set per row")
          call suite%close_to([many%result%px], [one%result%px], 1.0e-10_wp*one%result%pmax, "rows of one kind")
@@ -154,8 +149,7 @@ contains
       do kind = motion%transient_rolling, motion%steady_rolling
          do n = 0, 2
             do k = 1, size(laws)
-               call case%release()
-               case = rolling_case(kind)
+               call start_case(case, rolling_case(kind))
                call give_law(case, laws(k), falling())
                if (n == 1) call forces(case%spec, -0.55_wp)
                if (n == 2) call forces(case%spec, -0.4_wp, 0.2_wp)
@@ -187,7 +181,7 @@ contains
       type(test_case) :: one, two
       integer :: iy
 
-      one = rolling_case(motion%steady_rolling)
+      call start_case(one, rolling_case(motion%steady_rolling))
       call give_law(one, friction_model%rational, falling())
       one%spec%friction%sets = spread(one%spec%friction%sets(1), 1, 15)
       one%spec%friction%sets%coef1 = [(0.005_wp*iy, iy=1, 15)]
@@ -195,7 +189,7 @@ contains
       one%spec%friction%memdst = 0.02_wp
       call give_heat(one)
       call one%run(suite, "rows")
-      two = test_case(one%spec)
+      call start_case(two, one%spec)
       two%spec%friction%sets = one%spec%friction%sets(15:1:-1)
       two%spec%kinematics%ceta = -one%spec%kinematics%ceta
       two%spec%kinematics%cphi = -one%spec%kinematics%cphi
@@ -217,16 +211,14 @@ contains
       integer :: k
 
       do k = 1, 2
-         call one%release()
-         one = rolling_case(motion%steady_rolling)
+         call start_case(one, rolling_case(motion%steady_rolling))
          call give_law(one, merge(friction_model%exponential, friction_model%temperature, k == 1), falling())
          one%spec%friction%sets%tref = 30.0_wp
          one%spec%friction%sets%dtheat = 20.0_wp
          one%spec%friction%memdst = 0.03_wp
          call give_heat(one)
          call one%run(suite, "forward")
-         call two%release()
-         two = test_case(one%spec)
+         call start_case(two, one%spec)
          two%spec%rolling%chi = pi
          two%spec%kinematics%cksi = -one%spec%kinematics%cksi
          two%spec%kinematics%cphi = -one%spec%kinematics%cphi
@@ -249,8 +241,7 @@ contains
       integer :: kind, method
 
       do kind = motion%shift, motion%steady_rolling
-         call one%release()
-         one = rolling_case(kind)
+         call start_case(one, rolling_case(kind))
          call give_law(one, friction_model%rational, falling())
          if (kind == motion%shift) then
             one%spec%friction%sets%sabsh1 = 0.004_wp
@@ -259,8 +250,7 @@ contains
          end if
          call one%run(suite, "Newton-Krylov")
          do method = solver_choice%convex_gs, solver_choice%gauss_seidel
-            call two%release()
-            two = test_case(one%spec)
+            call start_case(two, one%spec)
             two%spec%solver = method
             two%spec%classical = .true.
             two%spec%iteration%omegah = 0.7_wp
@@ -279,7 +269,7 @@ contains
       type(test_case) :: case
       integer :: iy
 
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       case%spec%kinematics%cksi = 0.2_wp
       case%spec%kinematics%cphi = 0.0_wp
       case%spec%friction%sets = spread(case%spec%friction%sets(1), 1, 15)
@@ -306,8 +296,7 @@ contains
       set%tref = 25.0_wp
       do k = 0, 2
          set%dtheat = 30.0_wp/10**k
-         call case%release()
-         case = rolling_case(motion%steady_rolling)
+         call start_case(case, rolling_case(motion%steady_rolling))
          case%spec%kinematics%cksi = 0.05_wp
          call give_law(case, friction_model%temperature, set)
          call give_heat(case)
@@ -331,13 +320,12 @@ contains
       type(test_case) :: case
       real(wp) :: cold
 
-      case = rolling_case(motion%none)
+      call start_case(case, rolling_case(motion%none))
       call give_heat(case)
       call case%run(suite, "no motion")
       call suite%close_to([case%result%temp1], spread(20.0_wp, 1, 270), 0.0_wp, "bulk temperature 1")
       call suite%close_to([case%result%temp2], spread(60.0_wp, 1, 270), 0.0_wp, "bulk temperature 2")
-      call case%release()
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       call give_heat(case)
       case%spec%kinematics%cksi = 0.0_wp
       case%spec%kinematics%ceta = 0.0_wp
@@ -365,14 +353,12 @@ contains
       set%fstat = 0.0_wp
       set%fkin = 0.0_wp
       do k = 1, size(laws)
-         call case%release()
-         case = rolling_case(motion%steady_rolling)
+         call start_case(case, rolling_case(motion%steady_rolling))
          call give_law(case, laws(k), set)
          call give_heat(case)
          call case%run(suite, "no friction")
          call suite%check(all(abs(case%result%px) <= 0.0_wp), "no traction")
-         call case%release()
-         case = rolling_case(motion%transient_rolling)
+         call start_case(case, rolling_case(motion%transient_rolling))
          call give_law(case, laws(k), falling())
          case%spec%kinematics%cksi = 10.0_wp
          case%spec%iteration%inislp = -1
@@ -395,7 +381,7 @@ contains
       type(test_case) :: case
       type(error_type), allocatable :: error
 
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       call give_law(case, friction_model%exponential, falling())
       case%spec%iteration%maxin = 12
       case%spec%friction%sets%sabsh1 = 5.0_wp
@@ -411,19 +397,16 @@ contains
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
 
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       call give_law(case, friction_model%temperature, falling())
       call refused(suite, case, "friction by temperature without temperatures")
-      call case%release()
-      case = rolling_case(motion%transient_rolling)
+      call start_case(case, rolling_case(motion%transient_rolling))
       call give_heat(case)
       call refused(suite, case, "temperatures in transient rolling")
-      call case%release()
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       case%spec%friction%sets = spread(falling(), 1, 14)
       call refused(suite, case, "14 sets for 15 rows")
-      call case%release()
-      case = rolling_case(motion%steady_rolling)
+      call start_case(case, rolling_case(motion%steady_rolling))
       call give_heat(case)
       case%spec%heat%lambda(2) = 0.0_wp
       call refused(suite, case, "a conductivity of zero")

@@ -17,7 +17,7 @@ module contact_test_case_builder
    implicit none (type, external)
    private
 
-   public :: test_case, random_numbers, hertz_case, ellipse_case, line_case, grid_case, surface_case
+   public :: test_case, start_case, random_numbers, hertz_case, ellipse_case, line_case, grid_case, surface_case
    public :: creep, shift, forces, order_of, observed
 
    !> A specification with the session that solves it
@@ -33,6 +33,8 @@ module contact_test_case_builder
       procedure :: try
       !> Release the memory of the session
       procedure :: release
+      !> The same at the end of a scope; one call there compiles faster than the release of all components
+      final :: finish
    end type test_case
 
    !> Reproducible random numbers (xorshift, Marsaglia 2003)
@@ -72,10 +74,24 @@ contains
       call solve_case(self%session, self%spec, self%log, self%result, error)
    end subroutine try
 
+   impure elemental subroutine finish(self)
+      type(test_case), intent(inout) :: self
+      call self%release()
+   end subroutine finish
+
    subroutine release(self)
       class(test_case), intent(inout) :: self
       call release_session(self%session)
    end subroutine release
+
+   !> Begin anew: a case with this specification and without a past
+   subroutine start_case(case, spec)
+      type(test_case), intent(inout) :: case
+      type(case_spec), intent(in) :: spec
+
+      call case%release()
+      case = test_case(spec)
+   end subroutine start_case
 
    !> Normal compression with a tight tolerance, the initial state of all cases below
    function base_case(fn, eps) result(spec)

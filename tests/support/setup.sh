@@ -145,11 +145,16 @@ python_modules="setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotli
 study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed, nbclient, ipykernel"
 has_python_packages() { python3 -c "import $python_modules, $study_modules" >/dev/null 2>&1; }
 
+# Those in the folder below build come first
+use_python_packages() {
+  [ -x "$top/build/python/bin/python3" ] && PATH=$top/build/python/bin:$PATH
+  export PATH
+}
+
 # From the system's packages, or in a folder below build
 install_python_packages() {
   # Installed by an earlier run
-  [ -x "$top/build/python/bin/python3" ] && PATH=$top/build/python/bin:$PATH
-  export PATH
+  use_python_packages
   if has_python_packages; then
     return 0
   fi
@@ -167,8 +172,7 @@ install_python_packages() {
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
     "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray h5netcdf jsonschema \
       pytest scipy pandas pyarrow netCDF4 zarr distributed nbclient ipykernel
-  PATH=$top/build/python/bin:$PATH
-  export PATH
+  use_python_packages
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"
 }
 
