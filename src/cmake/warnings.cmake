@@ -36,6 +36,9 @@ if(CONTACT_COVERAGE)
   add_link_options(--coverage)
 endif()
 
+# Sources are not preprocessed, but for those that say so: CMake would write a copy of each before it looks for modules
+set(CMAKE_Fortran_PREPROCESS OFF)
+
 # Debug: everything the compiler can check at run time. Release: no -ffast-math, because checks for
 # NaN and reproducible sums matter.
 set(CMAKE_Fortran_FLAGS_DEBUG
