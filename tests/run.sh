@@ -25,16 +25,36 @@ for argument; do
   esac
 done
 
+install_for_tests() {
+  install_octave
+  install_python_packages
+  install_axe
+  install_valgrind
+  install_linters
+}
+
+# Wait for it, and use the Python that it has found or made
+finish_installation() {
+  wait "$installation"
+  trap - EXIT INT TERM
+  cat "$messages"
+  use_python_packages
+}
+
 install_missing
-install_octave
-install_python_packages
-install_axe
-install_valgrind
-install_linters
+# The build needs none of what only tests use: it is installed meanwhile, and its messages are shown afterwards
+mkdir -p "$top/build"
+messages=$top/build/installation.txt
+install_for_tests >"$messages" 2>&1 </dev/null &
+installation=$!
+trap 'kill "$installation" 2>/dev/null' EXIT
+trap 'exit 1' INT TERM
 if [ -n "$sanitize" ]; then
+  finish_installation
   . "$top/tests/support/sanitize.sh"
 fi
 build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
+finish_installation
 say "Testing"
 cd "$top/build/$preset" || exit 1
 # shellcheck disable=SC2086
