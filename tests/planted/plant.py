@@ -149,7 +149,7 @@ class Store:
         objects = {}
         for entry in json.loads(compile_all):
             output = entry.get("output", "")
-            # the step after the preprocessor
+            # the compilation, not the search for modules
             if output.startswith("src/CMakeFiles/") and output.endswith(".f90.o") and " -c " in entry["command"]:
                 file = re.sub(r"^src/CMakeFiles/contact_\w+\.dir/", "src/", output)[:-2]
                 objects[file] = {"object": output, "command": entry["command"]}
