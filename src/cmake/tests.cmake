@@ -14,7 +14,7 @@ function(contact_quick_compilation target)
   endif()
 endfunction()
 
-# Hundred test programs are linked: gold takes half the time of the usual linker
+# A hundred test programs are linked; gold takes half the time of the usual linker
 include(CheckLinkerFlag)
 if(NOT CONTACT_SANITIZE AND NOT CONTACT_FUZZ AND NOT CONTACT_COVERAGE)
   check_linker_flag(Fortran -fuse-ld=gold CONTACT_HAS_GOLD)
@@ -52,11 +52,10 @@ function(contact_test name)
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
 endfunction()
 
-# Tests that start first, so that none of them is left alone in the end, with their seconds on an idle machine. ctest uses its own
+# Tests that start first, so that none of them is left alone in the end, with about their processor seconds. ctest uses its own
 # figures from the second run on
-set(CONTACT_LONG_TESTS report_viewer:105 house_pages:46 campaign_module1:45 report_browser:44 campaign_module3:41 faults_of_files:39
-  performance_instructions:32 worn_profiles:31 force_search:30 manual_tutorials:28 json_lines:25 hdf5_file:25 report_start:25
-  campaign_cases:20 campaign_pair_cases:20 manual_blocks:15)
+set(CONTACT_LONG_TESTS report_viewer:94 house_pages:48 campaign_module1:45 campaign_module3:41 report_browser:40 faults_of_files:40
+  worn_profiles:31 report_start:30 hdf5_file:26 performance_instructions:23 manual_tutorials:21)
 
 # contact_command_test(<name> LABEL <labels> COMMAND <program> <arguments> [TIMEOUT <seconds>])
 #
