@@ -7,8 +7,8 @@ module contact_profile_curve
    use contact_numeric_polynomial, only : quadratic_roots
    use contact_numeric_spline, only : cubic_spline, piece_of
    use contact_profile_request, only : profile_side
-   use contact_profile_stretches, only : find_turns, holds, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, &
-      & stretch_between
+   use contact_profile_stretches, only : find_turns, follow_stretch, piece_in_stretch, place_in_piece, place_in_stretch, sorted, &
+      & stretch, stretch_between
    implicit none (type, external)
    private
 
@@ -57,6 +57,8 @@ module contact_profile_curve
       procedure :: normal
       !> Hidden fraction of the arc length, 0...1
       procedure :: hidden_part
+      !> Number of visible parts, between which y jumps or the curve changes
+      procedure :: part_count
       !> The same curve in shifted and rotated axes
       procedure :: seen_from
       !> The point of a rail with the smallest z
@@ -261,20 +263,17 @@ contains
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
-      !> Piece to be tried first, or 0; unchanged if there is no visible point
+      !> Piece and distance from its start [mm], estimates on entry; 0 if the piece is unknown; unchanged if there is no visible
+      !> point
       integer, intent(inout) :: piece
-      !> Distance from the start of the piece [mm]
-      real(wp), intent(out) :: place
+      real(wp), intent(inout) :: place
       !> Is there a visible point?
       logical, intent(out) :: found
       integer :: part
 
       part = part_of(self, y)
       found = part > 0
-      place = 0.0_wp
-      if (.not. found) return
-      if (.not. holds(self%y, self%parts(part)%along, piece, y)) piece = piece_in_stretch(self%y, self%parts(part)%along, y)
-      place = place_in_piece(self%y, self%parts(part)%along, piece, y)
+      if (found) call follow_stretch(self%y, self%parts(part)%along, y, piece, place)
    end subroutine locate
 
    !> Coordinates at an arc length, with slopes; beyond the ends those of the nearest end
@@ -374,6 +373,12 @@ contains
       n = [self%z%slope(s), -self%y%slope(s)]
       n = n/norm2(n)
    end function normal
+
+   pure integer function part_count(self)
+      class(profile_curve), intent(in) :: self
+
+      part_count = size(self%parts)
+   end function part_count
 
    pure real(wp) function hidden_part(self) result(hidden)
       class(profile_curve), intent(in) :: self

@@ -6,7 +6,7 @@ module contact_profile_stretches
    implicit none (type, external)
    private
 
-   public :: find_turns, holds, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, stretch_between
+   public :: find_turns, follow_stretch, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, stretch_between
 
    !> A range of s on which y is monotonic
    type :: stretch
@@ -107,21 +107,70 @@ contains
       end do
    end function piece_in_stretch
 
-   !> Does a piece of a stretch contain a value of y, as found by `piece_in_stretch`?
-   pure logical function holds(y, along, piece, target)
+   !> Piece of a stretch that contains a value of y, and position in it, from estimates of both
+   !>
+   !> The estimate is followed to neighbouring pieces and corrected by Newton's method. If it is not near, the whole stretch is
+   !> searched.
+   pure subroutine follow_stretch(y, along, target, piece, place)
       !> y as a function of s [mm]
       type(cubic_spline), intent(in) :: y
       !> Stretch where y is monotonic
       type(stretch), intent(in) :: along
-      !> Any number
-      integer, intent(in) :: piece
       !> Value of y [mm]
       real(wp), intent(in) :: target
+      !> Piece and distance from its start [mm], estimates on entry
+      integer, intent(inout) :: piece
+      real(wp), intent(inout) :: place
+      !> Number of neighbouring pieces and of steps of Newton's method that are tried
+      integer, parameter :: pieces = 4, steps = 4
+      real(wp) :: low, high, bend, precision, s, slope, step
+      logical :: found
+      integer :: k
 
-      holds = piece >= along%first .and. piece <= along%last
-      if (holds .and. piece > along%first) holds = y%c(0, piece) < target .eqv. along%rises
-      if (holds .and. piece < along%last) holds = .not. (y%c(0, piece + 1) < target .eqv. along%rises)
-   end function holds
+      found = .false.
+      if (piece >= along%first .and. piece <= along%last) then
+         s = y%s(piece) + place
+         do k = 0, pieces
+            if (piece > along%first) then
+               if (y%c(0, piece) < target .neqv. along%rises) then
+                  piece = piece - 1
+                  cycle
+               end if
+            end if
+            if (piece < along%last) then
+               if (y%c(0, piece + 1) < target .eqv. along%rises) then
+                  piece = piece + 1
+                  cycle
+               end if
+            end if
+            found = .true.
+            exit
+         end do
+      end if
+      if (.not. found) then
+         piece = piece_in_stretch(y, along, target)
+         place = place_in_piece(y, along, piece, target)
+         return
+      end if
+      associate (start => y%s(piece))
+         low = max(along%s_low, start) - start
+         high = min(along%s_high, y%s(piece + 1)) - start
+         place = min(max(s - start, low), high)
+         ! accuracy as in `monotone_cubic_root`
+         precision = 4.0_wp*epsilon(1.0_wp)*high
+         bend = abs(y%c(2, piece)) + 3.0_wp*abs(y%c(3, piece))*high
+         do k = 1, steps
+            slope = y%c(1, piece) + place*(2.0_wp*y%c(2, piece) + place*3.0_wp*y%c(3, piece))
+            step = y%c(0, piece) + place*(y%c(1, piece) + place*(y%c(2, piece) + place*y%c(3, piece))) - target
+            if (abs(step) >= (high - low)*abs(slope)) exit
+            step = step/slope
+            place = place - step
+            if (place < low .or. place > high) exit
+            if (2.0_wp*bend*step**2 <= precision*abs(slope)) return
+         end do
+      end associate
+      place = place_in_piece(y, along, piece, target)
+   end subroutine follow_stretch
 
    !> Position of a given y in a piece of a stretch, from the start of the piece
    pure real(wp) function place_in_piece(y, along, piece, target) result(place)

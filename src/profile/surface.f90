@@ -9,11 +9,10 @@ module contact_profile_surface
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, interpolate_sites, interpolation_knots, knot_interval
-   use contact_numeric_spline, only : cubic_spline, local_splines, natural_splines
-   use contact_profile_curve, only : find_visible, profile_curve
-   use contact_profile_points, only : chord_lengths
+   use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_side
    use contact_profile_slices_file, only : slices_list
+   use contact_profile_surface_cut, only : connect_lines, surface_cut
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
@@ -50,30 +49,10 @@ module contact_profile_surface
       procedure :: part_beyond
    end type profile_surface
 
-   !> A section of the surface across u
-   type :: surface_cut
-      !> Does the surface exist at this position?
-      logical :: present = .false.
-      !> Its nodes are lines of the surface; index of the first
-      type(profile_curve) :: curve
-      integer, private :: first_line = 1
-      !> Derivatives along u on the lines, as functions of the s of the curve
-      type(cubic_spline), private :: y_u, z_u
-   contains
-      !> Point at a coordinate v
-      procedure :: on_line
-      !> Derivative of the height along u at a fixed lateral position
-      procedure :: slope_along
-      !> Height of the visible point and its derivatives across and along
-      procedure :: at
-   end type surface_cut
-
    !> Distance between lines across the profile [mm]
    real(wp), parameter :: line_distance = 0.5_wp
    !> A surface that deviates by more than this from the slices on both sides gives a warning when it is read [mm]
    real(wp), parameter, public :: large_overshoot = 0.5_wp
-   !> Minimum dy/ds for slopes; vertical walls have none
-   real(wp), parameter :: vertical = 1.0e-6_wp
    !> Tolerance at the ends of the range, relative to its length
    real(wp), parameter :: rounding = 1.0e-9_wp
    !> Minimum number of slices for a spline along u
@@ -285,7 +264,7 @@ contains
    !>
    !> Angles around a wheel are taken modulo one turn. A wheel that is not given all around is continued beyond its first and
    !> last slice; a rail ends there.
-   subroutine cut(self, position, section, axes)
+   subroutine cut(self, position, section, axes, lines)
       class(profile_surface), intent(in) :: self
       !> Position [mm] or [rad]
       real(wp), intent(in) :: position
@@ -294,12 +273,12 @@ contains
       !> Axes of the section: origin (y, z) [mm] and roll angle [rad] in the axes of the surface. Splines through shifted and
       !> rolled points equal the shifted and rolled splines
       real(wp), intent(in), optional :: axes(3)
+      !> First and last line that are needed: see `connect_lines`
+      integer, intent(in), optional :: lines(2)
       real(wp) :: u
       real(wp) :: points(self%lines, 4), b(4), slope(4)
-      real(wp), allocatable :: s(:)
-      type(cubic_spline) :: splines(4)
       logical :: there(self%lines)
-      integer :: g, j, k, first, last
+      integer :: g, i, j, k, first, last
 
       u = given_position(self, position)
       if (self%side == profile_side%wheel .or. abs(u - min(max(u, self%u_range(1)), self%u_range(2))) <= &
@@ -310,12 +289,14 @@ contains
             if (u < group%low .or. u > group%high) cycle
             j = knot_interval(group%t, u)
             call basis_values(group%t, j, u, b, slope)
-            points(group%first:group%last, :) = 0.0_wp
-            do k = 1, 4
-               points(group%first:group%last, 1) = points(group%first:group%last, 1) + b(k)*group%y(:, j - 4 + k)
-               points(group%first:group%last, 2) = points(group%first:group%last, 2) + b(k)*group%z(:, j - 4 + k)
-               points(group%first:group%last, 3) = points(group%first:group%last, 3) + slope(k)*group%y(:, j - 4 + k)
-               points(group%first:group%last, 4) = points(group%first:group%last, 4) + slope(k)*group%z(:, j - 4 + k)
+            do k = 1, group%last - group%first + 1
+               i = group%first + k - 1
+               points(i, 1) = b(1)*group%y(k, j - 3) + b(2)*group%y(k, j - 2) + b(3)*group%y(k, j - 1) + b(4)*group%y(k, j)
+               points(i, 2) = b(1)*group%z(k, j - 3) + b(2)*group%z(k, j - 2) + b(3)*group%z(k, j - 1) + b(4)*group%z(k, j)
+               points(i, 3) = slope(1)*group%y(k, j - 3) + slope(2)*group%y(k, j - 2) + slope(3)*group%y(k, j - 1) &
+                  & + slope(4)*group%y(k, j)
+               points(i, 4) = slope(1)*group%z(k, j - 3) + slope(2)*group%z(k, j - 2) + slope(3)*group%z(k, j - 1) &
+                  & + slope(4)*group%z(k, j)
             end do
             there(group%first:group%last) = .true.
          end associate
@@ -328,29 +309,12 @@ contains
          if (.not. there(last + 1)) exit
          last = last + 1
       end do
-      if (last - first < 1) return
-
-      s = chord_lengths(points(first:last, 1), points(first:last, 2))
-      if (any(s(2:) <= s(:size(s) - 1))) return
       if (present(axes)) call turn(points(first:last, :), axes)
-      if (self%side == profile_side%wheel) then
-         ! a flat ends in corners that cross the lines, next to which splines would overshoot
-         call local_splines(s, points(first:last, :), splines, self%is_kink(first:last))
-      else
-         call natural_splines(s, points(first:last, :), splines, self%is_kink(first:last))
-      end if
-      section%curve%side = self%side
-      call move_spline(splines(1), section%curve%y)
-      call move_spline(splines(2), section%curve%z)
-      call move_spline(splines(3), section%y_u)
-      call move_spline(splines(4), section%z_u)
-      call find_visible(section%curve)
-      section%first_line = first
-      section%present = .true.
+      call connect_lines(self%side, first, points(first:last, :), self%is_kink(first:last), section, lines)
    end subroutine cut
 
    !> The section at a position; beyond the first and the last slice the nearest one, with zero slope along u
-   subroutine continued(self, position, section, axes)
+   subroutine continued(self, position, section, axes, lines)
       class(profile_surface), intent(in) :: self
       !> Position [mm] or [rad]
       real(wp), intent(in) :: position
@@ -358,10 +322,11 @@ contains
       type(surface_cut), intent(out) :: section
       !> See `cut`
       real(wp), intent(in), optional :: axes(3)
+      integer, intent(in), optional :: lines(2)
       real(wp) :: u
 
       u = given_position(self, position)
-      call self%cut(min(max(u, self%u_range(1)), self%u_range(2)), section, axes)
+      call self%cut(min(max(u, self%u_range(1)), self%u_range(2)), section, axes, lines)
       if (.not. section%present .or. (u >= self%u_range(1) .and. u <= self%u_range(2))) return
       section%y_u%c = 0.0_wp
       section%z_u%c = 0.0_wp
@@ -395,6 +360,7 @@ contains
       real(wp) :: y(size(points, 1)), c, s
       integer :: k
 
+      if (all(abs(axes) <= 0.0_wp)) return
       c = cos(axes(3))
       s = sin(axes(3))
       points(:, 1) = points(:, 1) - axes(1)
@@ -405,93 +371,4 @@ contains
          points(:, k + 1) = c*points(:, k + 1) - s*y
       end do
    end subroutine turn
-
-   pure subroutine move_spline(from, to)
-      type(cubic_spline), intent(inout) :: from, to
-
-      call move_alloc(from%s, to%s)
-      call move_alloc(from%c, to%c)
-   end subroutine move_spline
-
-   !> The point at the second coordinate v of the surface: lines have integer values, starting at 0; between them v is linear in
-   !> the arc length
-   pure subroutine on_line(self, v, y, z, found)
-      class(surface_cut), intent(in) :: self
-      !> Second coordinate of the surface [-], from 0
-      real(wp), intent(in) :: v
-      !> Coordinates [mm]
-      real(wp), intent(out) :: y, z
-      !> False if the section has no line there
-      logical, intent(out) :: found
-      real(wp) :: place, s
-      integer :: i
-
-      y = 0.0_wp
-      z = 0.0_wp
-      found = .false.
-      if (.not. self%present) return
-      associate (nodes => self%curve%y%s)
-         place = v - (self%first_line - 1)
-         found = place >= 0.0_wp .and. place <= size(nodes) - 1
-         if (.not. found) return
-         i = min(int(place) + 1, size(nodes) - 1)
-         s = nodes(i) + (place - (i - 1))*(nodes(i + 1) - nodes(i))
-         y = self%curve%y%value(s)
-         z = self%curve%z%value(s)
-      end associate
-   end subroutine on_line
-
-   !> Height z of the visible point at y, dz/dy and dz/du
-   pure subroutine at(self, y, z, z_y, z_u, found, piece, z_yy, z_uy)
-      class(surface_cut), intent(in) :: self
-      !> Lateral coordinate [mm]
-      real(wp), intent(in) :: y
-      !> Height [mm], and its derivatives along y [-] and along u, per mm or per rad
-      real(wp), intent(out) :: z, z_y, z_u
-      !> False if the section has no point with this y
-      logical, intent(out) :: found
-      !> Piece of the section to be tried first; on exit the piece that contains the point
-      integer, intent(inout) :: piece
-      !> Derivatives of both along y, per mm
-      real(wp), intent(out), optional :: z_yy, z_uy
-      real(wp) :: across, y_u, t, bend
-
-      z = 0.0_wp
-      z_y = 0.0_wp
-      z_u = 0.0_wp
-      if (present(z_yy)) z_yy = 0.0_wp
-      if (present(z_uy)) z_uy = 0.0_wp
-      found = self%present
-      if (found) call self%curve%locate(y, piece, t, found)
-      if (.not. found) return
-      ! all four functions have the same pieces
-      associate (cy => self%curve%y%c, cz => self%curve%z%c, cy_u => self%y_u%c, cz_u => self%z_u%c)
-         across = cy(1, piece) + t*(2.0_wp*cy(2, piece) + t*3.0_wp*cy(3, piece))
-         across = sign(max(abs(across), vertical), across)
-         z = cz(0, piece) + t*(cz(1, piece) + t*(cz(2, piece) + t*cz(3, piece)))
-         z_y = (cz(1, piece) + t*(2.0_wp*cz(2, piece) + t*3.0_wp*cz(3, piece)))/across
-         z_u = cz_u(0, piece) + t*(cz_u(1, piece) + t*(cz_u(2, piece) + t*cz_u(3, piece)))
-         y_u = cy_u(0, piece) + t*(cy_u(1, piece) + t*(cy_u(2, piece) + t*cy_u(3, piece)))
-         z_u = z_u - z_y*y_u
-         if (.not. (present(z_yy) .and. present(z_uy))) return
-         ! derivatives along the section, divided by dy/ds
-         bend = 2.0_wp*(cz(2, piece) + t*3.0_wp*cz(3, piece) - z_y*(cy(2, piece) + t*3.0_wp*cy(3, piece)))
-         z_yy = bend/across**2
-         z_uy = (cz_u(1, piece) + t*(2.0_wp*cz_u(2, piece) + t*3.0_wp*cz_u(3, piece)) &
-            & - z_y*(cy_u(1, piece) + t*(2.0_wp*cy_u(2, piece) + t*3.0_wp*cy_u(3, piece))))/across - z_yy*y_u
-      end associate
-   end subroutine at
-
-   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 if there is none
-   elemental real(wp) function slope_along(self, y) result(slope)
-      class(surface_cut), intent(in) :: self
-      !> Lateral coordinate [mm]
-      real(wp), intent(in) :: y
-      real(wp) :: z, z_y
-      logical :: found
-      integer :: piece
-
-      piece = 0
-      call self%at(y, z, z_y, slope, found, piece)
-   end function slope_along
 end module contact_profile_surface

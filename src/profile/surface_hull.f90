@@ -58,18 +58,20 @@ contains
    end subroutine stretch_breaks
 
    !> Control points of all lines of a stretch; beyond the ends of the surface those at the end
-   subroutine stretch_hull(surface, stretch, y, z, first, last)
+   subroutine stretch_hull(surface, stretch, y, z, first, last, lines)
       !> Surface with at least one line
       type(profile_surface), intent(in) :: surface
       !> Between two consecutive values of `stretch_breaks`
       real(wp), intent(in) :: stretch(2)
-      !> Shape (lines, 4) [mm], in the coordinates of the surface; 0 on lines that do not exist there
+      !> Shape (lines, 4) [mm], in the coordinates of the surface; set from `first` to `last`
       real(wp), intent(out) :: y(:, :), z(:, :)
       !> Contiguous range of lines that a cut would use; `last` < `first` if there is none
       integer, intent(out) :: first, last
+      !> First and last line that are needed; default: all
+      integer, intent(in), optional :: lines(2)
       real(wp) :: u(2), middle, h, b(4, 2), slope(4, 2), weights(4, 4)
       logical :: there(surface%lines)
-      integer :: g, j, k
+      integer :: g, i, j, k, m, range(2)
 
       u = stretch
       middle = 0.5_wp*(u(1) + u(2))
@@ -77,9 +79,9 @@ contains
       u = min(max(u, surface%u_range(1)), surface%u_range(2))
       middle = 0.5_wp*(u(1) + u(2))
       h = (u(2) - u(1))/3.0_wp
-      y = 0.0_wp
-      z = 0.0_wp
       there = .false.
+      range = [1, surface%lines]
+      if (present(lines)) range = [max(lines(1), 1), min(lines(2), surface%lines)]
       do g = 1, size(surface%groups)
          associate (group => surface%groups(g))
             if (middle < group%low .or. middle > group%high) cycle
@@ -91,8 +93,15 @@ contains
             weights(:, 2) = b(:, 1) + h*slope(:, 1)
             weights(:, 3) = b(:, 2) - h*slope(:, 2)
             weights(:, 4) = b(:, 2)
-            y(group%first:group%last, :) = matmul(group%y(:, j - 3:j), weights)
-            z(group%first:group%last, :) = matmul(group%z(:, j - 3:j), weights)
+            do k = 1, 4
+               do i = max(range(1), group%first), min(range(2), group%last)
+                  m = i - group%first + 1
+                  y(i, k) = weights(1, k)*group%y(m, j - 3) + weights(2, k)*group%y(m, j - 2) + weights(3, k)*group%y(m, j - 1) &
+                     & + weights(4, k)*group%y(m, j)
+                  z(i, k) = weights(1, k)*group%z(m, j - 3) + weights(2, k)*group%z(m, j - 2) + weights(3, k)*group%z(m, j - 1) &
+                     & + weights(4, k)*group%z(m, j)
+               end do
+            end do
             there(group%first:group%last) = .true.
          end associate
       end do
@@ -106,5 +115,7 @@ contains
          if (.not. there(last + 1)) exit
          last = last + 1
       end do
+      first = max(first, range(1))
+      last = min(last, range(2))
    end subroutine stretch_hull
 end module contact_profile_surface_hull

@@ -6,45 +6,16 @@
 module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
-   use contact_profile_surface, only : large_overshoot, profile_surface, surface_cut
+   use contact_profile_surface, only : profile_surface, surface_cut
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_placement, only : wheel_rail_placement
+   use contact_wheelrail_strip, only : lay_out, slice_pair, strip
    use contact_wheelrail_wheel_surface, only : wheel_height, wheel_row
    implicit none (type, external)
    private
 
    public :: wheel_rail_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
    public :: find_rail_row, find_wheel_row, slice_pair
-
-   !> Last point found on a section: the next step, or the next point, is often at or near the same position
-   type :: known_point
-      !> Lateral position [mm]; huge: none yet
-      real(wp) :: y = huge(1.0_wp)
-      !> Height [mm], derivatives across the profile [-] and along the mesh, per mm or rad, and derivatives of both across the
-      !> profile
-      real(wp) :: z = 0.0_wp, z_y = 0.0_wp, z_u = 0.0_wp, z_yy = 0.0_wp, z_uy = 0.0_wp
-   end type known_point
-
-   !> Sections on an equidistant mesh
-   type :: strip
-      !> Position of the first section and distance between sections: x in the track [mm], or angle from the bottom [rad]
-      real(wp) :: first = 0.0_wp, step = 1.0_wp
-      !> Sections, and whether they have been computed
-      type(surface_cut), allocatable :: sections(:)
-      logical, allocatable :: made(:)
-      !> Piece of each section that contains the last point
-      integer, allocatable :: piece(:)
-      type(known_point), allocatable, private :: known(:)
-      !> The surface, the coordinate u on it of position 0 of the mesh, and axes of the sections (see `cut`)
-      type(profile_surface) :: surface
-      real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
-   contains
-      !> Compute a section unless it has been computed
-      procedure :: need
-      !> Index of the section at a position of the mesh
-      procedure :: number_at
-      procedure :: at => strip_at
-   end type strip
 
    !> Both surfaces in their present positions
    type :: wheel_rail_bodies
@@ -59,15 +30,6 @@ module contact_wheelrail_bodies
       logical :: angle_below_axle = .false.
    end type wheel_rail_bodies
 
-   !> The slices before and after a position along the track, kept for neighbouring positions
-   type :: slice_pair
-      integer, private :: before = 0
-      type(surface_cut), private :: cut(2)
-   contains
-      !> Height of a rail above both slices
-      procedure :: overshoot
-   end type slice_pair
-
    !> Maximum distance of sections along the surface [mm]
    real(wp), parameter :: furthest_section = 1.0_wp
    !> Range of the contact search along the track to both sides, its upper bound, and additional range of sections, relative to the
@@ -75,8 +37,6 @@ module contact_wheelrail_bodies
    real(wp), parameter :: reach = 0.125_wp, furthest = 0.5_wp, beyond = 0.035_wp
    !> Slope of the steepest flank in the contact search, dz/dy: 80 degrees
    real(wp), parameter :: steepest_flank = 5.67_wp
-   !> Distances from a section, relative to the distance of sections, that are regarded as zero
-   real(wp), parameter :: rounding = 1.0e-9_wp
    !> Minimum dy/ds of a rail: a steeper surface is regarded as vertical
    real(wp), parameter :: steepest = 1.0e-6_wp
 
@@ -128,81 +88,6 @@ contains
       length = furthest*bodies%placement%wheel_radius
    end function widest_reach
 
-   !> A strip of sections that have not been computed, n of them on both sides of the middle
-   subroutine lay_out(along, surface, n, middle, step)
-      type(strip), allocatable, intent(inout) :: along
-      !> Unallocated for a body that does not vary
-      type(profile_surface), intent(in), allocatable :: surface
-      integer, intent(in) :: n
-      real(wp), intent(in) :: middle, step
-
-      if (allocated(along)) deallocate(along)
-      if (.not. allocated(surface)) return
-      allocate(along)
-      along%surface = surface
-      along%first = middle - n*step
-      along%step = step
-      allocate(along%sections(2*n + 1))
-      allocate(along%made(2*n + 1), source=.false.)
-      allocate(along%piece(2*n + 1), source=0)
-      allocate(along%known(2*n + 1))
-   end subroutine lay_out
-
-   !> Compute a section unless it has been computed
-   subroutine need(self, number)
-      class(strip), intent(inout) :: self
-      !> Index of the section, from 1
-      integer, intent(in) :: number
-
-      if (self%made(number)) return
-      call self%surface%continued(self%origin + self%first + (number - 1)*self%step, self%sections(number), self%axes)
-      self%made(number) = .true.
-   end subroutine need
-
-   !> Height of a rail above the slices on both sides of a position [mm]; 0 below the threshold for the warning when the rail is
-   !> read
-   !>
-   !> Overshoot of the spline at sudden changes is not a surface that can be in contact.
-   real(wp) function overshoot(self, along, x, y, z)
-      class(slice_pair), intent(inout) :: self
-      !> The sections of the rail
-      type(strip), intent(in) :: along
-      !> Position in track coordinates; z is the height of the rail there [mm]
-      real(wp), intent(in) :: x, y, z
-      real(wp) :: height(1, 2)
-      logical :: found(1, 2)
-      integer :: k, i
-
-      overshoot = 0.0_wp
-      associate (slices => along%surface%slices)
-         k = count(slices <= along%origin + x)
-         if (k == 0 .or. k == size(slices)) return
-         if (k /= self%before) then
-            do i = 1, 2
-               call along%surface%cut(slices(k + i - 1), self%cut(i), along%axes)
-            end do
-            self%before = k
-         end if
-      end associate
-      do i = 1, 2
-         if (.not. self%cut(i)%present) return
-         call self%cut(i)%curve%heights([y], height(:, i), found(:, i))
-      end do
-      if (.not. all(found)) return
-      overshoot = minval(height) - z
-      if (overshoot < large_overshoot) overshoot = 0.0_wp
-   end function overshoot
-
-   !> Index of the nearest section; 0 beyond the ends
-   pure integer function number_at(self, place)
-      class(strip), intent(in) :: self
-      !> Position along the mesh [mm] or [rad]
-      real(wp), intent(in) :: place
-
-      number_at = 1 + nint((place - self%first)/self%step)
-      if (number_at < 1 .or. number_at > size(self%sections)) number_at = 0
-   end function number_at
-
    !> Origin (y, z) and roll angle of the track in rail coordinates
    pure function track_axes(placement) result(axes)
       type(wheel_rail_placement), intent(in) :: placement
@@ -228,82 +113,6 @@ contains
 
       call surface%continued(u, section, track_axes(placement))
    end subroutine rail_section
-
-   !> Height and slopes at a position between two sections
-   subroutine strip_at(self, place, y, z, z_y, found, z_place)
-      class(strip), intent(inout) :: self
-      !> Position along the mesh [mm] or [rad], and lateral position [mm]
-      real(wp), intent(in) :: place, y
-      !> Height [mm], z down, and its derivative across [-]
-      real(wp), intent(out) :: z, z_y
-      !> Do both sections have a surface at this lateral position?
-      logical, intent(out) :: found
-      !> Its derivative along the mesh, per mm or rad
-      real(wp), intent(out), optional :: z_place
-      type(known_point) :: low, high
-      real(wp) :: t
-      integer :: k
-
-      z = 0.0_wp
-      z_y = 0.0_wp
-      if (present(z_place)) z_place = 0.0_wp
-      t = (place - self%first)/self%step
-      k = floor(t) + 1
-      found = k >= 1 .and. k < size(self%sections)
-      if (.not. found) return
-      t = t - (k - 1)
-      ! a position on a section is regarded as such in spite of round-off
-      if (t > 1.0_wp - rounding) then
-         k = k + 1
-         t = 0.0_wp
-      end if
-      call find_on_section(self, k, y, low, found)
-      if (.not. found) return
-      if (t <= rounding) then
-         z = low%z
-         z_y = low%z_y
-         if (present(z_place)) z_place = low%z_u
-         return
-      end if
-      call find_on_section(self, k + 1, y, high, found)
-      if (.not. found) return
-      z = low%z*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high%z*t**2*(3.0_wp - 2.0_wp*t) &
-         & + self%step*t*(1.0_wp - t)*(low%z_u*(1.0_wp - t) - high%z_u*t)
-      z_y = low%z_y*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high%z_y*t**2*(3.0_wp - 2.0_wp*t) &
-         & + self%step*t*(1.0_wp - t)*(low%z_uy*(1.0_wp - t) - high%z_uy*t)
-      if (present(z_place)) z_place = 6.0_wp*t*(1.0_wp - t)*(high%z - low%z)/self%step &
-         & + low%z_u*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high%z_u*t*(2.0_wp - 3.0_wp*t)
-   end subroutine strip_at
-
-   !> Point of a section; near the last point found by a parabola
-   subroutine find_on_section(self, number, y, point, found)
-      type(strip), intent(inout) :: self
-      !> Index of the section, from 1
-      integer, intent(in) :: number
-      !> Lateral position [mm]
-      real(wp), intent(in) :: y
-      type(known_point), intent(out) :: point
-      !> Does the section have a surface at this lateral position?
-      logical, intent(out) :: found
-      !> Range of the parabola about the last point [mm]; its error is of the order of 1e-12 mm
-      real(wp), parameter :: nearness = 2.0e-4_wp
-      real(wp) :: way
-
-      point = self%known(number)
-      way = y - point%y
-      found = abs(way) <= nearness
-      if (found) then
-         point%z = point%z + way*(point%z_y + 0.5_wp*way*point%z_yy)
-         point%z_y = point%z_y + way*point%z_yy
-         point%z_u = point%z_u + way*point%z_uy
-         return
-      end if
-      call self%need(number)
-      call self%sections(number)%at(y, point%z, point%z_y, point%z_u, found, self%piece(number), point%z_yy, point%z_uy)
-      if (.not. found) return
-      point%y = y
-      self%known(number) = point
-   end subroutine find_on_section
 
    !> Height n of the rail above a point (x, s) of a plane; of the track itself if the plane is the default frame
    !>

@@ -23,6 +23,8 @@ module contact_wheelrail_gap_bound
    integer, parameter :: neighbours = 3
    !> Chords steeper than this are regarded as walls, with the heights of their ends only [-]
    real(wp), parameter :: wall = 20.0_wp
+   !> Upper bound of the deviation of a spline from its chord [mm]: points are at most half a millimetre apart
+   real(wp), parameter :: widest_bulge = 2.0_wp
    !> Number of points per circle in a stretch
    integer, parameter :: stations = 3
    !> Bound of the errors of heights by interpolation between sections and by round-off [mm]
@@ -49,15 +51,27 @@ contains
       real(wp), intent(in) :: far
       !> Lower bounds, shape (stretches, lateral positions); `no_surface` where one body is missing
       real(wp), intent(out) :: low(:, :)
-      real(wp) :: rail(size(y)), wheel(size(y)), near, rho(size(y))
+      real(wp) :: rail(size(y)), wheel(size(y)), near, rho, height
       real(wp), allocatable :: profile(:, :), outline(:, :)
-      logical :: found(size(y))
-      integer :: i
+      real(wp), allocatable :: bottom(:, :, :)
+      logical :: found(size(y)), bounded
+      integer :: i, j, first, last, lines(2), range(2)
 
       if (allocated(bodies%wheel_strip)) then
-         call outline_of(bodies%wheel_strip, outline)
+         call outline_of(bodies%wheel_strip, profile)
       else
          call sample(bodies%wheel, profile)
+      end if
+      bounded = allocated(profile)
+      lines = [1, huge(1)]
+      if (bounded) then
+         lines = points_over(bodies, profile, y)
+         outline = profile(lines(1):lines(2), :)
+      end if
+      if (allocated(bodies%wheel_strip)) then
+         allocate(bottom(bodies%wheel_strip%surface%lines, 4, 2))
+         call stretch_hull(bodies%wheel_strip%surface, [1.0_wp, 1.0_wp]*bodies%wheel_strip%origin, bottom(:, :, 1), &
+            & bottom(:, :, 2), range(1), range(2))
       end if
       if (.not. allocated(bodies%rail_strip)) then
          call bodies%rail%heights(y, rail, found)
@@ -66,33 +80,35 @@ contains
       do i = 1, size(edges) - 1
          if (allocated(bodies%rail_strip)) call rail_above(bodies%rail_strip, edges(i:i + 1), y, rail)
          wheel = no_surface
-         if (.not. allocated(bodies%wheel_strip)) then
-            call round_wheel_below(bodies, profile, edges(i:i + 1), y, wheel)
-         else if (.not. allocated(outline)) then
-            call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
-         else
-            call round_wheel_below(bodies, outline, edges(i:i + 1), y, wheel)
-            ! the surface of a roller falls off along the track
-            if (any(rail < no_surface .and. rail + wheel - rounding < far)) then
-               wheel = no_surface
-               call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
+         first = 1
+         last = size(y)
+         if (bounded) call round_wheel_below(bodies, outline, edges(i:i + 1), y, wheel)
+         if (allocated(bodies%wheel_strip)) then
+            if (bounded) then
+               ! the surface of a roller falls off along the track
+               found = rail < no_surface .and. rail + wheel - rounding < far
+               first = findloc(found, .true., 1)
+               last = findloc(found, .true., 1, back=.true.)
+            end if
+            if (first > 0) then
+               wheel(first:last) = no_surface
+               if (bounded) lines = points_over(bodies, profile, y(first:last))
+               call varying_wheel_below(bodies, bottom(range(1):range(2), 1, :), lines, edges(i:i + 1), y(first:last), &
+                  & wheel(first:last))
             end if
          end if
-         low(i, :) = rail
-         if (bodies%placement%roller_radius > 0.0_wp) then
-            near = max(0.0_wp, edges(i), -edges(i + 1))
-            rho = bodies%placement%roller_radius - rail
-            where (rail < no_surface .and. near < rho)
-               low(i, :) = bodies%placement%roller_radius - sqrt(max(0.0_wp, rho**2 - near**2))
-            else where
-               low(i, :) = no_surface
-            end where
-         end if
-         where (low(i, :) < no_surface .and. wheel < no_surface)
-            low(i, :) = low(i, :) + wheel - rounding
-         else where
-            low(i, :) = no_surface
-         end where
+         near = max(0.0_wp, edges(i), -edges(i + 1))
+         do j = 1, size(y)
+            low(i, j) = no_surface
+            if (.not. (rail(j) < no_surface .and. wheel(j) < no_surface)) cycle
+            height = rail(j)
+            if (bodies%placement%roller_radius > 0.0_wp) then
+               rho = bodies%placement%roller_radius - height
+               if (.not. near < rho) cycle
+               height = bodies%placement%roller_radius - sqrt(max(0.0_wp, rho**2 - near**2))
+            end if
+            low(i, j) = height + wheel(j) - rounding
+         end do
       end do
    end subroutine bound_gap
 
@@ -168,6 +184,31 @@ contains
       if (any(outline(:, 1) > outline(:, 3))) deallocate(outline)
    end subroutine outline_of
 
+   !> First and last point of a wheel's profile that can be above a lateral range, with some more for the envelope
+   pure function points_over(bodies, profile, y) result(range)
+      type(wheel_rail_bodies), intent(in) :: bodies
+      !> Points of the profile, see `round_wheel_below`
+      real(wp), intent(in) :: profile(:, :)
+      !> Lateral positions, increasing [mm]
+      real(wp), intent(in) :: y(:)
+      integer :: range(2)
+      logical :: over(size(profile, 1))
+      real(wp) :: slack
+      integer :: i, columns
+
+      columns = size(profile, 2)
+      associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
+         ! points are on circles around the axle
+         do i = 1, size(over)
+            slack = widest_bulge + (abs(axes(2, 1))*widest_sine + abs(axes(2, 3)))*(r + abs(profile(i, columns)))
+            over(i) = origin(2) + axes(2, 2)*profile(i, 1) - slack <= y(size(y)) .and. &
+               & origin(2) + axes(2, 2)*profile(i, columns - 1) + slack >= y(1)
+         end do
+      end associate
+      range(1) = max(1, findloc(over, .true., 1) - neighbours - 1)
+      range(2) = min(size(over), findloc(over, .true., 1, back=.true.) + neighbours + 1)
+   end function points_over
+
    !> Lowest positions of a round wheel over a stretch of the track, as minimum -z
    subroutine round_wheel_below(bodies, profile, range_x, y, below)
       type(wheel_rail_bodies), intent(in) :: bodies
@@ -187,43 +228,51 @@ contains
             call on_circles(bodies, profile(:, i), profile(:, i + 1), angle, py(:, n), pz(:, n))
          end do
       end do
-      call lower_envelope(py, -pz, sagitta(bodies, range_x), y, below)
+      pz = -pz
+      call lower_envelope(py, pz, sagitta(bodies, range_x), y, below)
    end subroutine round_wheel_below
 
    !> Lowest positions of an out-of-round wheel over a stretch of the track, as minimum -z
-   subroutine varying_wheel_below(bodies, range_x, y, below)
+   subroutine varying_wheel_below(bodies, bottom, lines, range_x, y, below)
       type(wheel_rail_bodies), intent(in) :: bodies
+      !> Points y, z of the section at the bottom [mm], shape (points, 2); none if there is no section
+      real(wp), intent(in) :: bottom(:, :)
+      !> First and last line of the surface that are needed
+      integer, intent(in) :: lines(2)
       real(wp), intent(in) :: range_x(2), y(:)
       real(wp), intent(inout) :: below(:)
       real(wp), allocatable :: breaks(:), py(:, :), pz(:, :), angle(:)
       real(wp) :: wy(bodies%wheel_strip%surface%lines, 4), wz(bodies%wheel_strip%surface%lines, 4), range(2)
-      integer :: i, k, m, first, last
+      integer :: i, k, m, first, last, n
 
-      associate (along => bodies%wheel_strip, lines => bodies%wheel_strip%surface%lines)
+      associate (along => bodies%wheel_strip, r => bodies%placement%wheel_radius)
          ! angles at which the lines of the bottom section pass both ends of the stretch
-         allocate(py(lines, 4*stations), pz(lines, 4*stations), angle(lines))
-         range = range_x/bodies%placement%wheel_radius
-         call stretch_hull(along%surface, [1.0_wp, 1.0_wp]*along%origin, wy, wz, first, last)
-         if (last >= first) then
+         n = size(bottom, 1)
+         allocate(angle(along%surface%lines))
+         range = range_x/r
+         if (n > 0) then
             range = [huge(1.0_wp), -huge(1.0_wp)]
             do k = 1, stations, stations - 1
-               call find_angles(bodies, wy(first:last, 1), wz(first:last, 1), station(range_x, k), angle(first:last))
-               range = [min(range(1), asin(minval(angle(first:last)))), max(range(2), asin(maxval(angle(first:last))))]
+               call find_angles(bodies, bottom(:, 1), bottom(:, 2), station(range_x, k), angle(:n))
+               range = [min(range(1), asin(minval(angle(:n)))), max(range(2), asin(maxval(angle(:n))))]
             end do
          end if
          call stretch_breaks(along%surface, range + along%origin, breaks)
          do i = 1, size(breaks) - 1
-            call stretch_hull(along%surface, breaks(i:i + 1), wy, wz, first, last)
+            call stretch_hull(along%surface, breaks(i:i + 1), wy, wz, first, last, lines)
             if (last < first) cycle
+            n = last - first + 1
+            if (allocated(py)) deallocate(py, pz)
+            allocate(py(n, 4*stations), pz(n, 4*stations))
             do k = 1, stations
-               call find_angles(bodies, wy(first:last, 1), wz(first:last, 1), station(range_x, k), angle(first:last))
+               call find_angles(bodies, wy(first:last, 1), wz(first:last, 1), station(range_x, k), angle(:n))
                do m = 1, 4
-                  call on_circles(bodies, wy(first:last, m), wz(first:last, m), angle(first:last)*(wz(first:last, 1) &
-                     & + bodies%placement%wheel_radius)/(wz(first:last, m) + bodies%placement%wheel_radius), &
-                     & py(first:last, (k - 1)*4 + m), pz(first:last, (k - 1)*4 + m))
+                  call on_circles(bodies, wy(first:last, m), wz(first:last, m), angle(:n)*(wz(first:last, 1) + r) &
+                     & /(wz(first:last, m) + r), py(:, (k - 1)*4 + m), pz(:, (k - 1)*4 + m))
                end do
             end do
-            call lower_envelope(py(first:last, :), -pz(first:last, :), sagitta(bodies, range_x), y, below)
+            pz = -pz
+            call lower_envelope(py, pz, sagitta(bodies, range_x), y, below)
          end do
       end associate
    end subroutine varying_wheel_below
@@ -330,29 +379,38 @@ contains
       real(wp), intent(in) :: places(:)
       real(wp), intent(inout) :: low(:)
       real(wp), dimension(size(y, 1)) :: my, mz, bend, left, right, top, slope, least
-      real(wp) :: bulge, ends(2), step
+      real(wp) :: bulge, ends(2), step, share
       integer :: i, j, k, n, first, last
 
       n = size(y, 1)
       if (n < 2) return
+      share = 1.0_wp/size(y, 2)
       my = 0.0_wp
       mz = 0.0_wp
       left = y(:, 1)
       right = y(:, 1)
       top = z(:, 1)
       do k = 1, size(y, 2)
-         my = my + y(:, k)
-         mz = mz + z(:, k)
-         left = min(left, y(:, k))
-         right = max(right, y(:, k))
-         top = min(top, z(:, k))
+         do i = 1, n
+            my(i) = my(i) + y(i, k)
+            mz(i) = mz(i) + z(i, k)
+            left(i) = min(left(i), y(i, k))
+            right(i) = max(right(i), y(i, k))
+            top(i) = min(top(i), z(i, k))
+         end do
       end do
-      my = my/size(y, 2)
-      mz = mz/size(y, 2)
-      bend = 0.0_wp
-      bend(2:n - 1) = sqrt((my(:n - 2) - 2.0_wp*my(2:n - 1) + my(3:))**2 + (mz(:n - 2) - 2.0_wp*mz(2:n - 1) + mz(3:))**2)
-      slope = 0.0_wp
-      where (abs(mz(2:) - mz(:n - 1)) < wall*abs(my(2:) - my(:n - 1))) slope(:n - 1) = (mz(2:) - mz(:n - 1))/(my(2:) - my(:n - 1))
+      my = my*share
+      mz = mz*share
+      bend(1) = 0.0_wp
+      bend(n) = 0.0_wp
+      do i = 2, n - 1
+         bend(i) = sqrt((my(i - 1) - 2.0_wp*my(i) + my(i + 1))**2 + (mz(i - 1) - 2.0_wp*mz(i) + mz(i + 1))**2)
+      end do
+      slope(n) = 0.0_wp
+      do i = 1, n - 1
+         slope(i) = 0.0_wp
+         if (abs(mz(i + 1) - mz(i)) < wall*abs(my(i + 1) - my(i))) slope(i) = (mz(i + 1) - mz(i))/(my(i + 1) - my(i))
+      end do
       least = huge(1.0_wp)
       do k = 1, size(y, 2)
          do i = 1, n - 1
@@ -363,7 +421,11 @@ contains
       step = 1.0_wp
       if (size(places) > 1) step = places(2) - places(1)
       do i = 1, n - 1
-         bulge = bulge_share*maxval(bend(max(1, i - neighbours + 1):min(n, i + neighbours)))
+         bulge = 0.0_wp
+         do k = max(1, i - neighbours + 1), min(n, i + neighbours)
+            bulge = max(bulge, bend(k))
+         end do
+         bulge = bulge_share*bulge
          ends = [min(left(i), left(i + 1)) - bulge, max(right(i), right(i + 1)) + bulge]
          first = max(1, ceiling((ends(1) - places(1))/step) + 1)
          last = min(size(places), floor((ends(2) - places(1))/step) + 1)

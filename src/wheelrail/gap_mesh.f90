@@ -28,6 +28,8 @@ contains
 
       call fill_rail(bodies, x, y, first, last, table)
       seen = bodies%placement%wheel%seen_from_here(track)
+      if (allocated(bodies%wheel_strip) .and. any(first <= last)) call expect_rows(bodies, seen, x, &
+         & [minval(y, first <= last), maxval(y, first <= last)])
       do j = 1, size(y)
          if (first(j) > last(j)) cycle
          associate (row => table(first(j):last(j), j), n => last(j) - first(j) + 1)
@@ -41,6 +43,23 @@ contains
          end associate
       end do
    end subroutine fill
+
+   !> Announce the lateral positions of a wheel's sections that a mesh needs
+   subroutine expect_rows(bodies, seen, x, range)
+      type(wheel_rail_bodies), intent(inout) :: bodies
+      !> Track coordinates in those of the wheel
+      type(frame), intent(in) :: seen
+      !> Positions along the track, increasing, and lateral range in the track [mm]
+      real(wp), intent(in) :: x(:), range(2)
+      !> Range of heights of a wheel near a rail, to both sides of the track's surface [mm]
+      real(wp), parameter :: height = 40.0_wp
+      real(wp) :: across(2), along(2), up
+
+      along = [x(1), x(size(x))]*seen%axes(2, 1)
+      across = range*seen%axes(2, 2)
+      up = height*abs(seen%axes(2, 3))
+      call bodies%wheel_strip%expect(seen%origin(2) + [minval(along) + minval(across) - up, maxval(along) + maxval(across) + up])
+   end subroutine expect_rows
 
    !> Height of the rail at points of a mesh, section by section
    subroutine fill_rail(bodies, x, y, first, last, table)

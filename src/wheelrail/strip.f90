@@ -1,0 +1,246 @@
+!> Sections of a variable profile on an equidistant mesh, and heights between them
+!>
+!> A section is computed at its first use in a case: most of them are never used. Between sections heights are interpolated by cubic
+!> Hermite polynomials.
+module contact_wheelrail_strip
+   use contact_base_kinds, only : wp
+   use contact_profile_surface, only : large_overshoot, profile_surface, surface_cut
+   use contact_profile_surface_cut, only : cut_point
+   implicit none (type, external)
+   private
+
+   public :: lay_out, slice_pair, strip
+
+   !> Sections on an equidistant mesh
+   type :: strip
+      !> Position of the first section and distance between sections: x in the track [mm], or angle from the bottom [rad]
+      real(wp) :: first = 0.0_wp, step = 1.0_wp
+      !> Sections, and whether they have been computed
+      type(surface_cut), allocatable :: sections(:)
+      logical, allocatable :: made(:)
+      !> Last point found on each section: the next step, or the next point, is often at or near the same position
+      type(cut_point), allocatable, private :: known(:)
+      !> The surface, the coordinate u on it of position 0 of the mesh, and axes of the sections (see `cut`)
+      type(profile_surface) :: surface
+      real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
+      !> Lateral positions at which heights are expected [mm], and first and last line of the surface around them
+      real(wp), private :: expected(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      integer, private :: lines(2) = [1, huge(1)]
+   contains
+      !> Set the lateral positions at which heights are expected
+      procedure :: expect
+      !> Compute a section unless it has been computed
+      procedure :: need
+      !> Index of the section at a position of the mesh
+      procedure :: number_at
+      procedure :: at => strip_at
+   end type strip
+
+   !> The slices before and after a position along the track, kept for neighbouring positions
+   type :: slice_pair
+      integer, private :: before = 0
+      type(surface_cut), private :: cut(2)
+   contains
+      !> Height of a rail above both slices
+      procedure :: overshoot
+   end type slice_pair
+
+   !> Distances from a section, relative to the distance of sections, that are regarded as zero
+   real(wp), parameter :: rounding = 1.0e-9_wp
+
+contains
+
+   !> A strip of sections that have not been computed, n of them on both sides of the middle
+   subroutine lay_out(along, surface, n, middle, step)
+      type(strip), allocatable, intent(inout) :: along
+      !> Unallocated for a body that does not vary
+      type(profile_surface), intent(in), allocatable :: surface
+      integer, intent(in) :: n
+      real(wp), intent(in) :: middle, step
+
+      if (allocated(along)) deallocate(along)
+      if (.not. allocated(surface)) return
+      allocate(along)
+      along%surface = surface
+      along%first = middle - n*step
+      along%step = step
+      allocate(along%sections(2*n + 1))
+      allocate(along%made(2*n + 1), source=.false.)
+      allocate(along%known(2*n + 1))
+   end subroutine lay_out
+
+   !> Set the lateral positions at which heights are expected: sections of a wheel are computed near them only
+   !>
+   !> Heights at other positions are found as well, from complete sections.
+   subroutine expect(self, range)
+      class(strip), intent(inout) :: self
+      !> Smallest and largest lateral position [mm]
+      real(wp), intent(in) :: range(2)
+      !> Range that is added on both sides [mm], for the ends of incomplete sections and for lines that are not straight along the
+      !> surface
+      real(wp), parameter :: margin = 5.0_wp
+      integer :: first, last, g
+
+      self%expected = range
+      self%lines = [huge(1), 0]
+      do g = 1, size(self%surface%groups)
+         associate (group => self%surface%groups(g))
+            first = findloc(abs(group%y(:, 1) - 0.5_wp*sum(range)) < 0.5_wp*(range(2) - range(1)) + margin, .true., 1)
+            if (first == 0) cycle
+            last = findloc(abs(group%y(:, 1) - 0.5_wp*sum(range)) < 0.5_wp*(range(2) - range(1)) + margin, .true., 1, back=.true.)
+            self%lines = [min(self%lines(1), group%first + first - 1), max(self%lines(2), group%first + last - 1)]
+         end associate
+      end do
+   end subroutine expect
+
+   !> Compute a section unless it has been computed
+   subroutine need(self, number, y)
+      class(strip), intent(inout) :: self
+      !> Index of the section, from 1
+      integer, intent(in) :: number
+      !> Lateral position at which it is needed [mm]; default: everywhere
+      real(wp), intent(in), optional :: y
+      real(wp) :: place
+      logical :: everywhere
+
+      associate (section => self%sections(number))
+         if (self%made(number)) then
+            if (present(y)) then
+               if (y >= section%valid(1) .and. y <= section%valid(2)) return
+            else
+               if (section%valid(1) <= -huge(1.0_wp) .and. section%valid(2) >= huge(1.0_wp)) return
+            end if
+         end if
+         place = self%origin + self%first + (number - 1)*self%step
+         everywhere = .true.
+         if (present(y)) everywhere = y < self%expected(1) .or. y > self%expected(2)
+         if (.not. everywhere) then
+            call self%surface%continued(place, section, self%axes, self%lines)
+            everywhere = y < section%valid(1) .or. y > section%valid(2)
+         end if
+         if (everywhere) call self%surface%continued(place, section, self%axes)
+      end associate
+      self%made(number) = .true.
+   end subroutine need
+
+   !> Height of a rail above the slices on both sides of a position [mm]; 0 below the threshold for the warning when the rail is
+   !> read
+   !>
+   !> Overshoot of the spline at sudden changes is not a surface that can be in contact.
+   real(wp) function overshoot(self, along, x, y, z)
+      class(slice_pair), intent(inout) :: self
+      !> The sections of the rail
+      type(strip), intent(in) :: along
+      !> Position in track coordinates; z is the height of the rail there [mm]
+      real(wp), intent(in) :: x, y, z
+      real(wp) :: height(1, 2)
+      logical :: found(1, 2)
+      integer :: k, i
+
+      overshoot = 0.0_wp
+      associate (slices => along%surface%slices)
+         k = count(slices <= along%origin + x)
+         if (k == 0 .or. k == size(slices)) return
+         if (k /= self%before) then
+            do i = 1, 2
+               call along%surface%cut(slices(k + i - 1), self%cut(i), along%axes)
+            end do
+            self%before = k
+         end if
+      end associate
+      do i = 1, 2
+         if (.not. self%cut(i)%present) return
+         call self%cut(i)%curve%heights([y], height(:, i), found(:, i))
+      end do
+      if (.not. all(found)) return
+      overshoot = minval(height) - z
+      if (overshoot < large_overshoot) overshoot = 0.0_wp
+   end function overshoot
+
+   !> Index of the nearest section; 0 beyond the ends
+   pure integer function number_at(self, place)
+      class(strip), intent(in) :: self
+      !> Position along the mesh [mm] or [rad]
+      real(wp), intent(in) :: place
+
+      number_at = 1 + nint((place - self%first)/self%step)
+      if (number_at < 1 .or. number_at > size(self%sections)) number_at = 0
+   end function number_at
+
+   !> Height and slopes at a position between two sections
+   subroutine strip_at(self, place, y, z, z_y, found, z_place)
+      class(strip), intent(inout) :: self
+      !> Position along the mesh [mm] or [rad], and lateral position [mm]
+      real(wp), intent(in) :: place, y
+      !> Height [mm], z down, and its derivative across [-]
+      real(wp), intent(out) :: z, z_y
+      !> Do both sections have a surface at this lateral position?
+      logical, intent(out) :: found
+      !> Its derivative along the mesh, per mm or rad
+      real(wp), intent(out), optional :: z_place
+      real(wp) :: low(4), high(4), t
+      integer :: k
+
+      z = 0.0_wp
+      z_y = 0.0_wp
+      if (present(z_place)) z_place = 0.0_wp
+      t = (place - self%first)/self%step
+      k = floor(t) + 1
+      found = k >= 1 .and. k < size(self%sections)
+      if (.not. found) return
+      t = t - (k - 1)
+      ! a position on a section is regarded as such in spite of round-off
+      if (t > 1.0_wp - rounding) then
+         k = k + 1
+         t = 0.0_wp
+      end if
+      call find_on_section(self, k, y, low, found)
+      if (.not. found) return
+      if (t <= rounding) then
+         z = low(1)
+         z_y = low(2)
+         if (present(z_place)) z_place = low(3)
+         return
+      end if
+      call find_on_section(self, k + 1, y, high, found)
+      if (.not. found) return
+      z = low(1)*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high(1)*t**2*(3.0_wp - 2.0_wp*t) &
+         & + self%step*t*(1.0_wp - t)*(low(3)*(1.0_wp - t) - high(3)*t)
+      z_y = low(2)*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high(2)*t**2*(3.0_wp - 2.0_wp*t) &
+         & + self%step*t*(1.0_wp - t)*(low(4)*(1.0_wp - t) - high(4)*t)
+      if (present(z_place)) z_place = 6.0_wp*t*(1.0_wp - t)*(high(1) - low(1))/self%step &
+         & + low(3)*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high(3)*t*(2.0_wp - 3.0_wp*t)
+   end subroutine strip_at
+
+   !> Point of a section; near the last point found by a parabola
+   subroutine find_on_section(self, number, y, point, found)
+      type(strip), intent(inout) :: self
+      !> Index of the section, from 1
+      integer, intent(in) :: number
+      !> Lateral position [mm]
+      real(wp), intent(in) :: y
+      !> Height [mm], derivatives across the profile [-] and along the mesh, per mm or rad, and the derivative of the latter across
+      !> the profile
+      real(wp), intent(out) :: point(4)
+      !> Does the section have a surface at this lateral position?
+      logical, intent(out) :: found
+      !> Range of the parabola about the last point [mm]; its error is of the order of 1e-12 mm
+      real(wp), parameter :: nearness = 2.0e-4_wp
+      real(wp) :: way
+
+      associate (known => self%known(number))
+         way = y - known%y
+         if (.not. abs(way) <= nearness) then
+            call self%need(number, y)
+            call self%sections(number)%find(y, known, found)
+            if (.not. found) return
+            way = 0.0_wp
+         end if
+         found = .true.
+         point(1) = known%z + way*(known%z_y + 0.5_wp*way*known%z_yy)
+         point(2) = known%z_y + way*known%z_yy
+         point(3) = known%z_u + way*known%z_uy
+         point(4) = known%z_uy
+      end associate
+   end subroutine find_on_section
+end module contact_wheelrail_strip
