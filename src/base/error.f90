@@ -93,7 +93,6 @@ contains
       character(len=:), allocatable, intent(out) :: text
       !> Longest file name shown in full; systems allow up to 4096 bytes
       integer, parameter :: longest_name = 1000
-      character(len=24) :: place
       integer :: k, length
 
       text = ""
@@ -105,12 +104,8 @@ contains
             text = error%file(:longest_name/2) // "..." // error%file(length - longest_name/2 + 1:)
          end if
          if (error%line > 0) then
-            write(place, "(I0)") error%line
-            text = text // ":" // trim(place)
-            if (error%column > 0) then
-               write(place, "(I0)") error%column
-               text = text // ":" // trim(place)
-            end if
+            text = text // ":" // trim(digits_of(error%line))
+            if (error%column > 0) text = text // ":" // trim(digits_of(error%column))
          end if
          text = text // ": "
       end if
@@ -120,6 +115,22 @@ contains
          if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) text(k:k) = "?"
       end do
    end subroutine join_parts
+
+   !> A number in decimal digits; a formatted transfer takes ten times as long, and programs with many warnings make many of them
+   pure function digits_of(number) result(text)
+      !> Positive
+      integer, intent(in) :: number
+      character(len=24) :: text
+      integer :: rest, k
+
+      text = ""
+      rest = number
+      do k = 1, range(number) + 1
+         text = achar(iachar("0") + mod(rest, 10)) // text(:len(text) - 1)
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+   end function digits_of
 
    !> Length of the text of an error
    pure integer function full_length(error) result(length)

@@ -30,6 +30,9 @@ module contact_wheelrail_geometry
       procedure :: distance_to
    end type learned_share
 
+   !> Penetration up to which the gap is measured at first [mm]: sufficient for most wheels
+   real(wp), parameter :: first_reach = 0.15_wp
+
    !> Positions of the bodies and results of the search for contact: data shared by the patches of a trial
    type :: wheel_rail_geometry
       !> Ratios 1...shares are known. They are used in all trials until the next tangential solution; a patch of a trial that
@@ -51,8 +54,8 @@ module contact_wheelrail_geometry
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration for the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
-      !> In a loop, gaps that exceed the smallest one by less than this are computed exactly [mm]; increased with the penetration
-      real(wp) :: reach = 0.15_wp
+      !> Gaps that exceed the smallest one by less than this are computed exactly [mm]; increased with the penetration
+      real(wp) :: reach = first_reach
       !> Are trials of the height consecutive as in a loop over time, and does the first one continue the last case?
       logical :: follows = .false., follows_last = .false.
       !> Does the search for the height start at the result of the last one as well? Otherwise only pressures do
@@ -148,15 +151,12 @@ contains
          call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
-         if (problem%in_loop) then
-            if (present(depth)) geometry%reach = max(geometry%reach, depth)
-            call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
-               & geometry%closer, keeps_rail, geometry%reach + max(0.0_wp, problem%spec%search%g_miss))
-            if (geometry%gap%depth < huge(1.0_wp)) geometry%gap%depth = geometry%reach
-         else
-            call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
-               & geometry%closer, keeps_rail)
-         end if
+         ! a case of its own does not depend on the penetration of previous cases
+         if (.not. problem%in_loop) geometry%reach = first_reach
+         if (present(depth)) geometry%reach = max(geometry%reach, depth)
+         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
+            & geometry%closer, keeps_rail, geometry%reach + max(0.0_wp, problem%spec%search%g_miss))
+         if (geometry%gap%depth < huge(1.0_wp)) geometry%gap%depth = geometry%reach
          geometry%known_ds = problem%spec%search%ds
          geometry%known_place = geometry%placement%rail
       end if

@@ -38,8 +38,12 @@ contains
       real(wp), parameter :: tolerance = 1.0e-13_wp
 
       on_roller = placement%roller_radius > 0.0_wp
-      call wheel%y%in_piece(piece, place, y, across)
-      call wheel%z%in_piece(piece, place, z, lean)
+      associate (cy => wheel%y%c, cz => wheel%z%c)
+         y = cy(0, piece) + place*(cy(1, piece) + place*(cy(2, piece) + place*cy(3, piece)))
+         z = cz(0, piece) + place*(cz(1, piece) + place*(cz(2, piece) + place*cz(3, piece)))
+         across = cy(1, piece) + place*(2.0_wp*cy(2, piece) + place*3.0_wp*cy(3, piece))
+         lean = cz(1, piece) + place*(2.0_wp*cz(2, piece) + place*3.0_wp*cz(3, piece))
+      end associate
       radius = placement%wheel_radius + z
       lean = radius*(lean/min(steepest, across))
       associate (axes => placement%wheel%axes)
@@ -61,7 +65,10 @@ contains
             if (abs(x - before) <= tolerance*placement%wheel_radius) exit
          end do
       end associate
-      point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
+      drop = depth(x) - placement%wheel_radius
+      associate (axes => placement%wheel%axes)
+         point = placement%wheel%origin + (axes(:, 1)*x + axes(:, 2)*y + axes(:, 3)*drop)
+      end associate
 
    contains
 
