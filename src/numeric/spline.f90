@@ -167,37 +167,48 @@ contains
       type(cubic_spline), intent(out) :: splines(:)
       !> Points where the slope may jump; the ends need not be marked
       logical, intent(in), optional :: is_kink(:)
-      !> Half the second derivatives, functions first, and slopes of the chords
-      real(wp) :: b(size(f, 2), size(s)), chord(size(f, 2), size(s) - 1)
+      !> Half the second derivatives and slopes of the chords of some functions, functions first
+      integer, parameter :: together = 4
+      real(wp) :: b(together, size(s)), chord(together, size(s) - 1)
       !> Lengths of the pieces, and factors of the elimination
-      real(wp) :: h(size(s) - 1), upper(size(s)), pivot
+      real(wp) :: h(size(s) - 1), upper(size(s)), pivot(size(s))
       logical :: free(size(s))
-      integer :: n, j, k
+      integer :: n, i, j, k, last
 
       n = size(s)
       h = s(2:) - s(:n - 1)
-      do k = 1, size(f, 2)
-         chord(k, :) = (f(2:, k) - f(:n - 1, k))/h
-      end do
       free = .true.
       free(1) = .false.
       free(n) = .false.
       if (present(is_kink)) free = free .and. .not. is_kink
-      b(:, 1) = 0.0_wp
       upper(1) = 0.0_wp
+      pivot(1) = 0.0_wp
       do j = 2, n
-         b(:, j) = 0.0_wp
          upper(j) = 0.0_wp
+         pivot(j) = 0.0_wp
          if (.not. free(j)) cycle
-         pivot = 1.0_wp/(2.0_wp*(h(j - 1) + h(j)) - h(j - 1)*upper(j - 1))
-         b(:, j) = (3.0_wp*(chord(:, j) - chord(:, j - 1)) - h(j - 1)*b(:, j - 1))*pivot
-         upper(j) = h(j)*pivot
+         pivot(j) = 1.0_wp/(2.0_wp*(h(j - 1) + h(j)) - h(j - 1)*upper(j - 1))
+         upper(j) = h(j)*pivot(j)
       end do
-      do j = n - 1, 2, -1
-         b(:, j) = b(:, j) - upper(j)*b(:, j + 1)
-      end do
-      do k = 1, size(splines)
-         call make_pieces(s, h, f(:, k), b(k, :), splines(k))
+      do i = 1, size(splines), together
+         last = min(together, size(splines) - i + 1)
+         chord = 0.0_wp
+         do j = 1, n - 1
+            do k = 1, last
+               chord(k, j) = (f(j + 1, i + k - 1) - f(j, i + k - 1))/h(j)
+            end do
+         end do
+         b(:, 1) = 0.0_wp
+         b(:, n) = 0.0_wp
+         do j = 2, n - 1
+            b(:, j) = (3.0_wp*(chord(:, j) - chord(:, j - 1)) - h(j - 1)*b(:, j - 1))*pivot(j)
+         end do
+         do j = n - 1, 2, -1
+            b(:, j) = b(:, j) - upper(j)*b(:, j + 1)
+         end do
+         do k = 1, last
+            call make_pieces(s, h, f(:, i + k - 1), b(k, :), splines(i + k - 1))
+         end do
       end do
    end subroutine natural_splines
 
@@ -290,20 +301,31 @@ contains
       if (present(is_kink)) ends = is_kink
       ends(1) = .true.
       ends(n) = .true.
+      slope(1) = 0.0_wp
+      slope(n) = 0.0_wp
       do k = 1, size(splines)
          allocate(splines(k)%s(n), splines(k)%c(0:3, n - 1))
          splines(k)%s(:) = s
-         chord = (f(2:, k) - f(:n - 1, k))/h
-         slope = 0.0_wp
-         slope(2:n - 1) = (h(2:)*chord(:n - 2) + h(:n - 2)*chord(2:))/(h(:n - 2) + h(2:))
          do i = 1, n - 1
-            ! at an end the parabola of the other point is extended; between two ends the piece is straight
-            left = merge(chord(i), slope(i), ends(i))
-            right = merge(chord(i), slope(i + 1), ends(i + 1))
-            if (ends(i) .and. .not. ends(i + 1)) left = 2.0_wp*chord(i) - right
-            if (ends(i + 1) .and. .not. ends(i)) right = 2.0_wp*chord(i) - left
-            splines(k)%c(:, i) = [f(i, k), left, (3.0_wp*chord(i) - 2.0_wp*left - right)/h(i), &
-               & (left + right - 2.0_wp*chord(i))/h(i)**2]
+            chord(i) = (f(i + 1, k) - f(i, k))/h(i)
+         end do
+         do i = 2, n - 1
+            slope(i) = (h(i)*chord(i - 1) + h(i - 1)*chord(i))/(h(i - 1) + h(i))
+         end do
+         do i = 1, n - 1
+            left = slope(i)
+            right = slope(i + 1)
+            if (ends(i) .or. ends(i + 1)) then
+               ! at an end the parabola of the other point is extended; between two ends the piece is straight
+               if (ends(i)) left = chord(i)
+               if (ends(i + 1)) right = chord(i)
+               if (ends(i) .and. .not. ends(i + 1)) left = 2.0_wp*chord(i) - right
+               if (ends(i + 1) .and. .not. ends(i)) right = 2.0_wp*chord(i) - left
+            end if
+            splines(k)%c(0, i) = f(i, k)
+            splines(k)%c(1, i) = left
+            splines(k)%c(2, i) = (3.0_wp*chord(i) - 2.0_wp*left - right)/h(i)
+            splines(k)%c(3, i) = (left + right - 2.0_wp*chord(i))/h(i)**2
          end do
       end do
    end subroutine local_splines
@@ -312,14 +334,16 @@ contains
    pure subroutine make_pieces(s, h, a, b, spline)
       real(wp), intent(in) :: s(:), h(:), a(:), b(:)
       type(cubic_spline), intent(out) :: spline
-      integer :: n
+      integer :: n, i
 
       n = size(s)
       allocate(spline%s(n), spline%c(0:3, n - 1))
       spline%s(:) = s
-      spline%c(0, :) = a(:n - 1)
-      spline%c(1, :) = (a(2:) - a(:n - 1))/h - (2.0_wp*b(:n - 1) + b(2:))*h/3.0_wp
-      spline%c(2, :) = b(:n - 1)
-      spline%c(3, :) = (b(2:) - b(:n - 1))/(3.0_wp*h)
+      do i = 1, n - 1
+         spline%c(0, i) = a(i)
+         spline%c(1, i) = (a(i + 1) - a(i))/h(i) - (2.0_wp*b(i) + b(i + 1))*h(i)/3.0_wp
+         spline%c(2, i) = b(i)
+         spline%c(3, i) = (b(i + 1) - b(i))/(3.0_wp*h(i))
+      end do
    end subroutine make_pieces
 end module contact_numeric_spline

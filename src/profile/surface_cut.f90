@@ -3,7 +3,6 @@ module contact_profile_surface_cut
    use contact_base_kinds, only : wp
    use contact_numeric_spline, only : cubic_spline, local_splines, natural_splines
    use contact_profile_curve, only : find_visible, profile_curve
-   use contact_profile_points, only : chord_lengths
    use contact_profile_request, only : profile_side
    implicit none (type, external)
    private
@@ -121,10 +120,14 @@ contains
       type(surface_cut), intent(inout) :: section
       real(wp) :: s(size(points, 1))
       type(cubic_spline) :: splines(4)
+      integer :: i
 
       section%present = .false.
       if (size(s) < 2) return
-      s = chord_lengths(points(:, 1), points(:, 2))
+      s(1) = 0.0_wp
+      do i = 2, size(s)
+         s(i) = s(i - 1) + sqrt((points(i, 1) - points(i - 1, 1))**2 + (points(i, 2) - points(i - 1, 2))**2)
+      end do
       if (any(s(2:) <= s(:size(s) - 1))) return
       if (side == profile_side%wheel) then
          ! a flat ends in corners that cross the lines, next to which splines would overshoot

@@ -365,6 +365,7 @@ contains
          if (abs(j) < 4) cycle
          call suite%close_to(section%curve%height(0.4_wp*j), 0.04_wp*abs(j), 1.0e-5_wp, "straight beside the corner")
       end do
+      call some_lines(suite, profile, 0.17_wp)
    end subroutine corner
 
    !> Angles modulo one turn; a wheel with slices on a part only is round elsewhere
@@ -395,7 +396,44 @@ contains
          call profile%surface%cut(0.3_wp + 2.0_wp*pi*i, section)
          call suite%close_to(section%curve%height(0.0_wp), 0.0_wp, 1.0e-9_wp, "round elsewhere")
       end do
+      call some_lines(suite, profile, 0.05_wp)
    end subroutine wheel
+
+   !> A section through some of the lines equals the one through all lines where it is valid
+   subroutine some_lines(suite, profile, position)
+      type(test_suite), intent(inout) :: suite
+      !> A wheel with a surface
+      type(prepared_profile), intent(in) :: profile
+      !> Angle of the section [rad]
+      real(wp), intent(in) :: position
+      type(surface_cut) :: whole, part
+      real(wp) :: range(2), y, all_lines(5), some(5), worst, shortest
+      logical :: found(2)
+      integer :: first, n, i, piece(2)
+
+      call profile%surface%cut(position, whole)
+      n = profile%surface%lines
+      worst = 0.0_wp
+      shortest = huge(1.0_wp)
+      piece = 0
+      do first = 1, n, 5
+         call profile%surface%cut(position, part, lines=[first, first + n/3])
+         call suite%check(part%present, "a section through some lines")
+         range = whole%curve%y_range()
+         range = [max(range(1), part%valid(1)), min(range(2), part%valid(2))]
+         shortest = min(shortest, range(2) - range(1))
+         do i = 0, 50
+            y = range(1) + (range(2) - range(1))*i/50.0_wp
+            call whole%at(y, all_lines(1), all_lines(2), all_lines(3), found(1), piece(1), all_lines(4), all_lines(5))
+            call part%at(y, some(1), some(2), some(3), found(2), piece(2), some(4), some(5))
+            call suite%check(all(found), "both have a point there")
+            worst = max(worst, maxval(abs(all_lines - some)))
+         end do
+      end do
+      call suite%close_to(worst, 0.0_wp, 1.0e-11_wp, "points of a section through some lines")
+      range = whole%curve%y_range()
+      call suite%check(shortest > 0.0_wp .and. shortest < 0.5_wp*(range(2) - range(1)), "some sections are limited")
+   end subroutine some_lines
 
    subroutine refused(suite, text, words, line, what, side)
       type(test_suite), intent(inout) :: suite
