@@ -263,9 +263,9 @@ contains
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
-      !> Piece and distance from its start [mm], estimates on entry; 0 if the piece is unknown; unchanged if there is no visible
-      !> point
+      !> Estimate on entry, 0 if it is unknown; unchanged if there is no visible point
       integer, intent(inout) :: piece
+      !> Distance from the start of the piece [mm], estimate on entry
       real(wp), intent(inout) :: place
       !> Is there a visible point?
       logical, intent(out) :: found

@@ -118,8 +118,9 @@ contains
       type(stretch), intent(in) :: along
       !> Value of y [mm]
       real(wp), intent(in) :: target
-      !> Piece and distance from its start [mm], estimates on entry
+      !> Estimate on entry, any number
       integer, intent(inout) :: piece
+      !> Distance from the start of the piece [mm], estimate on entry
       real(wp), intent(inout) :: place
       !> Number of neighbouring pieces and of steps of Newton's method that are tried
       integer, parameter :: pieces = 4, steps = 4

@@ -322,6 +322,7 @@ contains
       type(surface_cut), intent(out) :: section
       !> See `cut`
       real(wp), intent(in), optional :: axes(3)
+      !> See `cut`
       integer, intent(in), optional :: lines(2)
       real(wp) :: u
 

@@ -52,10 +52,13 @@ contains
 
    !> A strip of sections that have not been computed, n of them on both sides of the middle
    subroutine lay_out(along, surface, n, middle, step)
+      !> The strip; unallocated for a body that does not vary
       type(strip), allocatable, intent(inout) :: along
       !> Unallocated for a body that does not vary
       type(profile_surface), intent(in), allocatable :: surface
+      !> Number of sections on each side of the middle one
       integer, intent(in) :: n
+      !> Position of the middle section, and distance of sections: [mm] along the track or [rad] around the wheel
       real(wp), intent(in) :: middle, step
 
       if (allocated(along)) deallocate(along)
