@@ -19,7 +19,7 @@ module contact_wheelrail_curved_patch
    private
 
    public :: curved_reference, curved_rows, new_curved_reference, straight_reference, surface_heights
-   public :: surface_motion, curved_forces
+   public :: surface_motion, surface_slip, fit_creepages, curved_forces
 
    !> The reference curve at the rows of a grid, in track coordinates
    type :: curved_reference
