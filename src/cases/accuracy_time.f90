@@ -65,7 +65,7 @@ contains
       has_outer_iterations = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
    end function has_outer_iterations
 
-   !> Maximum number of elements of the first grid, so that it ends before the deadline also on a slow machine; huge without deadline
+   !> Maximum number of elements of the first grid, so that it ends before the deadline also on a slow machine; huge without one
    real(wp) function most_in_time(spec) result(most)
       !> Case with an accuracy, whose deadline has been started
       type(case_spec), intent(in) :: spec

@@ -18,7 +18,7 @@ module contact_cases_wheel_rail_session
    use contact_cases_stress_errors, only : estimate_stress_errors
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_elastic_model, only : influence_table
-   use contact_fft_plan, only : start_planner
+   use contact_fft_kept_plans, only : start_planner
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
    use contact_patch_wear, only : derive_wear

@@ -40,6 +40,8 @@ module contact_fft_four_lines
    contains
       !> Prepare transforms of a length
       procedure :: prepare
+      !> Free the tables: components of plans in arrays of derived types are not released without it
+      procedure :: release
    end type line_factors
 
    interface
@@ -216,6 +218,13 @@ contains
          self%positions(k) = position_of(k, self%steps)
       end do
    end subroutine prepare
+
+   subroutine release(self)
+      class(line_factors), intent(inout) :: self
+
+      self%steps%n = 0
+      if (allocated(self%factors)) deallocate(self%factors, self%positions)
+   end subroutine release
 
    !> Position of a frequency after a transform, from 0: the first digit of the frequency is the last one of its position
    pure integer(c_int) function position_of(frequency, steps) result(position)

@@ -6,11 +6,12 @@
 !> region of the planner.
 module contact_fft_kept_plans
    use, intrinsic :: iso_c_binding, only : c_null_ptr, c_ptr
-   use contact_fft_library, only : destroy
+   use contact_base_kinds, only : wp
+   use contact_fft_library, only : destroy, forwards, plan_complex
    implicit none (type, external)
    private
 
-   public :: plan_kind, plan_set
+   public :: plan_kind, plan_set, start_planner
 
    type :: plan_kind_list
       !> For lines of one length; for the rows and for the columns of two fields on a window
@@ -49,6 +50,17 @@ module contact_fft_kept_plans
    type(kept_type) :: kept(most)
 
 contains
+
+   !> Start the planner of the library, which takes FFTW some tenths of a millisecond: for who prepares a loop over time
+   subroutine start_planner()
+      complex(wp) :: from(2), to(2)
+      type(c_ptr) :: plan
+
+      !$omp critical (contact_fft_planner)
+      plan = plan_complex(2, 1, from, 1, 2, to, 1, 2, forwards)
+      call destroy(plan)
+      !$omp end critical (contact_fft_planner)
+   end subroutine start_planner
 
    subroutine take(self, kind, my, px, py)
       !> Empty if they are not in the cache

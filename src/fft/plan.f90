@@ -5,19 +5,18 @@
 !> a time (transform, multiply by the kernel, transform back), so that the complete spectrum is never stored. Results do not depend
 !> on the number of threads. A window of one row is transformed by the library, and both fields of a pair at once.
 module contact_fft_plan
-   use, intrinsic :: iso_c_binding, only : c_associated, c_ptr
    use contact_base_kinds, only : wp
    use contact_fft_four_lines, only : columns_at_once, four_columns_backward, four_columns_forward, four_columns_one, &
       & four_columns_two, four_rows_backward, four_rows_forward, line_factors, rows_at_once, work_size
    use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
-   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, plan_complex
+   use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
    use contact_fft_lines, only : multiply_one, multiply_two, turn_two
    use contact_fft_sizes, only : fast_line_size, fast_size, good_size, largest_fast_size
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
 
-   public :: fft_plan, kernel_spectrum, good_size, fast_line_size, fast_size, largest_fast_size, start_planner
+   public :: fft_plan, kernel_spectrum, good_size, fast_line_size, fast_size, largest_fast_size
 
    !> Padded windows of more elements are shared among threads; smaller ones are done before threads are awake
    integer, parameter :: worth_threads = 40000
@@ -56,24 +55,13 @@ module contact_fft_plan
 
 contains
 
-   !> Start the planner of the library, which takes FFTW some tenths of a millisecond: for who prepares a loop over time
-   subroutine start_planner()
-      complex(wp) :: from(2), to(2)
-      type(c_ptr) :: plan
-
-      !$omp critical (contact_fft_planner)
-      plan = plan_complex(2, 1, from, 1, 2, to, 1, 2, forwards)
-      call destroy(plan)
-      !$omp end critical (contact_fft_planner)
-   end subroutine start_planner
-
    subroutine prepare_plan(self, mx, my, px, py)
       class(fft_plan), intent(inout) :: self
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py .and. allocated(self%half)) return
-      call self%release()
+      call clear(self)
       self%mx = mx
       self%my = my
       self%px = px
@@ -486,10 +474,19 @@ contains
    subroutine release_plan(self)
       class(fft_plan), intent(inout) :: self
 
+      call clear(self)
+      call self%rows%release()
+      call self%columns%release()
+   end subroutine release_plan
+
+   !> Free buffers and plans of the library; tables of the lengths are kept for another window of the same lengths
+   subroutine clear(self)
+      class(fft_plan), intent(inout) :: self
+
       call self%line_plans%release()
       self%mx = 0
       if (allocated(self%half)) deallocate(self%half)
       if (allocated(self%work)) deallocate(self%work)
       if (allocated(self%line)) deallocate(self%line)
-   end subroutine release_plan
+   end subroutine clear
 end module contact_fft_plan

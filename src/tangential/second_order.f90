@@ -155,13 +155,9 @@ contains
          second%at(:, k) = at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
-         if (layer > 0.0_wp) then
-            second%kappa(:, k) = layer_terms(scale/unit, flexibility, nu, layer, [nx, direction*ny])
-            ! next to a layer the bodies do not see the steps of the edge
-            oblique = oblique/(1.0_wp + layer/flexibility)
-         end if
-         ! one of its principal values is negative
-         oblique = min(1.0_wp, largest_oblique*diagonal/max(norm2(oblique([1, 3])), tiny(1.0_wp)))*oblique
+         ! next to a layer the bodies do not see the steps of the edge
+         oblique = bounded(oblique/(1.0_wp + layer/flexibility), diagonal)
+         if (layer > 0.0_wp) second%kappa(:, k) = layer_terms(scale/unit, flexibility, nu, layer, [nx, direction*ny])
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
@@ -217,6 +213,15 @@ contains
 
       is_known = gap > 0.5_wp*unknown_gap
    end function is_known
+
+   !> Terms behind an oblique edge, one of whose principal values is negative, reduced to a part of the compliance of an element
+   pure function bounded(oblique, diagonal) result(terms)
+      !> Terms xx, yy, xy with a trace of zero, and compliance of an element [mm/(N/mm2)]
+      real(wp), intent(in) :: oblique(3), diagonal
+      real(wp) :: terms(3)
+
+      terms = min(1.0_wp, largest_oblique*diagonal/max(norm2(oblique([1, 3])), tiny(1.0_wp)))*oblique
+   end function bounded
 
    !> Terms xx, yy, xy of the second element of a row at an oblique edge, relative to nu 2/G h
    pure function oblique_terms(slope, ratio) result(terms)

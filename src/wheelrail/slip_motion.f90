@@ -32,6 +32,8 @@ module contact_wheelrail_slip_motion
 contains
 
    !> Derivatives with respect to all inputs in steady rolling
+   !>
+   !> Long because the internal procedures for displacements, velocities and slip share its arguments.
    subroutine differentiate_slip(problem, geometry, slot, motions, approach, heights, creepage, extra)
       !> Velocities of the bodies
       type(wheel_rail_problem), intent(in) :: problem

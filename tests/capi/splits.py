@@ -90,7 +90,7 @@ def joins(wheel, low, high, points=81):
 
 def slip_of_elements(order):
     """With the slip of each element (D = 3) no force changes where two patches join; with D = 2 FX and FY do by 1.6 % FZ"""
-    wheel = Wheel("S1002", "60E1", 0.0, 0.05, 0.5, 8.0, 4.0, 1.5e-3, 0.0, 39200.0, 5.85, eps=1e-6, order=order)
+    wheel = Wheel("S1002", "60E1", 0.0, 0.05, 0.5, 8.0, 4.0, 1.5e-3, 0.0, 39200.0, 5.85, order=order)
     wheel.pair.set_flags(ic_discns=3)
     low, high = 5.8, 5.9
     check([len(wheel.solve(y=y).patches) for y in (low, high)] == [2, 1], "D = 3: two patches, and one")
