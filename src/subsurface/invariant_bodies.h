@@ -12,7 +12,9 @@
 /* Rotate away entry pq of symmetric matrices with entries pp, qq, and pr, qr in the third row */
 INLINE void OF(rotate)(four *pp, four *qq, four *pq, four *pr, four *qr) {
   const four one = {1.0, 1.0, 1.0, 1.0}, theta = 0.5 * (*qq - *pp), root = ROOTS(theta * theta + *pq * *pq);
-  const four t = WHERE(~(MAGNITUDES(*pq) < NEGLIGIBLE), *pq / (theta + CHOOSE(theta < 0.0, -root, root)));
+  const four divisor = theta + CHOOSE(theta < 0.0, -root, root);
+  /* a divisor of zero belongs to a negligible entry; a division by it would be an exception */
+  const four t = WHERE(~(MAGNITUDES(*pq) < NEGLIGIBLE), *pq / CHOOSE(divisor == 0.0, one, divisor));
   const four c = one / ROOTS(one + t * t), s = t * c, row = *pr;
   *pp -= t * *pq;
   *qq += t * *pq;

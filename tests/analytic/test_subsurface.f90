@@ -574,10 +574,12 @@ contains
 
    !> Points are processed four at once: each gets what it gets alone, and one that is undefined remains so
    subroutine groups_of_points(suite)
-      use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
+      use, intrinsic :: ieee_arithmetic, only : ieee_divide_by_zero, ieee_get_flag, ieee_invalid, ieee_is_nan, ieee_quiet_nan, &
+         & ieee_set_flag, ieee_value
       type(test_suite), intent(inout) :: suite
       integer, parameter :: n = 7
       real(wp) :: s(6, n), hyd(n), vm(n), tr(n), s1(n), s2(n), s3(n)
+      logical :: raised(2)
       integer :: k
 
       do k = 1, n
@@ -585,7 +587,11 @@ contains
       end do
       s(:, 3) = 0.0_wp
       s(:, 5) = [1.0_wp, 0.3_wp, -0.2_wp, 4.0_wp, 0.7_wp, -3.0_wp]
+      call ieee_set_flag([ieee_divide_by_zero, ieee_invalid], .false.)
       call stress_invariants(s, hyd, vm, tr, s1, s2, s3)
+      call ieee_get_flag(ieee_divide_by_zero, raised(1))
+      call ieee_get_flag(ieee_invalid, raised(2))
+      call suite%check(.not. any(raised), "no exceptions, which stop a program with traps")
       do k = 1, n
          call suite%check(all(abs([s1(k), s2(k), s3(k)] - principal_stresses(s(:, k))) <= 0.0_wp), "alone and with others")
          if (k == 3 .or. k == 5) cycle
