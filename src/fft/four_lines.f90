@@ -44,6 +44,28 @@ module contact_fft_four_lines
       procedure :: release
    end type line_factors
 
+   abstract interface
+      !> Transform of some columns
+      subroutine columns_transform(steps, positions, factors, my, columns, from, to, work) bind(c)
+         import :: c_double, c_double_complex, c_int, line_steps
+         implicit none (type, external)
+         !> Components of line_factors for the padded length
+         type(line_steps), intent(in) :: steps
+         integer(c_int), intent(in) :: positions(*)
+         complex(c_double_complex), intent(in) :: factors(*)
+         !> Length of the columns, and their number, 4 at most
+         integer(c_int), value :: my, columns
+         !> Forward: rows after their transform, from the first of these columns on; back: the spectrum
+         complex(c_double_complex), intent(in) :: from(*)
+         !> The other one of these, and workspace
+         complex(c_double_complex), intent(inout) :: to(*)
+         real(c_double), intent(inout) :: work(*)
+      end subroutine columns_transform
+   end interface
+
+   procedure(columns_transform), bind(c, name="contact_four_columns_forward") :: four_columns_forward
+   procedure(columns_transform), bind(c, name="contact_four_columns_backward") :: four_columns_backward
+
    interface
       !> Transforms of up to eight rows, of which the first is row iy
       subroutine four_rows_forward(steps, positions, factors, mx, rows, all_rows, field, half, work) &
@@ -85,48 +107,6 @@ module contact_fft_four_lines
          !> Receives the rows, and workspace
          real(c_double), intent(inout) :: field(*), work(*)
       end subroutine four_rows_backward
-
-      !> Transforms of some columns
-      subroutine four_columns_forward(steps, positions, factors, my, columns, half, spectrum, work) &
-         & bind(c, name="contact_four_columns_forward")
-         import :: c_double, c_double_complex, c_int, line_steps
-         implicit none (type, external)
-         !> Steps for the padded length
-         type(line_steps), intent(in) :: steps
-         !> Positions of the frequencies
-         integer(c_int), intent(in) :: positions(*)
-         !> Factors between the steps
-         complex(c_double_complex), intent(in) :: factors(*)
-         !> Length of the columns, and their number, 4 at most
-         integer(c_int), value :: my, columns
-         !> Rows after their transform, as in four_rows_forward, from the first of these columns on
-         complex(c_double_complex), intent(in) :: half(*)
-         !> Receives these columns of the spectrum, shape (py, columns)
-         complex(c_double_complex), intent(inout) :: spectrum(*)
-         !> Workspace, of work_size
-         real(c_double), intent(inout) :: work(*)
-      end subroutine four_columns_forward
-
-      !> The same back
-      subroutine four_columns_backward(steps, positions, factors, my, columns, spectrum, half, work) &
-         & bind(c, name="contact_four_columns_backward")
-         import :: c_double, c_double_complex, c_int, line_steps
-         implicit none (type, external)
-         !> Steps for the padded length
-         type(line_steps), intent(in) :: steps
-         !> Positions of the frequencies
-         integer(c_int), intent(in) :: positions(*)
-         !> Factors between the steps
-         complex(c_double_complex), intent(in) :: factors(*)
-         !> Length of the columns, and their number, 4 at most
-         integer(c_int), value :: my, columns
-         !> These columns of the spectrum, shape (py, columns)
-         complex(c_double_complex), intent(in) :: spectrum(*)
-         !> Receives rows before their transform back, from the first of these columns on
-         complex(c_double_complex), intent(inout) :: half(*)
-         !> Workspace, of work_size
-         real(c_double), intent(inout) :: work(*)
-      end subroutine four_columns_backward
 
       !> Transform some columns, multiply them by a real spectrum, and transform them back
       subroutine four_columns_one(steps, positions, factors, my, columns, xx, half, work) &

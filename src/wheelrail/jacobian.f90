@@ -165,21 +165,16 @@ contains
       real(wp), allocatable :: distance(:, :, :), heights(:, :, :, :), slip(:, :, :, :)
       real(wp) :: approach(4), creepage(3, 10), force(3), moment(3), change(6), turn(3), friction, lever(3)
       integer :: k
-      logical :: rolls
 
       associate (slot => memory%slot(number), geometry => memory%geometry)
          allocate(distance(slot%problem%grid%mx, slot%problem%grid%my, coordinate%count))
-         rolls = slot%problem%motion == motion%steady_rolling
          if (allocated(slot%curve)) allocate(heights(slot%problem%grid%mx, slot%problem%grid%my, 2, coordinate%count))
          call differentiate_distance(problem, geometry, slot, motions, distance, approach, heights)
          call add_interactions(slot, motions, distance)
          creepage = 0.0_wp
-         if (rolls) call differentiate_slip(problem, geometry, slot, motions, approach, heights, creepage, slip)
-         if (allocated(slip)) then
-            call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d, slip)
-         else
-            call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d)
-         end if
+         if (slot%problem%motion == motion%steady_rolling) &
+            & call differentiate_slip(problem, geometry, slot, motions, approach, heights, creepage, slip)
+         call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d, slip)
          jacobian%reached = max(jacobian%reached, d%reached)
          friction = 0.0_wp
          if (problem%variation == variation%by_angle .and. slot%problem%motion /= motion%none) &

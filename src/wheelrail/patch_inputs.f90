@@ -16,7 +16,7 @@ module contact_wheelrail_patch_inputs
       & undeformed_distance
    use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
-   use contact_wheelrail_placement, only : rail_motion, wheel_motion
+   use contact_wheelrail_placement, only : forward_velocity, rail_motion, wheel_motion
    use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, wheel_rail_problem, parameters_at
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
@@ -399,9 +399,8 @@ contains
          end if
       end associate
       if (allocated(slot%curve)) then
-         ! on a track the rolling velocity is the forward velocity, unless the wheel turns without moving forward
          forward = 0.0_wp
-         if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller) forward = abs(problem%spec%wheelset%vs)
+         if (problem%template%motion /= motion%shift) forward = forward_velocity(problem%spec)
          call surface_motion(rail, wheel, slot%curve, slot%problem%grid, slot%on_rail, slot%on_wheel, &
             & slot%on_rail < slot%on_wheel, problem%rail_share, forward, slot%motion, slot%problem%extra_slip)
       end if

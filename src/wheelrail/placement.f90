@@ -11,7 +11,7 @@ module contact_wheelrail_placement
    implicit none (type, external)
    private
 
-   public :: wheel_rail_placement, gauge_point, place_wheel_rail, rail_motion, wheel_motion, side_sign
+   public :: wheel_rail_placement, forward_velocity, gauge_point, place_wheel_rail, rail_motion, wheel_motion, side_sign
 
    !> Frames in track coordinates
    type :: wheel_rail_placement
@@ -34,6 +34,13 @@ contains
       class(pair_spec), intent(in) :: wheel_rail
       side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
+
+   !> Forward velocity of the wheelset, which is the rolling velocity on a track [mm/s]; 0 on a roller
+   pure real(wp) function forward_velocity(wheel_rail)
+      !> Its velocity counts
+      class(pair_spec), intent(in) :: wheel_rail
+      forward_velocity = merge(0.0_wp, abs(wheel_rail%wheelset%vs), wheel_rail%roller)
+   end function forward_velocity
 
    !> Top of the canted rail and its gauge point
    !>
