@@ -57,5 +57,6 @@ build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
 finish_installation
 say "Testing"
 cd "$top/build/$preset" || exit 1
+# One test more than there are processors: some wait, for a browser, a worker or a server
 # shellcheck disable=SC2086
-exec ctest --output-on-failure -j2 $exclude
+exec ctest --output-on-failure -j$(($(nproc) + 1)) $exclude
