@@ -14,19 +14,19 @@ _LAYOUTS = (2320, 2410)
 # What is zero outside of the contact when a file has the elements in contact only; all else is not known there
 _ZERO_OUTSIDE = ("eldiv", "pn", "px", "py")
 # Names of totals in HDF5 by the headings of the .out file, once lower case and with _ for other signs
-_TOTALS = {"fn": "fn", "fx": "fx", "fy": "fy", "fs": "fy", "mz": "mz", "mn": "mz", "bar_fn": "bar_fn", "bar_fx": "bar_fx",
-           "bar_fs": "bar_fs", "elast_en": "elastic_energy", "fric_power": "friction_power", "fric_work": "friction_work",
-           "fx_fstat_fn": "fx_rel", "fy_fstat_fn": "fy_rel", "fs_fstat_fn": "fy_rel", "fx_fn": "fx_rel", "fy_fn": "fy_rel",
-           "fs_fn": "fy_rel", "approach": "pen", "pmax": "pmax", "max_t1_t2": "max_temp", "cksi": "cksi", "ceta": "ceta",
-           "cphi": "cphi", "creep_x": "cksi", "creep_y": "ceta", "shift_x": "shift_x", "shift_y": "shift_y",
-           "rotation": "rotation", "ncon": "ncon",
-           "nadh": "nadh", "nslip": "nslip", "nplast": "nplast", "xcp_tr": "xcp_tr", "ycp_tr": "ycp_tr", "zcp_tr": "zcp_tr",
-           "deltcp_tr": "deltcp_tr", "ycp_r": "ycp_r", "zcp_r": "zcp_r", "xcp_w": "xcp_w", "ycp_w": "ycp_w", "zcp_w": "zcp_w"}
+_TOTALS = {"fn": "fn", "fx": "fx", "fy": "fy", "fs": "fy", "mz": "mz", "mz_elem": "mz_elem", "bar_fn": "bar_fn",
+           "bar_fx": "bar_fx", "bar_fs": "bar_fs", "bar_mn": "bar_mn", "elast_en": "elastic_energy",
+           "fric_power": "friction_power", "fric_work": "friction_work", "fx_fstat_fn": "fx_rel", "fy_fstat_fn": "fy_rel",
+           "fs_fstat_fn": "fy_rel", "fx_fn": "fx_rel", "fy_fn": "fy_rel", "fs_fn": "fy_rel", "approach": "pen", "pmax": "pmax",
+           "max_t1_t2": "max_temp", "cksi": "cksi", "ceta": "ceta", "cphi": "cphi", "creep_x": "cksi", "creep_y": "ceta",
+           "shift_x": "shift_x", "shift_y": "shift_y", "rotation": "rotation", "ncon": "ncon", "nadh": "nadh", "nslip": "nslip",
+           "nplast": "nplast", "xcp_tr": "xcp_tr", "ycp_tr": "ycp_tr", "zcp_tr": "zcp_tr", "deltcp_tr": "deltcp_tr",
+           "ycp_r": "ycp_r", "zcp_r": "zcp_r", "xcp_w": "xcp_w", "ycp_w": "ycp_w", "zcp_w": "zcp_w"}
 _OF_CASE = ("fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws", "s_ws", "y_ws", "z_ws", "roll_ws", "yaw_ws", "vpitch_ws",
             "dy_defl", "dz_defl")
 _MOMENTS = ("mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws")
 # First words of the headings below which the totals stand
-_HEADINGS = re.compile(r"^\s+(FN|BAR_FN|FN/G|CHI|DT|NPOT|XCP|FX\(TR\)|MX@R|S_WS|X_WS|VS_WS|VX_WS|DY_DEFL)\b|^\s+(XCP|FX)\(")
+_HEADINGS = re.compile(r"^\s+(FN|BAR_FN|FN/G|CHI|SPINXO|DT|NPOT|XCP|FX\(TR\)|MX@R|S_WS|X_WS|VS_WS|VX_WS|DY_DEFL)\b|^\s+(XCP|FX)\(")
 
 
 @dataclass
@@ -50,6 +50,8 @@ class OutCase:
     reason: str = ""
     totals: dict[str, float] = field(default_factory=dict)
     patches: dict[int, dict[str, float]] = field(default_factory=dict)
+    # Name of the moment MN of each patch whose kinematic constants are printed
+    moments: dict[int, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -105,6 +107,8 @@ def read_mat(path: str) -> MatFile:
             totals[total] = float(fields[name].sum() * dx * dy)
     patch = int(table[2, 8])
     if patch:
+        # in steps places refer to the origin of the elements there, in HDF5 to the contact reference
+        xl, yl = xl - float(table[2, 9]), yl - float(table[2, 10])
         totals.update(zip(("xcp_r", "ycp_r", "zcp_r", "deltcp_r", "xcp_w", "ycp_w", "zcp_w"), table[2, :7].tolist()))
     grid = {"mx": mx, "my": my, "xl": xl, "yl": yl, "dx": dx, "dy": dy, "chi": chi, "dq": dq, "veloc": veloc, "t_digit": t_digit,
             "x": xl + dx * (np.arange(mx) + 0.5), "y": yl + dy * (np.arange(my) + 0.5)}
@@ -135,6 +139,17 @@ def _take(case: OutCase, patch: int, values: dict[str, float], in_module1: bool)
         if in_module1:
             return
     totals = case.patches.setdefault(max(1, patch), {})
+    # MN is about the contact reference; in steps about the origin of the elements, which has a line of its own then. Without
+    # kinematic constants, in compact output, its origin is not known
+    if "cksi" in values or "shift_x" in values:
+        case.moments[patch] = "mz"
+    elif "spinxo" in values:
+        case.moments[patch] = "mz_elem"
+    moment = values.pop("mn", None)
+    if moment is not None and "bar_fn" in values:
+        values["bar_mn"] = moment
+    elif moment is not None and patch in case.moments:
+        values[case.moments[patch]] = moment
     totals.update({total: values[name] for name, total in _TOTALS.items() if name in values})
 
 

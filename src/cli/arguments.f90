@@ -485,7 +485,7 @@ contains
          & "  --limit-memory MB, --limit-elements N  refuse cases that need more memory or elements", &
          & "  --resume          go on with a run that was interrupted, or ended at an error of the input that is mended now", &
          & "  --limit-run-time S, --limit-output MB  end the run after this time, or when its files take more", &
-         & "  --confine         for input from left_out: read and write ordinary files below the folder of the", &
+         & "  --confine         for untrusted input: read and write ordinary files below the folder of the", &
          & "                    experiment only, with limits of 600 s and 3600 s, 4000 MB, 1000000 elements,", &
          & "                    1000 MB of output where no others are given", &
          & "  --strict          exit with status 2 when a case did not converge", &

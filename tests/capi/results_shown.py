@@ -276,6 +276,30 @@ def loaded(program):
     raises(KeyError, lambda: matrix.case(77), "77")
 
 
+def places_of_wheels(program):
+    """Moments and places of elements mean the same in all three kinds of files: in steps, on both sides, in conformal contact"""
+    if not has("h5py"):
+        return
+    for example, left, count in (("single_wheel", False, 2), ("single_wheel", True, 2), ("conformal_wheel", False, 3)):
+        with open(os.path.join(SOURCE, "examples", example + ".inp"), encoding="utf-8") as file:
+            text = " 1 MODULE".join(file.read().split(" 1 MODULE")[:count + 1]) + " 0 MODULE\n"
+        text = text.replace("0001201 ", "0002201 ")
+        with open("places.inp", "w", encoding="utf-8") as file:
+            file.write(re.sub("(?m)^ 1(20[0-9]{4} +C-P-B)", r" 0\1", text) if left else text)
+        shutil.copytree(os.path.join(SOURCE, "examples/profiles"), "profiles", dirs_exist_ok=True)
+        subprocess.run([program, "--hdf5", "2", "places"], check=True, stdout=subprocess.DEVNULL)
+        printed, whole = contact.load("places.out"), contact.load("places.h5")
+        moments = {name for case in printed for name in ("mz", "mz_elem", "bar_mn") if name in case.patch.totals()}
+        same(moments, {"mz_elem"} if example == "single_wheel" else {"mz", "bar_mn"}, f"moments of {example}")
+        for case, stored in zip(printed, whole):
+            for name, value in case.patch.totals().items():
+                close(stored.patch.totals()[name], value, 1e-3 * max(abs(value), 0.05), f"{name} of {example} {case.number}")
+        if example == "single_wheel":
+            for matrix in contact.load("places.mat"):
+                for axis in ("x", "y"):
+                    close(getattr(matrix.patch, axis), getattr(whole.case(matrix.number).patch, axis), 1e-5, f"{axis} of elements")
+
+
 def layer():
     """The older name for layers keeps the elastic constants"""
     with contact.Problem(motion="shift") as problem:
@@ -325,6 +349,7 @@ if __name__ == "__main__":
     drawn(*everything)
     data_sets(*everything)
     loaded(sys.argv[1])
+    places_of_wheels(sys.argv[1])
     layer()
     track(everything[-1])
     rates_of_pitch()

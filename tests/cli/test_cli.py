@@ -74,6 +74,7 @@ class Words(Cli):
         self.succeeds(run)
         for word in ("Usage", "IMODE", "EXPNAM", "--output-dir", "--threads", "--quiet", "--version"):
             self.assertIn(word, run.stdout)
+        self.assertNotRegex(run.stdout, r"[a-z]_[a-z]", "a name of the sources among the words")
 
     def test_version(self):
         run = self.run_program("--version")
