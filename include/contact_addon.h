@@ -162,7 +162,7 @@ void cntc_readinpfile(const int *ire, const int *inp_type, const char *c_fname,
 /* ---- Settings of basic contact ---- */
 
 /* Set the rolling velocity (basic contact).
- *   veloc: velocity [V] */
+ *   veloc: velocity [V]; its absolute value is used, at least 1e-9 mm/s */
 void cntc_setreferencevelocity(const int *ire, const int *icp, const double *veloc);
 
 /* Set a Hertzian geometry and its grid (basic contact).
@@ -440,7 +440,8 @@ void cntc_getdisplacements(const int *ire, const int *icp, const int *lenarr, do
 /* Get derivatives of forces by approach and creepages.
  *   lenout, lenin: numbers of rows and columns
  *   sens: rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns, one after the
- *       other: approach [L], creepages and spin; zero if not computed, see the flag CNTC_ic_sens */
+ *       other: approach [L], creepages and spin; on body 1 and by the creepages as they are set,
+ *       in all units; zero if not computed, see the flag CNTC_ic_sens */
 void cntc_getsensitivities(const int *ire, const int *icp, const int *lenout, const int *lenin,
                            double *sens);
 

@@ -4,7 +4,7 @@ function cntc_setreferencevelocity( ire, icp, veloc )
 %   cntc_setreferencevelocity( ire, icp, veloc )
 %
 %   ire, icp  result element and contact patch or problem (default 1, 1)
-%   veloc     velocity [V]
+%   veloc     velocity [V]; its absolute value is used, at least 1e-9 mm/s
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

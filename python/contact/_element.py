@@ -438,6 +438,10 @@ class Element:
                  trace: TracebackType | None) -> None:
         self.close()
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError("a problem cannot be copied or pickled, since it stands for memory of the library; make it anew in each "
+                        "process. Its results can be")
+
     def close(self) -> None:
         """Free the memory of the library; the results that were returned stay valid."""
         self._release()

@@ -84,7 +84,12 @@ def _reals(values: ArrayLike | None) -> Field:
 
 
 def _ints(values: ArrayLike | None) -> NDArray[np.intc]:
-    return np.zeros(0, np.intc) if values is None else np.ascontiguousarray(values, dtype=np.intc).reshape(-1)
+    if values is None:
+        return np.zeros(0, np.intc)
+    given = np.asarray(values)
+    if given.size and (given.dtype.kind not in "iubf" or (given.dtype.kind == "f" and (given != np.rint(given)).any())):
+        raise ValueError(f"{values!r}: integers are needed")
+    return np.ascontiguousarray(given, dtype=np.intc).reshape(-1)
 
 
 def _tell(routine: str, code: int, idebug: int) -> None:
@@ -152,7 +157,7 @@ def closelibrary() -> None:
 
 def _flag_lists(params: ArrayLike, values: ArrayLike, dtype: Any) -> tuple[NDArray[np.intc], NDArray[Any]]:
     codes = _ints(params)
-    numbers = np.ascontiguousarray(values, dtype=dtype).reshape(-1)
+    numbers = _ints(values) if dtype is np.intc else _reals(values)
     if codes.size != numbers.size:
         raise ValueError(f"{codes.size} codes, but {numbers.size} values")
     return codes, numbers

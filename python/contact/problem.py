@@ -11,6 +11,13 @@ from . import cntc
 from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
 
 
+def _counts(*counts: int) -> list[int]:
+    """Numbers of elements as integers; the library would round them"""
+    if any(int(count) != count for count in counts):
+        raise ValueError(f"numbers of elements {', '.join(map(str, counts))} must be integers")
+    return [int(count) for count in counts]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Result(Patch):
     """Results of a problem of basic contact: those of :class:`Patch` and
@@ -84,6 +91,7 @@ class Problem(Element):
         scale
             Size of the grid relative to the ellipse.
         """
+        mx, my = _counts(mx, my)
         if aa is not None and bb is not None and a1 is None and b1 is None:
             self._do(cntc.sethertzcontact, self.number, 1, -3, [mx, my, aa, bb, scale])
         elif a1 is not None and b1 is not None and aa is None and bb is None:
@@ -109,6 +117,7 @@ class Problem(Element):
         -------
         Coordinates x (mx,) and y (my,) of the centres of elements [L].
         """
+        mx, my = _counts(mx, my)
         xl = -0.5 * mx * dx if xl is None else xl
         yl = -0.5 * my * dy if yl is None else yl
         self._do(cntc.setpotcontact, self.number, 1, 1, [mx, my, xl, yl, dx, dy])
@@ -155,7 +164,7 @@ class Problem(Element):
         self._do(cntc.settangentialforces, self.number, 1, fx, 0.0 if fy is None else fy)
 
     def set_rolling(self, velocity: float, step: float | None = None, direction: float = 0.0) -> None:
-        """Rolling velocity [V], step dq [L] and direction [A].
+        """Rolling velocity [V], positive, step dq [L] and direction [A]: 0, or pi for rolling backwards.
 
         In transient rolling give the step, usually dx. The default of the library is 2 mm, which may be longer than
         the contact. Steady rolling always uses steps of one element.
@@ -163,6 +172,8 @@ class Problem(Element):
         The default velocity is 1 m/s. Temperatures, frictional power, friction depending on the slip velocity and
         viscoelastic bodies need the actual velocity.
         """
+        if velocity <= 0.0:
+            raise ValueError(f"velocity = {velocity!r} must be positive; rolling backwards is direction=math.pi, with a step")
         self._do(cntc.setreferencevelocity, self.number, 1, velocity)
         if step is not None:
             self._do(cntc.setrollingstepsize, self.number, 1, direction, step)

@@ -188,6 +188,8 @@ class WheelRail(Element):
         super().__init__(motion, units)
         self.side = side
         self._sides: tuple[float, float] | None = None
+        self._has_force = False
+        self._lacks_height = False
         self.set_flags(ic_config=_SIDES[side, roller], own_angle=_ANGLES[contact_angle])
 
     def set_grid(self, dx: float, ds: float, *, a_sep: float = np.pi / 2, d_sep: float | None = None,
@@ -278,12 +280,16 @@ class WheelRail(Element):
                      yaw: float = 0.0, pitch: float = 0.0) -> None:
         """Position of the wheelset [L], [A]. A height z replaces the prescribed vertical force; without it, z is computed."""
         self._do(cntc.setwheelsetposition, self.number, 1, [s, y, 0.0 if z is None else z, roll, yaw, pitch])
-        if z is not None:
-            self.set_flags(ic_norm=0)
+        if z is not None or self._has_force:
+            self.set_flags(ic_norm=int(z is None))
+        self._lacks_height = z is None and not self._has_force
 
     def set_velocity(self, vs: float, vy: float = 0.0, vz: float = 0.0, roll: float = 0.0, yaw: float = 0.0,
                      pitch: float = 0.0) -> None:
-        """Velocity of the wheelset [V] and its rates [A/T]; forward rolling has a negative pitch rate."""
+        """Velocity of the wheelset [V] and its rates [A/T]; forward rolling has a negative pitch rate.
+
+        On a roller vs is the rate of the roller [A/T].
+        """
         self._do(cntc.setwheelsetvelocity, self.number, 2, [vs, vy, vz, roll, yaw, pitch])
 
     def set_flexibility(self, position: Sequence[float], velocity: Sequence[float] = (0.0,) * 6) -> None:
@@ -291,8 +297,9 @@ class WheelRail(Element):
         self._do(cntc.setwheelsetflexibility, self.number, 5, [*position, *velocity])
 
     def set_vertical_force(self, fz: float) -> None:
-        """Vertical force of the wheel on the rail, positive down [F]."""
+        """Vertical force of the wheel on the rail, positive down [F]; replaces a prescribed height."""
         self._do(cntc.setverticalforce, self.number, fz)
+        self._has_force, self._lacks_height = True, False
 
     def set_longitudinal_force(self, fx: float = 0.0) -> None:
         """Prescribe the longitudinal force on the rail in wheelset axes [F]; the pitch rate is computed.
@@ -316,9 +323,13 @@ class WheelRail(Element):
         ------
         ContactError
             If there is no solution, with the code and message of the library.
+        ValueError
+            If `set_position` was called without a height, and no vertical force was set.
         """
-        border = self._calculate(initiation)
         number = self.number
+        if self._lacks_height and cntc.getflags(number, -1, [cntc.CNTC["ic_norm"]])[0] == 0:
+            raise ValueError("the height of the wheelset is not known: set_vertical_force, or set_position with z, is needed")
+        border = self._calculate(initiation)
         patches = tuple(self._patch(icp) for icp in range(1, cntc.getnumcontactpatches(number) + 1))
         for icp, patch in enumerate(patches, 1):
             warn_of_border(patch, f"contact patch {icp}")

@@ -4,7 +4,7 @@ module contact_output_file_writer
    use contact_base_output_file, only : output_file
    use contact_cases_archive, only : case_archive, item_kind
    use contact_control_digits, only : case_digits, word_text
-   use contact_text_words, only : integer_text, to_real
+   use contact_text_words, only : integer_text, replaced, to_real
    implicit none (type, external)
    private
 
@@ -45,7 +45,7 @@ contains
             case (item_kind%integer, item_kind%branch)
                values = values // integer_text(item%i)
             case (item_kind%text)
-               values = values // "'" // item%s%value // "'"
+               values = values // "'" // replaced(item%s%value, "'", "''") // "'"
             case default
                values = values // numbers([item%r])
             end select

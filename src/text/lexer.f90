@@ -7,7 +7,7 @@ module contact_text_lexer
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_text_file_text, only : add_to_hash, empty_hash, read_text
-   use contact_text_line_words, only : find_word, printable, quote, word_place
+   use contact_text_line_words, only : find_word, printable, quote, single_quotes, word_place
    use contact_text_words, only : columns_of, integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    private
@@ -297,7 +297,7 @@ contains
          state = word_state%malformed
          if (letter == "s") then
             if (place%quoted .and. place%closed) state = word_state%good
-            if (state == word_state%good) value%s = word
+            if (state == word_state%good) value%s = single_quotes(word)
          else if (.not. place%quoted) then
             select case (letter)
             case ("i")

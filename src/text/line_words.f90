@@ -3,11 +3,11 @@ module contact_text_line_words
    implicit none (type, external)
    private
 
-   public :: find_word, printable, quote, word_place
+   public :: find_word, printable, quote, single_quotes, word_place
 
    !> Place of a word
    type :: word_place
-      !> First and last character in the text, without quotes; first = 0 when there is none
+      !> First and last character in the text, without the quotes around it; first = 0 when there is none
       integer :: first = 0, last = 0
       !> Position after the word
       integer :: next = 0
@@ -41,9 +41,14 @@ contains
       if (text(k:k) == quote) then
          place%quoted = .true.
          place%first = k + 1
-         k = index(text(place%first:), quote)
-         place%closed = k > 0
-         place%last = merge(place%first + k - 2, len(text), place%closed)
+         ! two quotes in succession stand for a quote within the text
+         do k = place%first, len(text)
+            if (text(k:k) /= quote) cycle
+            place%closed = .not. place%closed
+            if (k == len(text)) exit
+            if (place%closed .and. text(k + 1:k + 1) /= quote) exit
+         end do
+         place%last = merge(k - 1, len(text), place%closed)
          place%next = place%last + 2
          return
       end if
@@ -54,6 +59,37 @@ contains
       place%last = k - 1
       place%next = k
    end function find_word
+
+   !> Number of pairs of quotes in succession
+   pure integer function pairs(text)
+      character(len=*), intent(in) :: text
+      integer :: k
+
+      pairs = 0
+      k = 1
+      do while (k < len(text))
+         if (text(k:k + 1) == quote // quote) then
+            pairs = pairs + 1
+            k = k + 1
+         end if
+         k = k + 1
+      end do
+   end function pairs
+
+   !> The content of a quoted text, with one quote for each pair of quotes
+   pure function single_quotes(text) result(content)
+      !> Text between its outer quotes
+      character(len=*), intent(in) :: text
+      character(len=len(text) - pairs(text)) :: content
+      integer :: i, k
+
+      k = 1
+      do i = 1, len(content)
+         content(i:i) = text(k:k)
+         if (k < len(text)) k = k + merge(1, 0, text(k:k + 1) == quote // quote)
+         k = k + 1
+      end do
+   end function single_quotes
 
    !> A piece of a line without control characters, shortened for a message; padded with blanks
    pure function echo(piece) result(text)

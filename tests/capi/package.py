@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """The Python package: objects, errors, wrong use, threads."""
+import copy
 import gc
 import inspect
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -116,6 +118,15 @@ def errors():
         raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "creepage that is none")
         raises(ValueError, lambda: problem.set_flags(ic_nothing=3), "ic_nothing", "unknown flag")
         raises(ValueError, lambda: problem.set_hertz(5, 5, aa=1.0), "aa and bb", "half a geometry")
+        raises(ValueError, lambda: problem.set_hertz(5.5, 5, aa=1.0, bb=1.0), "5.5", "half an element")
+        raises(ValueError, lambda: problem.set_grid(5, 5.5, 1.0, 1.0), "5.5", "half an element of a grid")
+        raises(ValueError, lambda: problem.set_flags(ic_tang=2.9), "integers", "a digit that is none")
+        raises(ValueError, lambda: problem.set_flags(ic_tang="2"), "integers", "a digit in quotes")
+        raises(ValueError, lambda: problem.set_solver(maxgs=1.5), "integers", "half an iteration")
+        raises(ValueError, lambda: problem.set_rolling(0.0), "positive", "no velocity")
+        raises(ValueError, lambda: problem.set_rolling(-1000.0), "direction", "rolling backwards")
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            raises(TypeError, lambda: copied(problem), "anew", "a copy of a problem")  # noqa: B023
         raises(ValueError, lambda: contact.Problem(units="inch"), "inch", "unknown units")
         raises(ValueError, lambda: contact.Problem(motion="flying"), "flying", "unknown motion")
         raises(contact.ContactError, lambda: contact.output_to("elsewhere"), "before", "output_to too late")
@@ -219,6 +230,16 @@ def wheel_on_rail():
             setter(cntc.getprofilevalues(pair.number, 1, [kind, 0]))
         arrays = pair.solve()
         close(arrays.forces.track.force, result.forces.track.force, 20.0, "profiles as arrays")
+        height = arrays.wheelset_position[2]
+        pair.set_position(y=2.0, z=height + 0.01, yaw=0.0048)
+        check(pair.solve().forces.track.force[2] > 1.02 * arrays.forces.track.force[2], "a given height replaces the force")
+        pair.set_position(y=2.0, yaw=0.0048)
+        close(pair.solve().wheelset_position[2], height, 1e-5, "without a height it is computed again")
+    with contact.WheelRail() as pair:
+        pair.set_position(y=2.0)
+        raises(ValueError, pair.solve, "set_vertical_force", "neither height nor force")
+        pair.set_vertical_force(10e3)
+        raises(contact.ContactError, pair.solve, "profile", "a force, but no profiles")
     with contact.WheelRail("left") as pair:
         wheel(pair)
         pair.set_position(y=-2.0, yaw=-0.0048)

@@ -284,18 +284,19 @@ def places_of_wheels(program):
         with open(os.path.join(SOURCE, "examples", example + ".inp"), encoding="utf-8") as file:
             text = " 1 MODULE".join(file.read().split(" 1 MODULE")[:count + 1]) + " 0 MODULE\n"
         text = text.replace("0001201 ", "0002201 ")
-        with open("places.inp", "w", encoding="utf-8") as file:
+        name = f"{example}_{left}"
+        with open(name + ".inp", "w", encoding="utf-8") as file:
             file.write(re.sub("(?m)^ 1(20[0-9]{4} +C-P-B)", r" 0\1", text) if left else text)
         shutil.copytree(os.path.join(SOURCE, "examples/profiles"), "profiles", dirs_exist_ok=True)
-        subprocess.run([program, "--hdf5", "2", "places"], check=True, stdout=subprocess.DEVNULL)
-        printed, whole = contact.load("places.out"), contact.load("places.h5")
-        moments = {name for case in printed for name in ("mz", "mz_elem", "bar_mn") if name in case.patch.totals()}
+        subprocess.run([program, "--hdf5", "2", name], check=True, stdout=subprocess.DEVNULL)
+        printed, whole = contact.load(name + ".out"), contact.load(name + ".h5")
+        moments = {key for case in printed for key in ("mz", "mz_elem", "bar_mn") if key in case.patch.totals()}
         same(moments, {"mz_elem"} if example == "single_wheel" else {"mz", "bar_mn"}, f"moments of {example}")
         for case, stored in zip(printed, whole):
-            for name, value in case.patch.totals().items():
-                close(stored.patch.totals()[name], value, 1e-3 * max(abs(value), 0.05), f"{name} of {example} {case.number}")
+            for total, value in case.patch.totals().items():
+                close(stored.patch.totals()[total], value, 1e-3 * max(abs(value), 0.05), f"{total} of {example} {case.number}")
         if example == "single_wheel":
-            for matrix in contact.load("places.mat"):
+            for matrix in contact.load(name + ".mat"):
                 for axis in ("x", "y"):
                     close(getattr(matrix.patch, axis), getattr(whole.case(matrix.number).patch, axis), 1e-5, f"{axis} of elements")
 

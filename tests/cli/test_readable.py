@@ -93,6 +93,18 @@ class Readable(unittest.TestCase):
             said = self.run_program("convert", "--output-dir", str(self.folder / "other"), str(EXAMPLES / (name + ".inp")))
             self.assertEqual("copy them there" in "".join(said[1:]), told, said)
 
+    def test_names_with_all_letters(self):
+        """A name of a file survives both conversions, with quotes, marks of comments and separators in it"""
+        folder = "driver's wheels, 50% \"a=b\" ''"
+        shutil.copytree(EXAMPLES / "profiles", self.folder / folder)
+        text = (EXAMPLES / "manchester.toml").read_text().replace("profiles/", folder.replace('"', '\\"') + "/")
+        for name in ("names.toml", "back.toml"):
+            (self.folder / name).write_text(text)
+        for name in ("back.toml", "back.inp"):
+            self.assertEqual(self.run_program("convert", "--force", name)[::2], (0, ""))
+            self.assertEqual(self.run_program("3", "back.inp")[::2], (0, ""))
+        self.assertEqual((self.folder / "back.toml").read_text(), text)
+
     def test_a_case_by_hand(self):
         status, out, errors = self.check("# a ball\n" + HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n")
         self.assertEqual((status, errors), (0, ""), out)
