@@ -11,7 +11,6 @@ module contact_experiment_batch
    use contact_cases_spec, only : case_spec
    use contact_experiment_state, only : apply_settings, experiment_state, find_slot, run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
-   use contact_input_problems, only : severity
    use contact_patch_quantities, only : element_field, total_list
    use contact_patch_result, only : mirrored, patch_result
    use contact_wheelrail_result, only : wheel_rail_result
@@ -129,7 +128,7 @@ contains
    end subroutine solve_cases
 
    !> Solve the second case of a text for many sets of numbers. The first case only provides what the second one keeps, and is
-   !> not solved
+   !> not solved. If it has errors, it is read itself with each set, as some of the numbers may be the cause
    subroutine solve_variations(batch, text, folder, names, sets, room, error)
       !> State kept from call to call
       type(case_batch), intent(inout) :: batch
@@ -146,13 +145,14 @@ contains
       !> Allocated if the text is invalid or the arrays are too small
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
-      type(input_case) :: this
+      type(input_case) :: head, this
       integer :: k
 
       batch%state%place%folder = folder
       call reader%open_readable(text, text_name, error)
-      if (.not. allocated(error)) call reader%next_case(this, error)
-      if (.not. allocated(error)) call reader%prepare_variation(names, error)
+      if (.not. allocated(error)) call reader%next_case(head, error)
+      if (.not. allocated(error)) call reader%prepare_variation(names, error, of_first=.not. head%problems%is_usable())
+      if (allocated(error) .and. .not. head%problems%is_usable()) call head%problems%first_failure(error)
       do k = 1, size(sets, 2)
          if (allocated(error)) exit
          call reader%read_variation(sets(:, k), this)
@@ -183,11 +183,8 @@ contains
       room%cases = room%cases + 1
       batch%last = 0
       if (.not. this%problems%is_usable()) then
-         do k = 1, this%problems%count
-            if (this%problems%items(k)%severity == severity%warning) cycle
-            call status%refuse(this%problems%items(k)%what%message)
-            exit
-         end do
+         call this%problems%first_failure(refusal)
+         call status%refuse(refusal%message)
       else if (this%spec%solve) then
          this%spec%flow_level = 0
          this%spec%output_level = 0

@@ -62,6 +62,8 @@ contains
       call find_slot(state, this%reid, this%cpid, k)
       associate (slot => state%slots(k))
          if (this%spec%solve) then
+            if (this%spec%iteration%allows_approximate .and. .not. this%spec%iteration%accuracy > 0.0_wp) &
+               & call state%log%warning("simplified methods are allowed, but no accuracy is requested: the case is solved as given")
             call estimate_cost(this%spec, cost)
             if (cost%seconds > large_seconds .or. cost%bytes > large_bytes .or. cost%beyond_most) call state%log%line( &
                & " Estimate of this case on one thread: " // trim(cost_text(cost)))

@@ -154,17 +154,22 @@ contains
    end subroutine open_readable_text
 
    !> Advance to the next case, which must belong to the same problem as the previous one, and find numbers that it gives
-   subroutine prepare_variation(self, names, error)
+   subroutine prepare_variation(self, names, error, of_first)
       !> The reader
       class(experiment_reader), intent(inout) :: self
       !> Names "group.key", without duplicates
       character(len=*), intent(in) :: names(:)
       !> Allocated if a number cannot be varied
       type(error_type), allocatable, intent(out) :: error
+      !> Return to the first case, and vary that one? Default: no
+      logical, intent(in), optional :: of_first
       integer :: k
-      logical :: ends_module
+      logical :: ends_module, is_first
 
-      if (.not. allocated(self%cases) .or. self%current == 0) then
+      is_first = .false.
+      if (present(of_first)) is_first = of_first
+      if (is_first) call self%rewind()
+      if (.not. allocated(self%cases) .or. (self%current == 0 .and. .not. is_first)) then
          call fatal_error(error, "numbers vary in a case of the readable format that follows another one")
          return
       end if
@@ -174,6 +179,7 @@ contains
          call fatal_error(error, "there is no case whose numbers vary")
          return
       end if
+      if (is_first) call self%select_store(self%varied%module_number, self%varied%reid, self%varied%cpid)
       allocate(self%varied_numbers(size(names)))
       do k = 1, size(names)
          self%varied_numbers(k) = self%cases%find_number(trim(names(k)))
@@ -183,7 +189,7 @@ contains
       end do
    end subroutine prepare_variation
 
-   !> Read the case of `prepare_variation` with other values; kept values are always those of the case before it
+   !> Read the case of `prepare_variation` with other values; kept values are always those of the case before it, if there is one
    subroutine read_variation(self, values, this)
       !> The reader
       class(experiment_reader), intent(inout) :: self
@@ -222,7 +228,7 @@ contains
          associate (store => self%stores(self%current))
             coefficients = store%coefficients
             call read_toml_case(self%cases%document, self%cases%node, store%memory, self%cases%used, this%module_number, .true., &
-               & store%spec, .true., this%spec, this%problems, coefficients, this%digits, self%is_repeat)
+               & store%spec, store%cases > 0, this%spec, this%problems, coefficients, this%digits, self%is_repeat)
          end associate
       end subroutine read_it
    end subroutine read_variation

@@ -265,7 +265,11 @@ contains
       if (self%document%nodes(node)%kind == toml_kind%string) place = nearest_word(self%document%text_of(node), list)
       call words_of(list, words)
       complaint = key_with_value(self, key, node) // " is not known"
-      if (place > 0) complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
+      if (place > 0) then
+         complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
+      else
+         complaint = complaint // "."
+      end if
       call self%add_problem(severity%error, node, complaint // " Known are " // words)
       ! the meaning of the following keys depends on it
       self%is_good = .false.

@@ -345,6 +345,9 @@ class Accuracy(Runs):
             words, record = self.solve("n.inp", text, "--accuracy", asked, *allow[1:])
             self.assertIn(why, record["patches"][0]["accuracy"]["simplified"])
             self.assertNotIn("FaStrip", record["patches"][0]["effects"])
+        unused = "simplified methods are allowed, but no accuracy is requested"
+        self.assertIn(unused, self.solve("u.inp", no_spin, *allow[1:])[0])
+        self.assertNotIn(unused, words)
         self.assertIn("is not known; approximate is", self.run_program("--allow", "all", "2", "a", status=1))
         told = self.run_program("explain", *allow, "a.inp")
         self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", told)

@@ -140,6 +140,8 @@ class Readable(unittest.TestCase):
         self.assertIn("gg1 is missing: modulus of rigidity [N/mm2]", errors)
         errors = self.complaints(HEAD + REST.replace("hertz_axes", "hertz_axis"))
         self.assertIn('a.toml:14:8: form = "hertz_axis" is not known; did you mean "hertz_axes"?', errors)
+        errors = self.complaints(HEAD + REST.replace("hertz_axes", "heptagon"))
+        self.assertIn('form = "heptagon" is not known. Known are "', errors)
         errors = self.complaints(HEAD + REST.replace("[case.friction]", '[case.friction]\nlaw = " "'))
         self.assertIn('law = "" is not known. Known are "coulomb"', errors)
         errors = self.complaints("[case]\nx = 1\n")

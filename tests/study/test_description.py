@@ -102,6 +102,37 @@ def test_what_is_wrong_is_told_in_a_sentence(make, words):
     assert "\n" not in str(told.value)
 
 
+def test_a_base_with_errors_is_refused():
+    """What the base lacks, or has wrong, is an error; it was replaced by a preset, such as a modulus of rigidity of 1 N/mm2"""
+    def reasons(change, numbers=(9.0, 5.0)):
+        base = rolling()
+        change(base)
+        results = contact.Study(base, vary={"kinematics.fn": list(numbers)}).run(workers=1)
+        return [results.reasons.values[k] for k in results.reason.values.ravel()], results.status.values.ravel().tolist()
+    for group, key, words in (("material", "gg", "gg1 is missing"), ("grid", "mx", "mx is missing"),
+                              ("friction", "fstat", "fstat is missing")):
+        texts, states = reasons(lambda base: base[group].pop(key))  # noqa: B023
+        assert states == [2, 2] and all(words in text for text in texts), texts
+    texts, states = reasons(lambda base: base["material"].update(poiss=[0.7, 0.7]))
+    assert states == [2, 2] and "poiss1 = 0.7 is above" in texts[0]
+    # an invalid number of the study is that of its point only, the first one as well
+    texts, states = reasons(lambda base: None, (-1.0, 9.0, float("nan")))
+    assert states == [2, 0, 2] and "-1 is below" in texts[0], texts
+    for change in (lambda base: base["material"].update(foo=1.0), lambda base: base["grid"].update(form="heptagon")):
+        with pytest.raises(contact.ContactError, match="is not known"):
+            reasons(change)
+
+
+@pytest.mark.parametrize("name, case", [("cattaneo", 2), ("layer_traction", 3), ("manchester", 2), ("bentall", 5)])
+def test_a_case_keeps_what_those_before_it_gave(name, case):
+    """The base is a case with all that it keeps, also in a group whose form changes, without what has no meaning in it"""
+    results = contact.Study(EXAMPLES / (name + ".toml"), case=case, vary={}).run(workers=1)
+    assert results.status.values.ravel().tolist() == [0], results.reasons.values
+    if name == "cattaneo":
+        # 19 x 19 elements of case 1, in the window of case 2
+        assert float(results.fx.values.ravel()[0]) == pytest.approx(-3.21839, abs=1e-4)
+
+
 def test_one_name_is_a_list_of_one():
     found = contact.Study(rolling(7), totals="fx", fields="pn").run()
     assert {"fx", "pn"} <= set(found.data_vars) and "fy" not in found

@@ -5,17 +5,17 @@ import copy
 import hashlib
 import json
 import os
+import re
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .._experiment import read
+from .._experiment import explain, read
 from ..errors import ContactError
 
 #: One input that stands for several
 _TOGETHER = {"friction.coefficient": ("friction.fstat", "friction.fkin")}
-#: Words that decide what a group consists of: where they change, the group begins anew
-_HEADS = {"form", "law", "variation", "model"}
 #: Keys of a case that a case of a study does not take over
 _DROPPED = ("title", "renew")
 #: Groups with names of files
@@ -53,7 +53,7 @@ class Scene:
         if case is not None:
             if not 1 <= case <= len(cases):
                 raise ContactError(f"case = {case}: the base has {len(cases)} cases")
-            self.cases = [_merged(self.cases[:case])]
+            self.cases = [_with_meaning(_merged(self.cases[:case]), self.cases[case - 1])]
         if len(self.cases) == 1:
             # what a case gives must not depend on the case before it
             self.cases[0].update(sequence="initiate", estimate="fresh")
@@ -151,19 +151,44 @@ def _merged(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
                 result[key] = copy.deepcopy(value)
                 continue
             before = result[key]
-            if any(head in value and head in before and value[head] != before[head] for head in _HEADS):
-                result[key] = copy.deepcopy(value)
-            else:
-                for name in value:
-                    # gg and gg1 are the same number
-                    for other in (f"{name}1", f"{name}2", name.rstrip("12")):
-                        if other != name:
-                            _forget(before, name, other)
-                before.update(copy.deepcopy(value))
+            for name in value:
+                # gg and gg1 are the same number
+                for other in (f"{name}1", f"{name}2", name.rstrip("12")):
+                    if other != name:
+                        _forget(before, name, other)
+            before.update(copy.deepcopy(value))
     for key in _DROPPED:
         result.pop(key, None)
     result.pop("solve", None)
     return result
+
+
+def _with_meaning(case: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """A merged case without the values of earlier cases that have no meaning in it, such as those of another form of the grid.
+
+    Which they are is what the library complains of; `given` is what the case gives itself, which is not taken away.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "case.toml")
+        path.write_text(write_case(case), encoding="utf-8")
+        try:
+            explain(path)
+            return case
+        except ContactError as error:
+            complaints = str(error)
+        lines = path.read_text(encoding="utf-8").split("\n")
+    for number in map(int, re.findall(r':(\d+):\d+: "[^"]*" (?:is not known|has no meaning)', complaints)):
+        line = lines[number - 1]
+        group = next((before[6:-1] for before in lines[number - 1::-1] if before.startswith("[case.")), "")
+        name = "" if line.startswith("[") else line.partition(" = ")[0]
+        if not name or not group:
+            if (name or group) not in given:
+                case.pop(name or group, None)
+        elif name not in given.get(group, {}):
+            case.get(group, {}).pop(name, None)
+            if not case.get(group) and group not in given:
+                case.pop(group, None)
+    return case
 
 
 def _forget(group: dict[str, Any], name: str, other: str) -> None:
