@@ -15,9 +15,10 @@ module contact_patch_error_estimate
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch
    use contact_patch_error_scales, only : mean_friction, scale_type, scales
-   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, scale_of, share_of_residual
+   use contact_patch_level_errors, only : error_of, irregularity, scale_of, share_of_residual
    use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
+   use contact_patch_peak_errors, only : error_of_peak
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, error_scale, total, total_list
    use contact_patch_result, only : patch_result

@@ -11,13 +11,16 @@ module contact_patch_error_scales
    implicit none (type, external)
    private
 
-   public :: first_order, mean_friction, normal_order, scale_type, scales
+   public :: first_order, mean_friction, normal_order, resolved, scale_type, scales, unresolved_floor
 
    !> Order of the normal problem
    real(wp), parameter :: normal_order = 2.0_wp
    !> Orders of forces in steady rolling for both schemes; the order of the second one is observed from 15 to 45 elements, with
    !> scatter
    real(wp), parameter :: first_order = 1.0_wp, second_order = 1.6_wp
+   !> Contact of fewer elements across is not resolved, and is not coarsened in that direction: relative error of any total, times
+   !> n^-2, of the hard cases of tests/stability
+   real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp
    !> Order of the maximum of a field whose peak is resolved; order of temperatures that count the heat of an element twice at its
    !> centre: its contribution decreases with the square root of the element length
    real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp

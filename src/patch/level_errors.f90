@@ -4,34 +4,26 @@
 module contact_patch_level_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
-   use contact_patch_error_scales, only : first_order, normal_order, scale_type
-   use contact_patch_peak, only : peak_of
+   use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unresolved_floor
    use contact_patch_quantities, only : error_law, error_scale, total
-   use contact_patch_result, only : error_estimate, patch_result
+   use contact_patch_result, only : error_estimate
    use contact_patch_step_errors, only : energy_of_forces, power_error
    use contact_patch_traction_errors, only : bound_friction, by_heat, friction_floor, is_first, is_long_step, is_unseen, &
       & part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, unrelaxed
    implicit none (type, external)
    private
 
-   public :: error_of, error_of_peak, irregularity, scale_of, share_of_residual
+   public :: error_of, irregularity, scale_of, share_of_residual
 
    !> Order of totals that change by steps of single elements
    real(wp), parameter :: jump_order = 1.0_wp
    !> Order of frictional power with the first-order scheme: its error decreases to 1/(1 + 1.65) with elements of a third; median of
    !> tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
-   !> Contact of fewer elements across is not resolved, and is not coarsened in that direction: relative error of any total, times
-   !> n^-2, of the hard cases of tests/stability; the same of normal force and approach, of second patches of wheels with 3 to 5
-   !> elements across (seed 31101). That of forces times the root of the fraction in adhesion, which is taken as at least the last
-   real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp, unresolved_normal = 0.2_wp, unresolved_adhesion = 0.1_wp
-   !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
-   !> K times n^-2 in the largest pressure; of the hard cases
-   real(wp), parameter :: coupled_floor = 4.0_wp
-   !> The relative second difference of a smooth peak over an element is 4 n^-2 for n elements across. The excess above this
-   !> multiple of n^-2 belongs to a peak that is not resolved, whose error is this fraction of the excess; chosen with the hard
-   !> cases of tests/stability
-   real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
+   !> Contact of fewer elements than `resolved`: relative error of normal force and approach, times n^-2, of second patches of wheels
+   !> with 3 to 5 elements across (seed 31101). That of forces is `unresolved_floor` times the root of the fraction in adhesion,
+   !> which is taken as at least the last
+   real(wp), parameter :: unresolved_normal = 0.2_wp, unresolved_adhesion = 0.1_wp
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
@@ -40,8 +32,8 @@ module contact_patch_level_errors
    real(wp), parameter :: temperature_floor(2) = [0.2_wp, 0.5_wp], turning_temperature_floor = 0.15_wp
    !> Power of the motion with spin, by the second order: factor of the turn of the slip direction times n^-2 (seed 71002)
    real(wp), parameter :: turning_power_floor = 0.03_wp
-   !> Normal force; largest pressure, half the rms over offsets of a Hertzian peak; area; energy of pressures
-   real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor = 0.07_wp
+   !> Normal force; area; energy of pressures
+   real(wp), parameter :: normal_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor = 0.07_wp
    !> Elastic energy if the error of the part due to pressures is known with its sign: unknown error over n^-2, and fraction of the
    !> error of the part due to tractions by the levels. General error over n^-2 of the part due to pressures
    real(wp), parameter :: unknown_energy = 0.02_wp, unknown_share = 0.3_wp, usual_energy = 0.055_wp
@@ -54,13 +46,8 @@ module contact_patch_level_errors
    !> Change of the power of the motion between the levels: fraction that has the sign of the error, and fraction of unknown sign;
    !> of random contacts of tests/accuracy (seeds 1001 and 1002)
    real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
-   !> Exponent of the ratio of an error of the largest pressure by the levels to the general error, of like and of unlike bodies,
-   !> see trusted
-   real(wp), parameter :: peak_trust(2) = [0.65_wp, 0.75_wp]
-   !> Number of elements across for which the coarse level, with a third of them, resolves the shape of a peak; with fewer, its
-   !> difference is larger than its order predicts, and the exponent is smaller; of viscoelastic bodies and bumpy profiles (seeds 55
-   !> and 5301)
-   real(wp), parameter :: clear_peak = 20.0_wp
+   !> Exponent of the ratio of an error of the energy of pressures by the levels to the general error, see trusted
+   real(wp), parameter :: energy_trust = 0.65_wp
    !> The parts of the elastic energy usually have errors of opposite signs: median of their sum over the root of squares
    real(wp), parameter :: opposite = 0.45_wp
    !> Ratio of the error of the forces to the residual, measured between tolerances of 1e-2 and 1e-4; with an interfacial layer, in
@@ -264,7 +251,7 @@ contains
       end if
       general = energy_floor*scale%irregular*floor(1)
       ! tractions of dissimilar bodies may change their pressures within an element or two
-      if (.not. scale%coupling > 0.0_wp) parts(1) = sign(trusted(abs(parts(1)), general, peak_trust(1)), parts(1))
+      if (.not. scale%coupling > 0.0_wp) parts(1) = sign(trusted(abs(parts(1)), general, energy_trust), parts(1))
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
       e = max(e, general + merge(1.0_wp, 2.0_wp, is_first(scale))*floor(2) + more)
@@ -289,49 +276,4 @@ contains
 
       is_layer = scale%order < normal_order .and. .not. (scale%clean .or. scale%steps)
    end function is_layer
-
-   !> Error of the largest pressure: the error of pressures, and with order 1 the difference between the peak and the nearest
-   !> element centre
-   pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
-      !> Solved patch, with the contributions of solvers and window
-      type(patch_result), intent(in) :: result
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-      !> Peak of the pressures of the coarse level [N/mm2]
-      real(wp), intent(in) :: coarse_peak
-      real(wp) :: peak, floor
-
-      peak = peak_of(result%pn)
-      floor = peak_floor/scale%across**2
-      e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
-      e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp) &
-         & *min(1.0_wp, scale%across/clear_peak)**3)
-      floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
-      if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
-      e = max(e, floor, unresolved*(largest_bend(result%pn)/result%pmax - smooth_bend/scale%across**2))
-      e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
-   end function error_of_peak
-
-   !> Second difference at the largest value: twice its excess over the mean of its neighbours, in the direction in which it is
-   !> larger
-   pure real(wp) function largest_bend(field) result(bend)
-      !> Shape (mx, my); zero before the first and after the last value
-      real(wp), intent(in) :: field(:, :)
-      integer :: at(2)
-
-      at = maxloc(field)
-      bend = 0.0_wp
-      if (size(field, 1) >= 3) bend = 2.0_wp*field(at(1), at(2)) - beside_of(field(:, at(2)), at(1))
-      if (size(field, 2) >= 3) bend = max(bend, 2.0_wp*field(at(1), at(2)) - beside_of(field(at(1), :), at(2)))
-   end function largest_bend
-
-   !> Sum of the values on both sides of index i
-   pure real(wp) function beside_of(line, i) result(sum_beside)
-      real(wp), intent(in) :: line(:)
-      integer, intent(in) :: i
-
-      sum_beside = 0.0_wp
-      if (i > 1) sum_beside = line(i - 1)
-      if (i < size(line)) sum_beside = sum_beside + line(i + 1)
-   end function beside_of
 end module contact_patch_level_errors

@@ -45,6 +45,10 @@ FIRST_NUMBERS, FIRST_BOUNDS = (18, 26, 46, 62, 71, 79, 80, 89), {"forces": (0.3,
 #: all kinds, and bounds against the rms over offsets
 SIGNED_SEED, SIGNED_COUNT, SIGNED_NUMBERS = 84001, 96, (6, 30, 45, 56, 71, 83)
 SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9), "max_tresca": (0.2, 5.0, 0.9)}
+#: Wheels whose largest pressure is at the edge of a profile section, by the first order: seed, count, numbers of the wheels, and bounds
+#: against the rms over sizes of the elements
+PEAK_SEED, PEAK_COUNT, PEAK_NUMBERS = 90101, 30, (7, 11, 17, 22)
+PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
 #: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
@@ -153,10 +157,12 @@ def values_of(c, patches, second):
     return values
 
 
-def judge_wheels(program, seed, count, folder, options, places=1):
+def judge_wheels(program, seed, count, folder, options, places=1, only=()):
     """The same for wheels on rails: forces in track coordinates and heights, and further totals of single patches."""
     source = random.Random(seed)
     wheels = [wheel(source) for _ in range(count)]
+    if only:
+        wheels = [wheels[k] for k in only]
     profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
     grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], f in WHEEL_PLACES, options)
              for f in (*WHEEL_PLACES[:places], *FINER)}
@@ -260,9 +266,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
-    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "first", "signed"),
-                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, moments and sliding by "
-                        "the first order, or energy and stresses by the first order; fail if bounds are missed")
+    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "peaks", "first",
+                                                                               "signed"),
+                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, their largest "
+                        "pressures, moments and sliding by the first order, or energy and stresses by the first order; fail if "
+                        "bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
@@ -277,6 +285,8 @@ def main():
         asked.kinds, asked.order = "unlike,extreme,warm,steps", ("--order", "2")
     elif asked.check == "wheels":
         asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
+    elif asked.check == "peaks":
+        asked.count, asked.seed, asked.wheels, asked.places = 0, PEAK_SEED, PEAK_COUNT, len(WHEEL_PLACES)
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
         asked.kinds = ",".join(FIRST)
@@ -295,7 +305,8 @@ def main():
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
         if asked.wheels:
-            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name), asked.order, asked.places)
+            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name), asked.order, asked.places,
+                                 PEAK_NUMBERS if asked.check == "peaks" else ())
     by_total, by_kind = {}, {}
     for c, n, places in rows:
         if not places:
@@ -323,6 +334,8 @@ def main():
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), FIRST_BOUNDS, against=3) or 0)
     elif asked.check == "signed":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), SIGNED_BOUNDS, against=3) or 0)
+    elif asked.check == "peaks":
+        sys.exit(misses(by_total, sum(not places for _, _, places in rows), PEAK_BOUNDS, against=3) or 0)
     elif asked.check == "wheels":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), WHEEL_BOUNDS) or 0)
     elif asked.check:

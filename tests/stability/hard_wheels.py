@@ -101,6 +101,12 @@ def judge(coarse, fine):
         true = abs(value(coarse, "totals", name) - value(fine, "totals", name))/scale
         if math.isfinite(estimate) and math.isfinite(true):
             found[name] = (estimate, true)
+    for number, (patch, finer) in enumerate(zip(patches, fine["patches"]), 1):
+        highest = patch["totals"]["pmax"]["value"]
+        estimate = value(patch, "errors", "pmax_error")/highest
+        true = abs(highest - finer["totals"]["pmax"]["value"])/highest
+        if math.isfinite(estimate):
+            found[f"pmax of patch {number}"] = (estimate, true)
     return found
 
 
