@@ -62,7 +62,8 @@ module contact_patch_error_scales
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
-      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in rolling [-]
+      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady rolling and
+      !> shifts [-]
       real(wp) :: cancelled = 0.0_wp
       !> Moment of the force across the rolling direction with an arm of one element, in rolling, over that of the friction bound
       !> [-]
@@ -175,8 +176,9 @@ contains
             & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
       end if
       scale%is_moment_alone = problem%n_forces == 2
+      if (any(problem%motion == [motion%steady_rolling, motion%shift]) .and. scale%force > 0.0_wp) scale%cancelled &
+         & = sqrt(max(0.0_wp, scale%used**2 - (result%fx**2 + result%fy**2)/scale%force**2))
       if (problem%motion == motion%steady_rolling .and. scale%force > 0.0_wp) then
-         scale%cancelled = sqrt(max(0.0_wp, scale%used**2 - (result%fx**2 + result%fy**2)/scale%force**2))
          scale%arm = abs(result%fy*cos(problem%chi) - result%fx*sin(problem%chi))*result%dq/max(scale%moment, tiny(extent))
       end if
       scale%order = normal_order

@@ -7,7 +7,7 @@ module contact_patch_level_errors
    use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unresolved_floor
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_result, only : error_estimate
-   use contact_patch_step_errors, only : energy_of_forces, power_error
+   use contact_patch_step_errors, only : energy_of_forces, energy_of_steps, power_error
    use contact_patch_traction_errors, only : bound_friction, by_heat, friction_floor, is_first, is_long_step, is_unseen, &
       & part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, unrelaxed
    implicit none (type, external)
@@ -27,6 +27,12 @@ module contact_patch_level_errors
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
+   !> Work of friction in shifts: usual error over n^-2 of the work of full sliding, if slip has the same direction everywhere and if it
+   !> does not; part of the bound that cancels from which on the latter holds; exponent of the ratio of the error by the levels to it,
+   !> see trusted. Of random contacts (kinds shift and shifts, seeds 61001 and 61002)
+   real(wp), parameter :: work_floor(2) = [0.05_wp, 0.105_wp], turned_work = 0.3_wp, work_trust = 0.25_wp
+   !> Full sliding in a shift: largest part of the bound that cancels if slip has the same direction everywhere; chosen
+   real(wp), parameter :: one_direction = 0.1_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002)
    real(wp), parameter :: temperature_floor(2) = [0.2_wp, 0.5_wp], turning_temperature_floor = 0.15_wp
@@ -184,6 +190,10 @@ contains
             & scale%step)*full_power
          return
       end if
+      if (scale%clean .and. .not. scale%steps .and. scale%order >= normal_order) then
+         e = error_of_work(scale, difference, full_power)
+         return
+      end if
       if (scale%balances .and. .not. (scale%coupling > 0.0_wp .and. scale%jumps)) then
          e = heat + error_by_balance(scale, unit)
          return
@@ -204,6 +214,25 @@ contains
       ! for unlike bodies the balance includes errors of pressures that hardly affect power with the second-order scheme
       if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
    end function error_of_power
+
+   !> Error of the work of friction in a shift without contributions of solvers and window [J]
+   !>
+   !> Forces and elastic energy have larger errors, most of which cancel in the work, and the levels show little of the rest. In full
+   !> sliding in one direction the work of the motion is exact, and the rest is twice the energy of the tractions.
+   pure real(wp) function error_of_work(scale, difference, full_work) result(e)
+      type(scale_type), intent(in) :: scale
+      !> Difference between the levels, and work in full sliding, positive [J]
+      real(wp), intent(in) :: difference, full_work
+      real(wp) :: floor
+
+      if (sliding_part(scale%sticking) >= 1.0_wp .and. scale%cancelled < one_direction) then
+         e = 2.0_wp*error_of_energy(scale)*abs(scale%energy(2))/max(sum(scale%energy), tiny(e))
+         return
+      end if
+      floor = (work_floor(1) + (work_floor(2) - work_floor(1))*min(1.0_wp, scale%cancelled/turned_work)) &
+         & *scale%irregular/scale%across**2
+      e = max(floor, trusted(part_of(scale, scale%order)*difference/full_work, floor, work_trust))*full_work
+   end function error_of_work
 
    !> Error of frictional power in steady rolling [W]: the difference of the power of the motion and frictional power, with its
    !> sign, and the error of the power of the motion
@@ -239,9 +268,11 @@ contains
       parts = -[whole*scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), &
          & (scale%energy_change(2) - (whole - 1.0_wp)*scale%energy_change(1)) &
          & *merge(1.0_wp/(coarsening**order - 1.0_wp), part_of(scale, order), is_layer(scale))]
-      if (is_unseen(scale)) parts(2) = 0.0_wp
+      ! in steps the levels have errors of the same sign, whose difference says nothing
+      if (scale%steps) parts(2) = 0.0_wp
       floor = [abs(whole*scale%energy(1))*scale%across**(-2), abs(scale%energy(2))*floor_of_traction_energy(scale)]
-      more = energy_of_forces*traction_error(scale)*abs(scale%energy(2))
+      more = merge(energy_of_steps(scale%sticking), energy_of_forces, is_long_step(scale))*traction_error(scale) &
+         & *abs(scale%energy(2))
       if (is_layer(scale)) more = more + layer_power_floor*scale%adhesion*abs(scale%energy(2))/scale%across
       if (scale%has_normal_energy .and. scale%across >= resolved) then
          ! the error changes its sign with the offset of the grid: at least half of its root mean square

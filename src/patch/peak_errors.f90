@@ -35,7 +35,7 @@ module contact_patch_peak_errors
    real(wp), parameter :: hidden_edge = 0.5_wp
    !> Rough surfaces have peaks between element centres: factor of the standard deviation of heights over the approach, in excess of
    !> that of single jumps of the curvature, times n; of rough profiles of hard wheels (seed 611)
-   real(wp), parameter :: rough_peak = 0.4_wp, usual_roughness = 0.05_wp
+   real(wp), parameter :: rough_peak = 0.6_wp, usual_roughness = 0.02_wp
    !> A strip of n elements is between n - 1 and n + 1 elements wide; for the largest peak pressure that its load may have, its
    !> width is taken as n less this; chosen
    real(wp), parameter :: narrower = 0.5_wp

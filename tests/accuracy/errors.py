@@ -175,6 +175,9 @@ def wheel_values(c, records):
     """Estimated and true relative errors of a wheel, and those of the finest grid; none where a grid has no result."""
     if not all(r.get("converged") and r.get("patches") for r in records) or len({len(r["patches"]) for r in records}) > 1:
         return None
+    # a patch of few elements has no estimate, so that the pair has none
+    if "fx_tr_error" not in records[0].get("errors", {}):
+        return None
     patches = [p["totals"] for p in records[0]["patches"]]
     bound = c["mu"] * sum(p["fn"]["value"] for p in patches)
     values = {"fx": ratio_of(records, "fx_tr", 1, bound), "fy": ratio_of(records, "fy_tr", 1, bound),
