@@ -2,7 +2,7 @@
 """Write the wheel profile S1002 and the rail head 60E1 as Simpack files, from their standard geometry.
 
     python3 make_profiles.py [folder]          writes S1002.prw, 60E1.prr, flat.slcw, groove.txt and roller.txt (default: profiles)
-    python3 make_profiles.py --joints          tells how well neighbouring sections fit
+    python3 make_profiles.py --joints          prints how well neighbouring sections fit
 
 Sources: EN 13715 (wheel S1002), EN 13674-1 (rail 60E1). Coordinates in mm, y to the field side, z down.
 The rail is the design section, not inclined: give the inclination 1:20 or 1:40 as CANT.
@@ -12,10 +12,10 @@ import os
 import sys
 
 STEP = 0.25  # largest distance of points along the curve [mm]
-RAIL_BOTTOM = 35.0  # where the sides of the rail head end, below the top [mm]
+RAIL_BOTTOM = 35.0  # depth of the lower ends of the sides of the rail head below the top [mm]
 
 # ---- S1002: z(y) section by section from the field side to the flange back -------------------------
-# Polynomials of the tread (B) and of the throat (C) with their published coefficients, rising powers
+# Polynomials of the tread (B) and of the throat (C) with their published coefficients, increasing powers
 TREAD = [0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8,
          5.309217349e-15, -5.957839843e-12, 2.646656573e-13]
 THROAT = [-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1,
@@ -46,7 +46,7 @@ WHEEL = [
 
 
 def wheel_points():
-    """Points along all sections; the ends of sections are points"""
+    """Points along all sections, including their ends"""
     points = []
     for _, start, end, z in WHEEL:
         fine = 2000
@@ -57,12 +57,12 @@ def wheel_points():
 
 
 def turn(t):
-    """From 0 to 1, slow at both ends, where the flange back is vertical"""
+    """A map of 0...1 to itself, with small slope at both ends, where the flange back is vertical"""
     return 0.5 - 0.5 * math.cos(math.pi * t)
 
 
 def by_length(ys, zs):
-    """Of a fine polyline the points that are nearest to even distances along it"""
+    """The points of a fine polyline that are nearest to equal distances along it"""
     s = [0.0]
     for i in range(1, len(ys)):
         s.append(s[-1] + math.hypot(ys[i] - ys[i - 1], zs[i] - zs[i - 1]))

@@ -1,6 +1,6 @@
-"""A wheel carries the library where it is there, and is bound to its platform then; all else is in pyproject.toml.
+"""Adds the library to a wheel if it exists, which then is specific to the platform; all else is in pyproject.toml.
 
-The library is, in this order: in the package's folder; named by CONTACT_LIBRARY; in build/release of the checkout.
+The library is searched, in this order: in the folder of the package; by CONTACT_LIBRARY; in build/release of the checkout.
 """
 import os
 import shutil
@@ -14,17 +14,17 @@ ENDINGS = (".so", ".dll", ".dylib")
 
 
 def ending_of(path):
-    """The one of ENDINGS that a name has, versions may follow; None when it is no library"""
+    """The suffix of a name among ENDINGS, possibly followed by a version; None if it is not a library"""
     return next((ending for ending in ENDINGS if ending in path.suffixes), None)
 
 
 def library_is_in_package():
-    """Was a library put beside the modules by hand?"""
+    """Is there a library in the folder of the modules?"""
     return any(ending_of(path) for path in (HERE / "contact").iterdir())
 
 
 def library_to_add():
-    """Path of the library to be copied into the wheel; None when it is in the package already, or nowhere"""
+    """Path of the library to be copied into the wheel; None if it is in the package already, or does not exist"""
     if library_is_in_package():
         return None
     chosen = os.environ.get("CONTACT_LIBRARY")

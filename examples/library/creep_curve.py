@@ -1,4 +1,4 @@
-"""A traction curve: tangential force over creepage, of clean rollers and with a soft layer between them."""
+"""Traction curves: tangential force over creepage, for clean rollers and with a soft layer between them."""
 import contact
 
 CREEPAGES = (0.0, 0.0005, 0.001, 0.002, 0.003, 0.005, 0.008, 0.012, 0.02, 0.04, 0.1)

@@ -1,5 +1,5 @@
-"""The Manchester benchmark with a wheel S1002 on a rail 60E1: a wheelset is moved sideways, and forces and contact
-points of its right wheel are asked for. usage: manchester.py [FOLDER_OF_PROFILES]"""
+"""The Manchester benchmark with a wheel S1002 on a rail 60E1: forces and contact points of the right wheel for lateral
+positions of a wheelset. usage: manchester.py [FOLDER_OF_PROFILES]"""
 import pathlib
 import sys
 

@@ -6,12 +6,12 @@ with contact.Problem(motion="steady") as ball:
     ball.set_material(g=80000.0, nu=0.3)
     ball.set_hertz(40, 40, aa=1.0, bb=1.0, scale=1.1)
     ball.set_normal_force(2000.0)
-    # So much creepage that all of the contact slips; the force on the ball points to -x
+    # A creepage with full sliding; the force on the ball is in the direction of -x
     ball.set_creepages(1.0)
     # Plane below the middle of the contact, in steps of 0.1 and 0.05 mm
     ball.add_block(x=0.1 * np.arange(-12, 13), y=0.0, z=0.05 * np.arange(31))
 
-    print("# friction, largest von Mises stress [N/mm2], its place x, z [mm]")
+    print("# friction, largest von Mises stress [N/mm2], its position x, z [mm]")
     for friction in (0.0001, 0.15, 0.3, 0.5):
         ball.set_friction(friction)
         ball.solve()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Places of contact of new and worn wheels on new and worn rails.
+"""Contact positions of new and worn wheels on new and worn rails.
 
 Usage: python3 draw_wheelset.py wheelset.nc wheelset.svg; needs matplotlib.
 """

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Wear of a rail 60E1 by 50 million wheels S1002, with its profile changing: python3 rail_wear.py
 
-The wheels are those of wheel_wear.py, with their positions and yaw; wear is Archard's, with a coefficient and a hardness that are
-chosen, not measured. Profiles and what was computed go to the folder rail_wear.study; the same command goes on when it was ended.
---small takes seconds.
+The wheels are those of wheel_wear.py, with their positions and yaw; wear is by Archard's law, with a chosen coefficient and
+hardness, not measured ones. Profiles and computed cases are stored in the folder rail_wear.study; repeat the command to resume
+after an interruption. --small takes seconds.
 """
 import argparse
 import sys

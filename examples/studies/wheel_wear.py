@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Wear of a wheel S1002 over 100,000 km on rails 60E1, with its profile changing: python3 wheel_wear.py
 
-Positions of the wheelset are spread as by Gauss, with yaw beside them; wear is that of Braghin and others (2006). Profiles, a table
-and what was computed go to the folder wheel_wear.study; the same command goes on when it was ended. --small takes seconds.
+Lateral positions and yaw angles of the wheelset are normally distributed; wear is that of Braghin and others (2006). Profiles, a
+table and the computed cases are stored in the folder wheel_wear.study; repeat the command to resume after an interruption.
+--small takes seconds.
 """
 import argparse
 import csv
@@ -21,14 +22,14 @@ SPEED, RADIUS = 20000.0, 460.0
 
 
 def journey(positions, spread_y, spread_yaw, step, profile):
-    """Positions [mm], yaw angles [rad] and pitch rate [rad/s] of a step, and their parts of the distance"""
-    # a grid that lies elsewhere in each step: multiples of the golden ratio fill the distance of two positions evenly
+    """Positions [mm], yaw angles [rad] and pitch rates [rad/s] of a step, and their fractions of the distance"""
+    # the positions are shifted in each step: multiples of the golden ratio fill the interval between two positions evenly
     shift = (0.5 * (5.0**0.5 - 1.0) * step) % 1.0 - 0.5
     y = (np.arange(positions) - 0.5 * (positions - 1) + shift) * 5.0 * spread_y / (positions - 1)
     yaw = np.array([-1.2, 0.0, 1.2]) * spread_yaw
     parts = np.exp(-0.5 * (y / spread_y)**2)[:, None] * [0.3, 0.4, 0.3]
     places = np.broadcast_arrays(y[:, None], yaw)
-    # a wheelset that is not driven: rolling at the middle of the tread as it is now
+    # an undriven wheelset: pure rolling at the middle of the current tread
     pitch = np.full(parts.size, -SPEED / (RADIUS + float(profile.height_at(0.0))))
     inputs = {"velocity.vpitch": pitch, "position.y_ws": places[0].ravel(), "position.yaw": places[1].ravel()}
     return {name: list(values) for name, values in inputs.items()}, parts.ravel()
@@ -48,7 +49,7 @@ def main():
     parser.add_argument("--distance", type=float, default=1e5, help="in km; default %(default)s")
     parser.add_argument("--positions", type=int, default=13, help="lateral positions; default %(default)s")
     parser.add_argument("--elements", type=float, default=1.0, help="sides of elements [mm]; default %(default)s")
-    parser.add_argument("--step", type=float, default=0.05, help="depth after which contacts are computed anew [mm]")
+    parser.add_argument("--step", type=float, default=0.05, help="increase of the depth after which contacts are recomputed [mm]")
     parser.add_argument("--spread", type=float, nargs=2, default=[1.5, 5e-4], metavar=("Y", "YAW"),
                         help="standard deviations of position [mm] and yaw [rad]; default 1.5 0.0005")
     parser.add_argument("--small", action="store_true", help="2000 km with 5 positions")

@@ -4,10 +4,10 @@
 usage: hunting.py [--seconds 10] [--tolerance 1e-2] [--figure FILE.svg]
 
 Lateral position y and yaw of a wheelset on soft springs at 50 m/s, S1002 on 60E1, elements of 1 mm. Each wheel is a problem of the
-library with a prescribed vertical force. Creep forces make the equations stiff: a lateral velocity dies away within
-milliseconds, while the wheelset swings within a second. The integrator is the Rosenbrock method of order 2 with an error estimate
-(L.F. Shampine, M.W. Reichelt, The MATLAB ODE Suite, SIAM J. Sci. Comput. 18, 1997, ode23s), which takes the Jacobian at the
-beginning of every step: from the library, or from differences of four more calls per wheel.
+library with a prescribed vertical force. Creep forces make the equations stiff: a lateral velocity decays within milliseconds,
+while the wheelset oscillates with a period of about a second. The integrator is the Rosenbrock method of order 2 with an error
+estimate (L.F. Shampine, M.W. Reichelt, The MATLAB ODE Suite, SIAM J. Sci. Comput. 18, 1997, ode23s), which evaluates the Jacobian
+at the beginning of every step: from the library, or by finite differences of four more calls per wheel.
 """
 import argparse
 import os
@@ -30,7 +30,7 @@ STEPS = np.array([1e-4, 1e-7, 1e-1, 1e-4])
 
 
 class Wheelset:
-    """Right side of the equations of motion for y, yaw and their velocities, and its derivatives"""
+    """Right-hand side of the equations of motion for y, yaw and their velocities, and its derivatives"""
 
     def __init__(self):
         self.calls = 0
@@ -59,7 +59,7 @@ class Wheelset:
         return np.array([forces[1], forces[6], forces[11]])
 
     def accelerations(self, forces, lever):
-        """Of one wheel: the wheelset feels the opposite of what the rail does"""
+        """Forces of one wheel on the wheelset, opposite to those on the rail"""
         return np.array([-forces[0] / MASS, -(forces[2] - lever * forces[1]) / INERTIA])
 
     def rates(self, state):
@@ -70,7 +70,7 @@ class Wheelset:
         return rates
 
     def jacobian(self, state, rates, exact):
-        """Derivatives of the rates. The library's are those of the last calculation, which was that of this state"""
+        """Derivatives of the rates. Those of the library are at its last calculation, which was that of this state"""
         matrix = np.zeros((4, 4))
         matrix[0, 2] = matrix[1, 3] = 1.0
         if exact:
@@ -90,7 +90,7 @@ class Wheelset:
 
 
 def integrate(wheelset, state, seconds, tolerance, exact):
-    """Times and states; steps, those refused, and the calls of the library"""
+    """Times and states; numbers of steps, of rejected steps, and of calls of the library"""
     d, e = 1.0 / (2.0 + np.sqrt(2.0)), 6.0 + np.sqrt(2.0)
     scale = np.array([1.0, 1e-3, 30.0, 0.03])
     t, h, refused = 0.0, 1e-3, 0
@@ -132,7 +132,7 @@ def run(seconds, tolerance, exact):
 
 
 def draw(name, curves):
-    """Lateral position over time, with what it took, as an SVG"""
+    """Lateral position over time, with the cost of both ways, as an SVG"""
     width, height, left, low = 860, 330, 60, 280
     last = curves[0][0][-1]
     text = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="13">',
@@ -168,7 +168,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--tolerance", type=float, default=1e-2)
     parser.add_argument("--figure")
-    parser.add_argument("--check", action="store_true", help="fail where both ways disagree, or derivatives do not save calls")
+    parser.add_argument("--check", action="store_true", help="fail if both ways disagree, or if derivatives do not save calls")
     asked = parser.parse_args()
     curves = [run(asked.seconds, asked.tolerance, exact) for exact in (True, False)]
     (times, states, *_), (other_times, other_states, *_) = curves

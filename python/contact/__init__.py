@@ -1,8 +1,8 @@
 """Rolling and sliding contact with friction, by the CONTACT library.
 
-:class:`Problem` is two bodies in contact, :class:`WheelRail` a wheel on a rail; :mod:`contact.cntc` has the
-routines of the library one by one. :func:`read`, :func:`explain` and :func:`convert` are for experiments in files, :func:`load`
-for their results, :class:`Study` for many cases. The library is loaded when it is first needed.
+:class:`Problem` is the contact of two bodies, :class:`WheelRail` that of a wheel on a rail; :mod:`contact.cntc` gives access to
+the individual routines of the library. :func:`read`, :func:`explain` and :func:`convert` process input files, :func:`load` their
+results, :class:`Study` computes many cases. The library is loaded when it is first used.
 """
 from typing import TYPE_CHECKING, Any
 

@@ -70,7 +70,7 @@ def _output() -> tuple[str, str]:
 
 
 def _take_number(module: int) -> int:
-    """A result element that nobody uses, from the upper end; callers of cntc take theirs from the lower"""
+    """An unused result element, from the highest number down; callers of cntc usually start with the lowest"""
     with _lock:
         number = next((number for number in range(999, 0, -1) if number not in _used), None)
         if number is None:
@@ -140,14 +140,14 @@ class Patch(View):
     units, motion
         As of the problem: ``"mm"``, ``"si"`` or ``"simpack"``; ``"steady"``, ``"transient"``, ``"shift"`` or ``"frictionless"``.
     errors
-        Estimated errors of totals by their names in files and in the units of these, ``errors["fx"]``; without what is given or
-        has no estimate. None without :meth:`Problem.set_errors` or an accuracy.
+        Estimated errors of totals by their names in files and in the units of these, ``errors["fx"]``; without prescribed totals
+        and totals without an estimate. None without :meth:`Problem.set_errors` or a required accuracy.
     wear
-        Totals of wear and fatigue by their names in files, ``wear["t_gamma"]``, see doc/user/studies.md; 0 for what the case has
-        not. None without :meth:`Problem.set_wear`.
+        Totals of wear and fatigue by their names in files, ``wear["t_gamma"]``, see doc/user/studies.md; 0 for totals that do
+        not apply to the case. None without :meth:`Problem.set_wear`.
     power, wear_depth
-        Density of frictional power in rolling [W/mm2], not negative but for rounding; depth that a passage of the contact, or a
-        shift, wears off in each element [L]. None without them, and where nothing is worn off.
+        Density of frictional power in rolling [W/mm2], not negative except for round-off; wear depth in each element of a passage
+        of the contact, or of a shift [L]. None if they are not computed, and if there is no wear.
     """
 
     x: Field
@@ -204,7 +204,7 @@ class Patch(View):
         motion = {"shift": ("shift_x", "shift_y", "rotation"), "frictionless": ()}.get(self.motion, ("cksi", "ceta", "cphi"))
         found.update(zip(motion, (self.cksi, self.ceta, self.cphi)))
         found["contact_area"] = self.contact_area
-        # as in files, what the case has not is left out
+        # as in files: without totals that do not apply to the case
         found.update((name, value) for name, value in (self.wear or {}).items() if value != 0.0 or name not in _CONDITIONAL)
         counts = {"ncon": self.state > 0, "nadh": self.state == 1, "nslip": self.state == 2, "nplast": self.state == 3}
         found.update({name: int(np.count_nonzero(where)) for name, where in counts.items() if name != "nplast" or where.any()})
@@ -254,7 +254,7 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
 
 
 def _errors(ire: int, icp: int, motion: str) -> dict[str, float]:
-    """Estimated errors by the names of the totals; those that are not known are left out"""
+    """Estimated errors by the names of the totals; without those that are unknown"""
     moved = ("shift_x", "shift_y", "friction_work") if motion == "shift" else ("cksi", "ceta", "friction_power")
     names = ("fn", "fx", "fy", "mz", "pen", "pmax", "contact_area", *moved, "elastic_energy", "max_temp1")
     return {name: float(error) for name, error in zip(names, cntc.geterrors(ire, icp)) if error >= 0.0}
@@ -272,20 +272,20 @@ def _wear(ire: int, icp: int, motion: str, wanted: bool) -> tuple[dict[str, floa
 
 
 def buried_ends(ire: int) -> tuple[str, ...]:
-    """Where wheel and rail overlap and no patch is, see WheelRailResult.buried: bits after those of the sides"""
+    """Where wheel and rail overlap without a patch, see WheelRailResult.buried: bits after those of the sides"""
     border = int(cntc.getflags(ire, -1, [CNTC["own_border"]])[0])
     return tuple(name for bit, name in enumerate(("inner", "outer", "beside"), len(_SIDES)) if border >> bit & 1)
 
 
 def warn_of_border(patch: Patch, what: str) -> None:
-    """Warn of contact that is cut off; the caller's caller is named"""
+    """Warn of contact that is cut off, at the line of the caller's caller"""
     if patch.border:
         warnings.warn(f"{what} reaches {', '.join(patch.border)}: it is cut off, and pressures and forces are those of a "
                       "smaller contact area", ContactWarning, stacklevel=3)
 
 
 def warn_of_few_elements(patch: Patch, what: str) -> None:
-    """Warn of contact that is only a few elements wide; the caller's caller is named"""
+    """Warn of contact that is only a few elements wide, at the line of the caller's caller"""
     if 0 < patch.elements_across < 5:
         warnings.warn(f"{what} is only {patch.elements_across} elements wide: its area, forces and pressures are rough; take "
                       "smaller elements", ContactWarning, stacklevel=3)
@@ -308,7 +308,7 @@ class Stresses:
     tensor
         Stress tensor, shape (3, 3, nz, ny, nx) [F/L2].
     units
-        As of the problem.
+        Those of the problem.
     """
 
     x: Field
@@ -339,7 +339,7 @@ class Stresses:
         return found
 
     def to_xarray(self) -> Any:
-        """All values over x, y and z as an ``xarray.Dataset`` with units and descriptions; ImportError where xarray is absent."""
+        """All values over x, y and z as an ``xarray.Dataset`` with units and descriptions. Raises ImportError without xarray."""
         xarray = optional("xarray", "to_xarray")
         length, stress = meaning_of("pen", self.units)[0], meaning_of("pn", self.units)[0]
         values = {name: (("z", "y", "x"), field, {"long_name": stress_meaning(name), "units": length if name[0] == "u" else stress})
@@ -349,7 +349,7 @@ class Stresses:
                                        for name, text in depth.items()})
 
     def plot(self, field: str = "sigvm", y: float | None = None, ax: Any = None, **options: Any) -> Any:
-        """Draw a field in the plane of one y, with matplotlib; a block with one x gives a curve over the depth.
+        """Plot a field in the plane of one y, with matplotlib; a block with one x gives a curve over the depth.
 
         Parameters
         ----------
@@ -422,7 +422,7 @@ class Element:
         if motion not in _MOTIONS:
             raise ValueError(f"motion = {motion!r} is none of {', '.join(_MOTIONS)}")
         self._number = _take_number(self._module)
-        # Called once: by close, when nobody refers to this object any more, or when Python ends
+        # Called once: by close, when the object is garbage-collected, or when Python ends
         self._release = weakref.finalize(self, _give_back, self._number)
         self.units = units
         self.motion = motion
@@ -454,7 +454,7 @@ class Element:
         return self._number
 
     def _do(self, routine: Callable[..., None], *arguments: Any) -> None:
-        """Call a routine that sets something; what it refuses is an error, what it replaces a warning"""
+        """Call a routine that sets values; a refusal raises an error, a replaced value gives a warning"""
         routine(*arguments)
         code, message = last_error(self.number, self._icp)
         if code != 0:
@@ -482,9 +482,9 @@ class Element:
         Parameters
         ----------
         archard
-            Archard's wear coefficient, of the user's materials and conditions [-]; 0: no depths.
+            Archard's wear coefficient for the materials and conditions [-]; 0: no depths.
         hardness
-            Of the softer body [F/L2], which the coefficient needs.
+            Hardness of the softer body [F/L2], required with the coefficient.
         shear_yield
             Yield stress in cyclic shear [F/L2]; 0: no shakedown, no fatigue index.
         """
@@ -499,7 +499,7 @@ class Element:
         g, nu
             Modulus of rigidity [F/L2] and Poisson ratio [-] of body 1: the upper body, the rail.
         g2, nu2
-            Those of body 2, default the same.
+            The same of body 2; default: equal to body 1.
         model, parameters
             M digit and its parameters besides the elastic constants.
         """
@@ -532,8 +532,8 @@ class Element:
         plastic_share
             Fraction of plastic work that becomes heat [-].
         source
-            ``"moving"``: the solution for fast moving sources. ``"established"``: as the established program, which
-            counts the heat of an element twice at its centre and comes out higher, by 11 % on 60 elements.
+            ``"moving"``: the solution for fast moving sources. ``"established"``: that of the established program, which
+            counts the heat of an element twice at its centre and gives higher temperatures, by 11 % on 60 elements.
         """
         if source not in _SOURCES:
             raise ValueError(f"source = {source!r} is none of {', '.join(_SOURCES)}")
@@ -554,14 +554,14 @@ class Element:
         eps, maxgs, maxin, maxnr, maxout
             Relative tolerance of the equations [-], and limits of iterations.
         order
-            Discretisation of rolling: 2, whose errors fall with the square of the size of elements, where it is
-            made for the case (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
+            Order of the discretisation of rolling: 2, with errors proportional to the square of the element size, for the cases
+            that it supports (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
         accuracy
-            Largest relative error of the forces [-], 1e-6 to 0.1, that is asked for in place of a grid: the numbers of elements
-            of a grid tell its window only, eps and order are chosen (doc/user/running.md). 0: none is asked for.
+            Required accuracy instead of a grid: largest relative error of the forces [-], 1e-6 to 0.1. The grid then defines
+            its window only; element size, eps and order are chosen (doc/user/running.md). 0: none.
         allow
-            ``"approximate"``: simplified methods may take the place of the full theory, where their error is known and below the
-            accuracy that is asked for. ``"nothing"``: they may not.
+            ``"approximate"``: simplified methods may replace the full theory if their error is known and below the required
+            accuracy. ``"nothing"``: full theory only.
         """
         if allow not in ("nothing", "approximate"):
             raise ValueError(f"allow = {allow!r} is none of nothing, approximate")
@@ -576,9 +576,9 @@ class Element:
     def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:
         """Points below the surface: all combinations of x, y and depths z [L].
 
-        Tractions are constant on elements. At depths of less than a quarter of dx the stresses are therefore those of
-        the bodies at the centres of elements only: take None for both x and y, which stands for all centres, or
-        the ``x`` and ``y`` of a result. Elsewhere use depths of dx/4 and more; points closer to the surface give a warning.
+        Tractions are constant on each element. At depths of less than a quarter of dx the stresses are therefore meaningful
+        at the centres of elements only: use None for both x and y, which means all centres, or the ``x`` and ``y`` of a
+        result. Elsewhere use depths of dx/4 and more; points closer to the surface give a warning.
         """
         if (x is None) != (y is None):
             raise ValueError("x and y have to be given both, or be None both for the centres of all elements")
@@ -587,7 +587,7 @@ class Element:
         self._stresses_known = False
 
     def _calculate_stresses(self, callers: int = 1) -> None:
-        """Stresses below the last solution, once; a warning names the line that called so many levels above"""
+        """Stresses of the last solution, computed once; callers is the number of stack levels up to the line of a warning"""
         if self._stresses_known:
             return
         code = cntc.subs_calculate(self.number, self._icp, idebug=0)
@@ -599,7 +599,7 @@ class Element:
         self._stresses_known = True
 
     def _calculate(self, initiation: bool) -> int:
-        """Solve; the number of elements at the border"""
+        """Solve; returns the number of elements in contact at the border"""
         self._stresses_known = False
         self.set_flags(ic_pvtime=2 if initiation else 0)
         code: Any = cntc.calculate(self.number, self._icp, idebug=0)
@@ -610,7 +610,7 @@ class Element:
             reason = last_error(self.number, self._icp)[1] or cntc.meaning(code)
             raise ContactError(f"The problem was not solved: {reason}", code, self._status)
         if code < 0:
-            # a missed tolerance or force: the reason is in the status, and must not be taken for that of a later call
+            # a missed tolerance or force: read the reason now, so that it is not attributed to a later call
             last_error(self.number, self._icp)
         if self._status != "solved":
             warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
@@ -619,6 +619,6 @@ class Element:
             warnings.warn("The accuracy that was asked for was not reached; errors of the result tell what is left", ContactWarning,
                           stacklevel=3)
         if self._has_points and cntc.getflags(self.number, self._icp, [CNTC["own_wear"]])[0]:
-            # totals of wear have the largest stresses
+            # the totals of wear include the largest stresses
             self._calculate_stresses(callers=2)
         return max(0, self._code)

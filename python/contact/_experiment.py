@@ -1,4 +1,4 @@
-"""Experiments in files: both formats of input, and what they simulate."""
+"""Experiments in files: reading, converting and explaining both formats of input."""
 from __future__ import annotations
 
 import ctypes
@@ -14,12 +14,12 @@ _SUFFIXES = (".inp", ".toml")
 
 
 def explain(path: str | os.PathLike[str]) -> str:
-    """Describe in words what every case of an experiment simulates and what not, the methods, and the expected cost.
+    """Describe in words for every case of an experiment what is simulated and what is not, the methods, and the expected cost.
 
     Parameters
     ----------
     path
-        The input, in either format; without suffix the one that is there, ``.inp`` before ``.toml``.
+        The input, in either format; without suffix the existing file, ``.inp`` before ``.toml``.
 
     Raises
     ------

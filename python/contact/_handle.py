@@ -1,4 +1,4 @@
-"""What the library holds for an object, and when it is freed."""
+"""Objects that own memory of the library."""
 from __future__ import annotations
 
 from types import TracebackType
@@ -8,15 +8,15 @@ _Self = TypeVar("_Self", bound="Handle")
 
 
 class Handle:
-    """An object whose memory is the library's: it is freed by `close`, at the end of a `with`, or with the object"""
+    """Owner of a handle of the library, which is freed by `close`, at the end of a `with` block, or with the object"""
 
-    #: Name of the routine of the library that frees it
+    #: Name of the routine of the library that frees the handle
     _closer = ""
     _library: Any
     _handle: Any = None
 
     def close(self) -> None:
-        """Free what the library holds."""
+        """Free the memory of the library."""
         handle, self._handle = self._handle, None
         if handle:
             getattr(self._library, self._closer)(handle)

@@ -13,21 +13,21 @@ from .errors import ContactError
 
 Field = np.ndarray[Any, np.dtype[np.float64]]
 
-#: What changes: force and moment about the rail marker in the directions of the track, about the wheel marker in those of the
-#: wheelset, and the height of the wheelset
+#: Rows: force and moment about the rail marker in track directions and about the wheel marker in wheelset directions, and the
+#: height of the wheelset
 ROWS = ("fx_tr", "fy_tr", "fz_tr", "mx_r_tr", "my_r_tr", "mz_r_tr",
         "fx_ws", "fy_ws", "fz_ws", "mx_w_ws", "my_w_ws", "mz_w_ws", "z_ws")
-#: With what: position and velocities of the wheelset, and the vertical force
+#: Columns: position and velocities of the wheelset, and the vertical force
 COLUMNS = ("y", "z", "roll", "yaw", "vs", "vy", "vroll", "vyaw", "vpitch", "fz")
 _STATES = ("exact", "one-sided")
 
 
 @dataclass(frozen=True, eq=False)
 class Jacobian:
-    """Derivatives of forces, moments and height of a wheel on a rail, by position, velocities and vertical force.
+    """Derivatives of forces, moments and height of a wheel on a rail with respect to position, velocities and vertical force.
 
-    ``jacobian["fy_tr", "yaw"]`` is one of them, ``jacobian["fy_tr"]`` a row, ``jacobian[["fx_ws", "fy_ws"], ["y", "yaw"]]`` a
-    matrix of some of them. The exact derivatives of the discrete equations, with contact area and element division kept, see
+    ``jacobian["fy_tr", "yaw"]`` is one value, ``jacobian["fy_tr"]`` a row, ``jacobian[["fx_ws", "fy_ws"], ["y", "yaw"]]`` a
+    submatrix. These are the exact derivatives of the discrete equations with fixed contact area and element division, see
     doc/theory/sensitivities.md.
 
     Attributes
@@ -37,8 +37,8 @@ class Jacobian:
     rows, columns
         Their names, in order: those of totals in files, and ``y, z, roll, yaw, vs, vy, vroll, vyaw, vpitch, fz``.
     state, reason
-        ``"exact"``; ``"one-sided"`` where a contact patch, or a part of one, appears or vanishes, and the derivative is that to
-        the other side.
+        ``"exact"``; ``"one-sided"`` where a contact patch, or a part of one, appears or vanishes, so that the derivative holds on
+        one side only.
     """
 
     values: Field
@@ -84,7 +84,7 @@ def read_jacobian(number: int) -> Jacobian:
     Raises
     ------
     ContactError
-        Where there are none, with the reason.
+        If there are none, with the reason.
     """
     values = np.zeros((len(ROWS), len(COLUMNS)))
     room = ctypes.create_string_buffer(2000)

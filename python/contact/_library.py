@@ -32,13 +32,13 @@ def _names() -> tuple[str, ...]:
 
 
 def candidates() -> list[str]:
-    """Places where the library is looked for, in this order; see doc/user/python.md."""
+    """Paths at which the library is searched, in this order; see doc/user/python.md."""
     chosen = os.environ.get("CONTACT_LIBRARY")
     if chosen:
         return [chosen]
     here = Path(__file__).resolve().parent
     top = here.parent.parent
-    # the last one is bin of an installation, which has the package in share/contact/python
+    # the last one is bin of an installation that has the package in share/contact/python
     folders = [here, top / "build/release/lib", top / "build/release/bin", top / "bin", top / "lib", top.parent.parent / "bin"]
     found = [str(folder / name) for folder in folders for name in _names() if (folder / name).is_file()]
     system = ctypes.util.find_library("contact")
@@ -51,7 +51,7 @@ def library() -> ctypes.CDLL:
     Raises
     ------
     ContactError
-        If it is found nowhere, or if what is found cannot be loaded or is something else.
+        If it is not found, cannot be loaded, or is another library.
     """
     global _library
     if _library is not None:
@@ -73,7 +73,7 @@ def library() -> ctypes.CDLL:
 
 @functools.lru_cache(maxsize=4)
 def _digest(path: str, size: int, time: int) -> str:
-    """Hash of a file, read once as long as it stays the same"""
+    """Hash of a file, computed once for each of its versions"""
     found = hashlib.blake2b(digest_size=16)
     with open(path, "rb") as file:
         for portion in iter(lambda: file.read(1 << 20), b""):
@@ -82,7 +82,7 @@ def _digest(path: str, size: int, time: int) -> str:
 
 
 def fingerprint() -> str:
-    """Hash of the file of the library that is loaded; its name where the system found it elsewhere."""
+    """Hash of the file of the loaded library; its name if the system found it on its search path."""
     name = str(library()._name)
     try:
         about = os.stat(name)
@@ -92,7 +92,7 @@ def fingerprint() -> str:
 
 
 def _arguments(name: str) -> list[tuple[str, bool, str]]:
-    """Name, whether a result, and kind of each argument"""
+    """Name, whether it is a result, and kind of each argument"""
     if name not in _parsed:
         parts = (part.partition(":") for part in SIGNATURES[name].split())
         _parsed[name] = [(left, right.startswith(">"), right[-1]) for left, _, right in parts]
@@ -148,22 +148,22 @@ def call(name: str, *values: Any) -> Any:
 
 
 def text(value: str | os.PathLike[str] | None) -> tuple[bytes, int]:
-    """A text as the library takes it: bytes and their number; None and blank mean not given"""
+    """A text as passed to the library: bytes and their number; None and blank mean not given"""
     encoded = os.fspath(value).encode("utf-8") if value is not None else b""
     return encoded, len(encoded)
 
 
 def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:
-    """Code and text of what went wrong last with a problem, or with ire = 0 in the library; (0, "") when nothing
-    did since this was asked last. Code 0 with a text is a warning."""
+    """Code and text of the last error of a problem, or with ire = 0 of the library, since the last call of this function;
+    (0, "") if there was none. Code 0 with a text is a warning."""
     room = ctypes.create_string_buffer(2000)
     code = library().contact_last_error(ire, icp, room, len(room))
     return code, room.value.decode("utf-8", errors="replace")
 
 
 def case_status(ire: int = 1, icp: int = -1) -> tuple[str, str]:
-    """How the last calculation of a problem ended, "solved", "not converged" or "refused", and the reason in one
-    sentence; ("", "") when nothing was calculated."""
+    """Status of the last calculation of a problem, "solved", "not converged" or "refused", and the reason in one sentence;
+    ("", "") before the first calculation."""
     room = ctypes.create_string_buffer(2000)
     state = library().contact_case_status(ire, icp, None, room, len(room))
     words = {0: "solved", 1: "not converged", 2: "refused"}

@@ -1,4 +1,4 @@
-"""Results of experiments in files: HDF5, .mat and .out, as objects that tell, plot and convert themselves."""
+"""Results of experiments in files: HDF5, .mat and .out, as objects that can be printed, plotted and converted."""
 from __future__ import annotations
 
 import glob
@@ -14,7 +14,7 @@ from ._view import CONVENTIONS, Field, View, cf_unit, meaning_of, optional, plot
 from .errors import ContactError
 
 _ALIASES = {"state": "eldiv", "distance": "h", "friction": "mu", "approach": "pen", "max_pressure": "pmax"}
-# bits of the NaN that HDF5 fills in where it does not find a piece of an array, see src/hdf5/values.f90
+# bits of the NaN that HDF5 returns for a missing chunk of an array, see src/hdf5/values.f90
 _LOST = 0x7FF8636F6E746163
 
 
@@ -168,7 +168,7 @@ class Experiment(Sequence[Case]):
         return iter(self._cases)
 
     def case(self, number: int) -> Case:
-        """The case with a number as in the input. Raises KeyError when it is not there."""
+        """The case with a number of the input. Raises KeyError if there is none."""
         for case in self._cases:
             if case.number == number:
                 return case
@@ -215,8 +215,8 @@ def load(path: str | os.PathLike[str]) -> Experiment:
     ----------
     path
         ``.h5``: everything of all cases (``contact --hdf5``); needs h5py. ``.mat``: fields of one case and patch, as
-        ``name.0002a.mat``, or of all that are there, as ``name.mat``. ``.out``: totals of all cases, with the digits that
-        are printed.
+        ``name.0002a.mat``, or of all existing ones, as ``name.mat``. ``.out``: totals of all cases, with the printed
+        digits.
 
     Returns
     -------
@@ -227,9 +227,9 @@ def load(path: str | os.PathLike[str]) -> Experiment:
     ContactError
         If the file cannot be read; the message gives the reason.
     FileNotFoundError
-        If it is not there.
+        If it does not exist.
     ImportError
-        If h5py is absent and needed.
+        If h5py is needed and not installed.
 
     Examples
     --------
@@ -251,7 +251,7 @@ def load(path: str | os.PathLike[str]) -> Experiment:
 
 
 def _plain(value: Any) -> Any:
-    """A value of an HDF5 file as Python knows it; arrays stay"""
+    """A value of an HDF5 file as a Python value; arrays are returned unchanged"""
     if isinstance(value, (bytes, np.bytes_)):
         return value.decode("utf-8", "replace").rstrip()
     if isinstance(value, np.ndarray) and value.ndim:
@@ -298,7 +298,7 @@ def _load_hdf5(path: str) -> Experiment:
             return Experiment(path, cases, bool(file.attrs["complete"]) if "complete" in file.attrs else None)
     except ContactError as reason:
         raise ContactError(f"{path}: {reason}") from None
-    except Exception as reason:  # h5py has many kinds of them for a damaged file
+    except Exception as reason:  # h5py raises many kinds of errors for a damaged file
         what = " ".join(str(reason).split()) or type(reason).__name__
         raise ContactError(f"{path} cannot be read, it is damaged or no HDF5 file: {what}") from None
 

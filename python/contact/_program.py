@@ -1,4 +1,4 @@
-"""The command `contact` of the wheel: hands everything on to the program inside the package"""
+"""The command `contact` of the wheel: runs the program inside the package"""
 from __future__ import annotations
 
 import os
@@ -14,7 +14,7 @@ def main() -> int:
     name = "contact.exe" if os.name == "nt" else "contact"
     program = FOLDER / "bin" / name
     if not program.is_file():
-        print("ERROR. This package of Python has no program inside; build it, or install a wheel that has", file=sys.stderr)
+        print("ERROR. This Python package does not contain the program; build it, or install a wheel with it", file=sys.stderr)
         return 1
     os.environ.setdefault("CONTACT_PYTHON", str(FOLDER.parent))
     os.environ["PATH"] = os.pathsep.join((str(Path(sys.executable).parent), os.environ.get("PATH", "")))

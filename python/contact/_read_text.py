@@ -1,4 +1,4 @@
-"""Readers of the results that are text: .mat and .out files."""
+"""Readers of results in text files: .mat and .out."""
 from __future__ import annotations
 
 import re
@@ -9,11 +9,11 @@ import numpy as np
 
 from .errors import ContactError
 
-# Layouts of .mat files that are understood
+# First and last supported layout of .mat files
 _LAYOUTS = (2320, 2410)
-# What is zero outside of the contact when a file has the elements in contact only; all else is not known there
+# Fields that are zero outside of the contact if a file has the elements in contact only; all others are unknown there
 _ZERO_OUTSIDE = ("eldiv", "pn", "px", "py")
-# Names of totals in HDF5 by the headings of the .out file, once lower case and with _ for other signs
+# Names of totals in HDF5 by the headings of the .out file, which are converted to lower case with _ for other characters
 _TOTALS = {"fn": "fn", "fx": "fx", "fy": "fy", "fs": "fy", "mz": "mz", "mz_elem": "mz_elem", "bar_fn": "bar_fn",
            "bar_fx": "bar_fx", "bar_fs": "bar_fs", "bar_mn": "bar_mn", "elast_en": "elastic_energy",
            "fric_power": "friction_power", "fric_work": "friction_work", "fx_fstat_fn": "fx_rel", "fy_fstat_fn": "fy_rel",
@@ -25,7 +25,7 @@ _TOTALS = {"fn": "fn", "fx": "fx", "fy": "fy", "fs": "fy", "mz": "mz", "mz_elem"
 _OF_CASE = ("fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws", "s_ws", "y_ws", "z_ws", "roll_ws", "yaw_ws", "vpitch_ws",
             "dy_defl", "dz_defl")
 _MOMENTS = ("mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws")
-# First words of the headings below which the totals stand
+# First words of the headings of the totals
 _HEADINGS = re.compile(r"^\s+(FN|BAR_FN|FN/G|CHI|SPINXO|DT|NPOT|XCP|FX\(TR\)|MX@R|S_WS|X_WS|VS_WS|VX_WS|DY_DEFL)\b|^\s+(XCP|FX)\(")
 
 
@@ -70,9 +70,9 @@ def _number(word: str) -> float | None:
 
 
 def read_mat(path: str) -> MatFile:
-    """Fields and grid of a .mat file; totals that the file has no line for are made of the fields where it holds them all.
+    """Fields and grid of a .mat file; totals without a line in the file are computed from the fields if it has all of them.
 
-    Raises ContactError when it is damaged or of another layout.
+    Raises ContactError if it is damaged or of another layout.
     """
     with open(path, encoding="utf-8", errors="replace") as file:
         lines = [line.rstrip("\n") for line in file if line.strip()]
@@ -132,7 +132,7 @@ def _below(heading: str, values: str) -> dict[str, float]:
 
 
 def _take(case: OutCase, patch: int, values: dict[str, float], in_module1: bool) -> None:
-    """Put what stands below one heading where it belongs"""
+    """Store the values below one heading"""
     if patch == 0:
         case.totals.update({name: values[name] for name in _OF_CASE if name in values})
         case.totals.update({name: values[name] for name in _MOMENTS if name in values})
@@ -156,7 +156,7 @@ def _take(case: OutCase, patch: int, values: dict[str, float], in_module1: bool)
 def read_out(path: str) -> OutFile:
     """Totals of all cases of an .out file, as they are printed.
 
-    Raises ContactError when it is none.
+    Raises ContactError if it is not an .out file.
     """
     with open(path, encoding="utf-8", errors="replace") as file:
         lines = [line.rstrip("\n") for line in file]

@@ -1,4 +1,4 @@
-"""What results of a patch have in common, whether solved or loaded: a summary, a picture, a data set for xarray."""
+"""Common base of results of a patch, solved or loaded: summary, plot, xarray data set."""
 from __future__ import annotations
 
 import importlib
@@ -13,11 +13,11 @@ Field = NDArray[np.floating[Any]]
 
 #: Element states in the order of their numbers
 STATES = ("exterior", "adhesion", "slip", "plastic")
-#: What sections of NetCDF's conventions for metadata the data sets follow
+#: Version of the CF conventions for metadata that the data sets follow
 CONVENTIONS = "CF-1.11"
-# Fields that mean something within the contact only
+# Fields that are meaningful within the contact only
 _INSIDE = ("eldiv", "pn", "px", "py", "pt", "sx", "sy", "srel", "shft")
-# Names that only .mat files have
+# Names that occur in .mat files only
 _MAT_NAMES = {"xcp_r": ("mm", "contact reference, longitudinal, rail profile"), "srel": ("-", "magnitude of relative slip"),
               "shft": ("mm", "magnitude of the slip distance")}
 _STRESSES = {"sighyd": "mean stress", "sigvm": "von Mises stress", "sigtr": "Tresca stress", "sigma1": "largest principal stress",
@@ -26,12 +26,12 @@ _STRESSES = {"sighyd": "mean stress", "sigvm": "von Mises stress", "sigtr": "Tre
 
 
 def optional(module: str, what: str) -> Any:
-    """A module that the package does not need, or a clear sentence where it is absent.
+    """Import an optional module.
 
     Raises
     ------
     ImportError
-        If it is absent; the text tells how to install it.
+        If it is not installed; the text says how to install it.
     """
     try:
         return importlib.import_module(module)
@@ -46,7 +46,7 @@ def in_units(unit: str, units: str) -> str:
 
 
 def cf_unit(unit: str) -> str:
-    """The unit as NetCDF's conventions have it: numbers without unit are in 1"""
+    """The unit by the CF conventions: 1 for dimensionless numbers"""
     return unit if unit not in ("", "-") else "1"
 
 
@@ -69,7 +69,7 @@ def meaning_of(name: str, units: str = "mm", is_shift: bool = False) -> tuple[st
 
 
 def state_attributes(states: tuple[str, ...] = STATES) -> dict[str, Any]:
-    """What tells the meaning of element states"""
+    """Attributes with the meaning of element states"""
     return {"flag_values": np.arange(len(states), dtype=np.int8), "flag_meanings": " ".join(states)}
 
 
@@ -94,7 +94,7 @@ class View:
         raise NotImplementedError
 
     def _title(self) -> str:
-        """What this is, and how it ended"""
+        """First line of the summary: what the result is, and its status"""
         return "Contact patch"
 
     def _has_fields(self) -> bool:
@@ -117,7 +117,7 @@ class View:
         return "\n".join(line.rstrip() for line in lines)
 
     def plot(self, field: str = "pn", ax: Any = None, *, arrows: bool | None = None, **options: Any) -> Any:
-        """Draw a field, with matplotlib.
+        """Plot a field, with matplotlib.
 
         Parameters
         ----------
@@ -127,9 +127,9 @@ class View:
         ax
             Axes to draw into; new ones by default.
         arrows
-            Draw tangential tractions as arrows? Default: for ``"pt"``.
+            Whether to draw tangential tractions as arrows. Default: for ``"pt"``.
         options
-            For matplotlib's ``pcolormesh``, ``cmap`` for instance; for ``plot`` where the grid has one row.
+            For matplotlib's ``pcolormesh``, ``cmap`` for instance; for ``plot`` if the grid has one row or column.
 
         Returns
         -------
@@ -206,7 +206,7 @@ class View:
 
 
 def tree(root: Any, children: list[Any]) -> Any:
-    """Data sets of patches below one of the whole, as an ``xarray.DataTree``; the names are those of the HDF5 file"""
+    """An ``xarray.DataTree`` with the data set of the case and, below it, those of the patches; names as in the HDF5 file"""
     xarray = optional("xarray", "to_xarray")
     if not hasattr(xarray, "DataTree"):
         raise ImportError("to_xarray of several patches needs xarray 2024.10 or later: python3 -m pip install --upgrade xarray")
@@ -214,12 +214,12 @@ def tree(root: Any, children: list[Any]) -> Any:
 
 
 def stress_meaning(name: str) -> str:
-    """What a stress or displacement below the surface is, by its name in files"""
+    """Description of a stress or displacement below the surface, by its name in files"""
     return _STRESSES.get(name) or f"stress {name[3:]}"
 
 
 def plot_patches(patches: tuple[Any, ...], field: str, options: dict[str, Any]) -> Any:
-    """One picture for each patch, side by side; an array of axes"""
+    """One plot for each patch, side by side; returns an array of axes"""
     if not patches:
         raise ValueError("there is no contact to be drawn")
     axes = optional("matplotlib.pyplot", "plot").subplots(1, len(patches), squeeze=False)[1][0]

@@ -93,7 +93,7 @@ def _ints(values: ArrayLike | None) -> NDArray[np.intc]:
 
 
 def _tell(routine: str, code: int, idebug: int) -> None:
-    """Print what an error code means, if that is wanted"""
+    """Print the meaning of an error code if messages are enabled"""
     if (code < 0 and idebug >= 1) or (code > 0 and idebug >= 2):
         what = f"{code} elements at the border of the grid" if 0 < code < 300 else meaning(code)
         print(f"{routine}: {what} (code {code})", file=sys.stdout)
@@ -176,7 +176,7 @@ def setflags(ire: Number, icp: Number, params: ArrayLike, values: ArrayLike) -> 
 
 
 def getflags(ire: Number, icp: Number, params: ArrayLike) -> NDArray[np.intc]:
-    """Control digits as they stand, in the order of params; 0 for codes that cannot be read."""
+    """Current control digits, in the order of params; 0 for codes that cannot be read."""
     codes = _ints(params)
     values = np.zeros(codes.size, np.intc)
     call("cntc_getflags", _element(ire), _problem(icp), codes.size, codes, values)
@@ -205,7 +205,7 @@ _elastic: dict[tuple[int, int], list[float]] = {}
 
 
 def setmaterialparameters(ire: Number, icp: Number, m_digit: Number, rparam: ArrayLike) -> None:
-    """Material by the M digit (default 0): nu1, nu2 [-], G1, G2 [F/L2] and what the digit asks for; 10, 11,
+    """Material by the M digit (default 0): nu1, nu2 [-], G1, G2 [F/L2] and the parameters of the digit; 10, 11,
     12 for damping."""
     reals = _reals(rparam)
     if _number(m_digit, 0) < 10 and reals.size >= 4:
@@ -220,7 +220,7 @@ def setmaterialproperties(ire: Number, icp: Number, g1: float, nu1: float, g2: f
 
 def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike | None = None,
                         more: ArrayLike | None = None) -> None:
-    """Interfacial layer, by an older name of setmaterialparameters. The elastic constants are those set before.
+    """Interfacial layer; an older form of setmaterialparameters. The elastic constants are those set before.
 
     Parameters
     ----------
@@ -230,7 +230,7 @@ def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike 
         For 2 flx [L3/F], k0_mf, alfamf, betamf [-]; for 3 the last three of these; for 4 G3 [F/L2], laythk [L], tau_c0
         [F/L2], k_tau [F/L3].
     more
-        The values, where their number stands before them.
+        The values, if the second argument is their number.
 
     Raises
     ------
@@ -251,14 +251,14 @@ def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike 
 
 def settemperaturedata(ire: Number, icp: Number, imeth: int, params: ArrayLike | None = None) -> None:
     """Temperatures by the H digit: 0 off, 1 keep, 3 new. params for 3: temperature [degrees C], heat capacity
-    [J/(kg K)], conductivity [W/(L K)], density [kg/L3] of body 1 and of body 2, share of plastic work [-]."""
+    [J/(kg K)], conductivity [W/(L K)], density [kg/L3] of body 1 and of body 2, fraction of plastic work [-]."""
     reals = _reals(params) if imeth > 1 else _reals(None)
     call("cntc_settemperaturedata", _element(ire), _problem(icp), imeth, reals.size, reals)
 
 
 def setwear(ire: Number, icp: Number, params: ArrayLike) -> None:
-    """Numbers of wear and fatigue, which are told from then on: Archard's wear coefficient [-], hardness of the softer body,
-    yield stress in cyclic shear [F/L2]; 0 for what is not given."""
+    """Parameters of wear and fatigue, which are computed from then on: Archard's wear coefficient [-], hardness of the softer body,
+    yield stress in cyclic shear [F/L2]; 0 for values that are not given."""
     reals = _reals(params)
     call("cntc_setwear", _element(ire), _problem(icp), reals.size, reals)
 
@@ -310,7 +310,7 @@ def setreferencevelocity(ire: Number, icp: Number, veloc: float) -> None:
 
 def sethertzcontact(ire: Number, icp: Number, ipotcn: int, params: ArrayLike) -> None:
     """Hertzian geometry: mx, my, then -1 a1, b1 [1/L]; -2 a1 [1/L], aob [-]; -3 aa, bb [L]; -4 a1, bb and -5
-    aa, bb for approximately elliptic; -6 aa, bneg, bpos [L]; at the end the scale of the grid."""
+    aa, bb for approximately elliptic; -6 aa, bneg, bpos [L]; the last value is the scale of the grid."""
     reals = _reals(params)
     call("cntc_sethertzcontact", _element(ire), _patch(icp), ipotcn, reals.size, reals)
 
@@ -389,7 +389,7 @@ def settrackdimensions_new(ire: Number, ztrack: int, params: ArrayLike | None = 
 
 
 def settrackdimensions_old(ire: Number, ztrack: int, params: ArrayLike) -> None:
-    """Track by an older order of values.
+    """Track, with an older order of values.
 
     Parameters
     ----------
@@ -402,7 +402,7 @@ def settrackdimensions_old(ire: Number, ztrack: int, params: ArrayLike) -> None:
     Raises
     ------
     ValueError
-        If ztrack or the number of values is something else.
+        If ztrack or the number of values is not allowed.
     """
     reals = _reals(params)
     if {1: 4, 2: 6, 3: 10}.get(ztrack) != reals.size:
@@ -410,7 +410,7 @@ def settrackdimensions_old(ire: Number, ztrack: int, params: ArrayLike) -> None:
                          "3 with 10")
     if ztrack != 2:
         width, height, cant, radius = reals[:4]
-        # measured at a height, no second point; the curvature of the track is not known to this routine
+        # measured at a height, no second point; this routine has no curvature of the track
         reals = np.concatenate(([height, 0.0, width, cant, radius], reals[4:]))
     settrackdimensions(ire, ztrack, reals)
 
@@ -434,7 +434,7 @@ def setwheelsetvelocity(ire: Number, ewheel: Number, params: ArrayLike) -> None:
 
 
 def setwheelsetflexibility(ire: Number, ewheel: Number, params: ArrayLike | None = None) -> None:
-    """Deviations of the wheel from the rigid wheelset, twelve values for ewheel 4 and 5; zero for the others."""
+    """Deviations of the wheel from the rigid wheelset, twelve values for ewheel 4 and 5; zero for other values of ewheel."""
     kind = _number(ewheel, 0)
     reals = _reals(params if kind > 3 else None)
     call("cntc_setwheelsetflexibility", _element(ire), kind, reals.size, reals)
@@ -535,7 +535,7 @@ def getprofilevalues(ire: Number, itask: int, iparam: ArrayLike | None = None,
         return values
     table = np.ascontiguousarray(values.reshape(columns, count).T)
     if columns == 3:
-        # Points beside the surface are marked by huge numbers
+        # Points outside of the surface are marked by huge numbers
         table[(table[:, 0] > 98e9) | (table[:, 1] > 998.0) | (table[:, 2] > 998.0)] = np.nan
     return table
 
@@ -623,7 +623,7 @@ def getcontactforces(ire: Number = 1, icp: Number = 1) -> tuple[float, float, fl
 def getcontactpatchareas(ire: Number = 1, icp: Number = 1) -> tuple[float, float, float, float]:
     """Areas of contact, adhesion, slip and plasticity [L2]."""
     contact, adhesion, slip = call("cntc_getcontactpatchareas", _element(ire), _patch(icp))
-    # Areas are whole numbers of elements: what is left of one is rounding
+    # Areas are whole numbers of elements: a remainder is round-off
     plastic = contact - adhesion - slip
     return contact, adhesion, slip, plastic if plastic > 1e-9 * contact else 0.0
 
@@ -660,7 +660,7 @@ def getwear(ire: Number = 1, icp: Number = 1) -> Field:
 
 
 def _fields(routine: str, count: int, ire: Number, icp: Number, *more: int, dtype: Any = np.float64) -> list[Any]:
-    """As many fields as the routine gives, each (my, mx)"""
+    """The fields that the routine returns, each of shape (my, mx)"""
     element, patch = _element(ire), _patch(icp)
     mx, my = getnumelements(element, patch)
     fields = [np.zeros((my, mx), dtype) for _ in range(count)]
@@ -781,7 +781,7 @@ def subs_getblocksize(ire: Number = 1, icp: Number = 1, iblk: Number = 1) -> tup
 
 
 def subs_getresults(ire: Number, icp: Number, iblk: Number, icol: ArrayLike) -> Field:
-    """Columns 1-3 place [L], 4-6 displacement [L], 7-9 hydrostatic, von Mises, Tresca, 10-12 principal
+    """Columns 1-3 position [L], 4-6 displacement [L], 7-9 hydrostatic, von Mises, Tresca, 10-12 principal
     stresses, 13-21 tensor [F/L2]. Shape (number of columns, number of points), x running fastest."""
     columns = _ints(icol)
     nx, ny, nz = subs_getblocksize(ire, icp, iblk)
@@ -792,7 +792,7 @@ def subs_getresults(ire: Number, icp: Number, iblk: Number, icol: ArrayLike) -> 
 
 
 def __getattr__(name: str) -> Any:
-    """Names with cntc_ as in the library; cntc_dll, the library as ctypes has it"""
+    """Names with cntc_ as in the library; cntc_dll is the library as a ctypes object"""
     if name == "cntc_dll":
         return library()
     if name.startswith("cntc_") and name[5:] in globals():

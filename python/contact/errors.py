@@ -1,4 +1,4 @@
-"""What goes wrong, as an exception with the code and the text of the library, and what is doubtful, as a warning."""
+"""The exception with the code and the text of an error of the library, and the warnings."""
 from __future__ import annotations
 
 
@@ -8,9 +8,9 @@ class ContactError(RuntimeError):
     Attributes
     ----------
     code : int
-        Number of the error as the library returns it, for instance -32; 0 when the library was not reached.
+        Error code of the library, for instance -32; 0 if the library was not called.
     status : str
-        How the case ended, ``"not converged"`` or ``"refused"``; empty when the error is not that of a calculation.
+        Status of the case, ``"not converged"`` or ``"refused"``; empty if the error is not that of a calculation.
     """
 
     def __init__(self, text: str, code: int = 0, status: str = "") -> None:

@@ -28,8 +28,7 @@ class Result(Patch):
         Number of elements in contact in the first and last rows and columns. A value above 0 means that the grid may
         be too small.
     status, reason
-        How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
-        :class:`NotConvergedWarning` tells as well.
+        ``"solved"``, or ``"not converged"`` and the reason, which a :class:`NotConvergedWarning` reports as well.
     """
 
     border_elements: int
@@ -77,7 +76,7 @@ class Problem(Element):
 
     def set_hertz(self, mx: int, my: int, *, aa: float | None = None, bb: float | None = None,
                   a1: float | None = None, b1: float | None = None, scale: float = 1.2) -> None:
-        """Hertzian contact of bodies of constant curvature; the grid is made by the library.
+        """Hertzian contact of bodies of constant curvature; the grid is chosen by the library.
 
         Parameters
         ----------
@@ -125,13 +124,13 @@ class Problem(Element):
         return self._grid
 
     def set_distance(self, distance: ArrayLike | Callable[[Field, Field], ArrayLike]) -> None:
-        """Undeformed distance of the surfaces [L], positive where they are apart.
+        """Undeformed distance of the surfaces [L], positive where they are separated.
 
         Parameters
         ----------
         distance
-            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that gives it. It belongs to the elements of
-            the grid: ``set_solver(accuracy=...)`` goes with :meth:`set_hertz` only.
+            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that returns it. It is given at the elements of
+            the grid, so ``set_solver(accuracy=...)`` works with :meth:`set_hertz` only.
         """
         if self._grid is None:
             raise ValueError("set_distance needs set_grid first")

@@ -1,7 +1,7 @@
-"""Wear and rolling contact fatigue from results: quantities of the literature, each a function of arrays.
+"""Wear and rolling contact fatigue from results: published quantities as functions of arrays.
 
-Arguments are numbers or arrays that fit each other, xarray variables included. Units are those of results: mm, N, N/mm2; creepages
-have none, spin is in rad/mm. Nothing here is computed unless it is called.
+Arguments are numbers or arrays that can be broadcast, or xarray variables. Units are those of results: mm, N, N/mm2; creepages
+are dimensionless, spin is in rad/mm.
 """
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-#: Largest shear along the surface, below it, over the largest pressure of a line contact that slides with traction f: these
-#: coefficients times f**0 ... f**4, fitted to the stresses of Hertz's pressures and tractions within 2e-7 up to f = 0.3675
+#: Coefficients of f**0 ... f**4 in the largest subsurface shear stress on planes parallel to the surface, relative to the largest
+#: pressure, of a sliding line contact with traction f; fitted to the stresses of Hertzian pressures and tractions within 2e-7 up
+#: to f = 0.3675
 _SHEAR_BELOW = (0.25, 0.29904477, 0.07165843, -0.05709596, 0.03172995)
-#: Traction from which on the shear at the surface, the traction itself, is the largest [-] (Johnson 1985, section 9.2)
+#: Traction above which the largest shear stress is that at the surface, the traction itself [-] (Johnson 1985, section 9.2)
 _SURFACE_TRACTION = 0.36723
 
 
@@ -85,7 +86,7 @@ def archard_depth(pn: Any, sx: Any, sy: Any, dx: float, coefficient: float, hard
     coefficient
         Archard's wear coefficient for the materials and conditions [-].
     hardness
-        Of the softer body, [N/mm2].
+        Hardness of the softer body [N/mm2].
 
     Returns
     -------
@@ -124,7 +125,7 @@ def braghin_rate(index: Any) -> Any:
 
 
 def braghin_depth(px: Any, py: Any, sx: Any, sy: Any, dx: float, density: float = 7800.0, axis: int = -1) -> Any:
-    """Depth that one passage of the contact wears off [mm], by :func:`braghin_rate` of each element.
+    """Wear depth of one passage of the contact [mm], by :func:`braghin_rate` of each element.
 
     Parameters
     ----------
@@ -135,7 +136,7 @@ def braghin_depth(px: Any, py: Any, sx: Any, sy: Any, dx: float, density: float 
     dx
         Side of an element along x [mm].
     density
-        In microgram/mm3 = kg/m3.
+        Density of the material [microgram/mm3 = kg/m3].
 
     Returns
     -------
@@ -146,7 +147,7 @@ def braghin_depth(px: Any, py: Any, sx: Any, sy: Any, dx: float, density: float 
 
 
 def surface_fatigue_index(fx: Any, fy: Any, fn: Any, aa: Any, bb: Any, shear_yield: float) -> Any:
-    """How far a contact is beyond the shakedown limit of its surface [-]; above 0 fatigue of the surface is expected.
+    """Distance of a contact from the shakedown limit of its surface [-]; above 0 fatigue of the surface is expected.
 
     Parameters
     ----------
@@ -166,7 +167,7 @@ def surface_fatigue_index(fx: Any, fy: Any, fn: Any, aa: Any, bb: Any, shear_yie
 
 
 def shakedown_limit(traction: Any) -> Any:
-    """Largest pressure over yield stress in shear, p0/k [-], under which a contact ends in elastic shakedown.
+    """Largest pressure over yield stress in shear, p0/k [-], below which a contact reaches elastic shakedown.
 
     Parameters
     ----------
@@ -175,9 +176,9 @@ def shakedown_limit(traction: Any) -> Any:
 
     Returns
     -------
-    One over the largest shear stress along the surface relative to the largest pressure: 4 without traction, decided below the
-    surface up to a traction of 0.367, and ``1 / traction`` at the surface beyond; line contact, perfect plasticity. Source:
-    Johnson, Contact mechanics, Cambridge 1985, section 9.2.
+    Reciprocal of the largest shear stress on planes parallel to the surface, relative to the largest pressure: 4 without traction,
+    determined below the surface up to a traction of 0.367, at the surface beyond, ``1 / traction``; line contact, perfect
+    plasticity. Source: Johnson, Contact mechanics, Cambridge 1985, section 9.2.
     """
     ratio = np.asarray(traction, dtype=float)
     below = np.polynomial.polynomial.polyval(np.minimum(ratio, _SURFACE_TRACTION), _SHEAR_BELOW)

@@ -89,16 +89,15 @@ class WheelRailResult:
     wheelset_velocity
         vs, vy, vz [V], rates of roll, yaw, pitch [A/T]. Shape (6,).
     status, reason
-        How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
-        :class:`NotConvergedWarning` tells as well.
+        ``"solved"``, or ``"not converged"`` and the reason, which a :class:`NotConvergedWarning` reports as well.
     buried
-        Where wheel and rail overlap and no patch is: ``"inner"`` or ``"outer"`` for ends of the wheel's profile that stand within
-        the rail, ``"beside"`` for another place along the track. Contact there carries no load in this result, and a
-        :class:`ContactWarning` tells of it.
+        Where wheel and rail overlap without a contact patch: ``"inner"`` or ``"outer"`` for ends of the wheel profile inside
+        the rail, ``"beside"`` for another position along the track. Contact there carries no load in this result, and a
+        :class:`ContactWarning` reports it.
     border_elements
         Elements in contact in the first and last rows and columns of the grids, of all patches together.
     units
-        As of the problem.
+        Those of the problem.
     """
 
     patches: tuple[WheelRailPatch, ...]
@@ -173,7 +172,7 @@ class WheelRail(Element):
         As for :class:`contact.Problem`.
     contact_angle
         On rails that vary along the track: ``"contact"``, the angle of wheel and rail where they touch, or
-        ``"established"``, that of the rail's section below the axle, as the established program takes it.
+        ``"established"``, that of the rail section below the axle, as in the established program.
     """
 
     _module = 1
@@ -305,14 +304,14 @@ class WheelRail(Element):
         """Prescribe the longitudinal force on the rail in wheelset axes [F]; the pitch rate is computed.
 
         0: free rolling; positive: braking; negative: driving. ``wheelset_velocity[5]`` of the result is the rate;
-        that of ``set_velocity`` is not used. After ``set_flags(ic_force=0)`` the rate
-        computed last is the given one, until ``set_velocity`` sets another.
+        that of ``set_velocity`` is not used. After ``set_flags(ic_force=0)`` the last computed rate
+        is prescribed, until ``set_velocity`` sets another one.
         """
         self.set_flags(ic_force=1)
         self._do(cntc.settangentialforces, self.number, -1, fx, 0.0)
 
     def solve(self, initiation: bool = True) -> WheelRailResult:
-        """Search the contact patches and solve them.
+        """Find the contact patches and solve them.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
-"""Wear of a wheel over a distance, or of a rail by wheels, with its profile changing: contacts at many positions, depth per
-revolution or passage, a new profile.
+"""Wear of a wheel over a distance, or of a rail by passing wheels, with an evolving profile: contacts at many positions, wear depth
+per revolution or passage, new profile.
 
 Profiles are in the coordinates of Simpack files: y to the field side, with the flange and the gauge face at negative y, z
 downwards, in mm.
@@ -21,14 +21,15 @@ from .errors import ContactError
 
 Numbers = NDArray[np.float64]
 
-#: Depth that one revolution wears off each row of elements [mm], from pn, px, py [N/mm2], sx, sy [-], with x along the last axis,
-#: and dx [mm]; such as :func:`contact.wear.braghin_depth`
+#: Wear depth of one revolution in each row of elements [mm], from pn, px, py [N/mm2], sx, sy [-], with x along the last axis, and
+#: dx [mm]; such as :func:`contact.wear.braghin_depth`
 Law = Callable[[Numbers, Numbers, Numbers, Numbers, Numbers, float], Any]
 
-#: Of a step from 0 and the profile then, what the journey consists of: inputs by name, the part of the distance of each case
+#: Cases of a step of the journey, from the number of the step (0, 1, ...) and the current profile: inputs by name, and the fraction
+#: of the distance that each case represents
 Journey = Callable[[int, "Profile"], "tuple[Mapping[str, Any], ArrayLike]"]
 
-#: Element fields that wear is made of
+#: Element fields from which wear is computed
 _FIELDS = ("pn", "px", "py", "sx", "sy")
 
 
@@ -39,9 +40,9 @@ class Profile:
     Attributes
     ----------
     y, z
-        Points [mm], from the field side or from the flange or gauge face, one behind the other along the surface.
+        Points [mm], in their order along the surface, from the field side or from the flange or gauge face.
     is_rail
-        Of a rail, and not of a wheel?
+        Whether it is the profile of a rail.
     """
 
     y: Numbers
@@ -55,9 +56,9 @@ class Profile:
         Raises
         ------
         ContactError
-            When it is none.
+            If it is not such a file.
         OSError
-            When it cannot be read.
+            If it cannot be read.
         """
         path = Path(file)
         if path.suffix.lower() not in (".prw", ".prr"):
@@ -83,23 +84,23 @@ class Profile:
                               "  point.end\nspline.end\n", encoding="utf-8")
 
     def lengths(self) -> Numbers:
-        """Length along the surface up to each point, growing to the field side, 0 at the first one [mm]."""
+        """Arc length of each point, increasing to the field side, 0 at the first one [mm]."""
         steps = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(self.y), np.diff(self.z)))])
         return steps if self.y[-1] > self.y[0] else -steps
 
     def length_at(self, y: ArrayLike) -> Numbers:
-        """Length along the surface at lateral places of tread and flange face [mm]."""
+        """Arc length at lateral positions on tread and flange face [mm]."""
         face = self._face()
         order = np.argsort(self.y[face])
         return np.asarray(np.interp(np.asarray(y, dtype=float), self.y[face][order], self.lengths()[face][order]))
 
     def height_at(self, y: ArrayLike) -> Numbers:
-        """z at lateral places of tread and flange face [mm]: by which the radius exceeds that of the datum of the new wheel."""
+        """z at lateral positions on tread and flange face [mm]: radius minus that of the new wheel at the tread datum."""
         face = self._face()
         return np.asarray(np.interp(np.asarray(y, dtype=float), *_sorted(self.y[face], self.z[face])))
 
     def _face(self) -> NDArray[np.bool_]:
-        """Points from the tip of the flange to the field side, all points of a rail: y grows there along the surface"""
+        """Points from the tip of the flange to the field side, all points of a rail: y increases there along the surface"""
         if self.is_rail:
             return np.ones(len(self.y), dtype=bool)
         tip = int(np.argmax(self.z))
@@ -107,7 +108,7 @@ class Profile:
         return ahead if self.y[-1] > self.y[0] else ~ahead | (np.arange(len(self.y)) == tip)
 
     def worn(self, depth: Numbers) -> Profile:
-        """The profile with a depth [mm] taken off at each point, square to the surface."""
+        """The profile with a depth [mm] removed at each point, normal to the surface."""
         along = np.gradient(np.column_stack([self.y, self.z]), self.lengths(), axis=0)
         along /= np.hypot(along[:, 0], along[:, 1])[:, None]
         # outwards is downwards on the tread of a wheel, upwards on a rail
@@ -115,7 +116,7 @@ class Profile:
         return Profile(self.y + inwards * along[:, 1] * depth, self.z - inwards * along[:, 0] * depth, self.is_rail)
 
     def meshed(self, spacing: float) -> Profile:
-        """The profile with points at equal distances along its surface, on a cubic spline through the old ones."""
+        """The profile with points at equal distances along its surface, on a cubic spline through the current ones."""
         from scipy.interpolate import CubicSpline
         at = np.abs(self.lengths())
         places = np.linspace(0.0, at[-1], max(4, round(at[-1] / spacing) + 1))
@@ -133,7 +134,7 @@ class Profile:
 
 
 def _sorted(x: Numbers, y: Numbers) -> tuple[Numbers, Numbers]:
-    """Both, by the first one"""
+    """Both coordinates, ordered by the first one"""
     order = np.argsort(x)
     return x[order], y[order]
 
@@ -145,14 +146,14 @@ class State:
     Attributes
     ----------
     distance
-        In km; of a rail millions of wheels.
+        Distance [km]; of a rail the number of wheels in millions.
     profile
-        The worn one.
+        The worn profile.
     depth
-        What was worn off since the beginning, at the points of the profile [mm].
+        Wear depth since the beginning, at the points of the profile [mm].
     rate
-        What is worn off now, at the points of the profile [mm/km], [mm] by a million of wheels; of the last state that of
-        the step before.
+        Current rate of wear at the points of the profile [mm/km], of a rail [mm] per million wheels; in the last state that of
+        the previous step.
     area
         Worn area of the section [mm2].
     """
@@ -165,14 +166,14 @@ class State:
 
 
 def smoothed(values: Numbers, spacing: float, width: float) -> Numbers:
-    """Values at equal distances, averaged with weights of Gauss; their sum stays the same.
+    """Values at equal distances, averaged with Gaussian weights, which preserve the sum.
 
     Parameters
     ----------
     values
         At points `spacing` apart [mm]; continued by zeros.
     spacing
-        In mm.
+        Distance of the points [mm].
     width
         Standard deviation of the weights [mm]; 0 for none.
     """
@@ -182,7 +183,7 @@ def smoothed(values: Numbers, spacing: float, width: float) -> Numbers:
     weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) * spacing / width)**2)
     weights /= weights.sum()
     whole = np.convolve(values, weights)
-    # what would leave the ends stays at them
+    # contributions beyond an end are added to its last point
     kept = whole[reach:len(whole) - reach].copy()
     kept[0] += whole[:reach].sum()
     kept[-1] += whole[len(whole) - reach:].sum()
@@ -190,7 +191,7 @@ def smoothed(values: Numbers, spacing: float, width: float) -> Numbers:
 
 
 def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: ArrayLike) -> Numbers:
-    """Mean depth that a revolution wears off a wheel, or the passage of a wheel off a rail.
+    """Mean wear depth of a revolution of a wheel, or on a rail of the passage of a wheel.
 
     Parameters
     ----------
@@ -199,14 +200,14 @@ def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: Arra
     law
         Depth of a patch from its fields.
     profile
-        Of the wheel or the rail that the study had.
+        Profile of the wheel or rail in the study.
     weights
-        Part of the distance that each case stands for, one for each case; their sum is 1.
+        Fraction of the distance that each case represents; their sum is 1.
 
     Returns
     -------
-    Depth at each point of the profile [mm]. Each row of elements gives its depth to the points of its width; what is worn off in
-    all, depth times width, is that of the rows.
+    Depth at each point of the profile [mm]. The depth of each row of elements is distributed to the points within its
+    width, which preserves the total worn area, depth times width.
     """
     places = np.abs(profile.lengths())
     middles = 0.5 * (places[1:] + places[:-1])
@@ -237,34 +238,35 @@ def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: Arra
 def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, law: Law, *, folder: str | os.PathLike[str],
                   base_folder: str | os.PathLike[str], largest_step: float = 0.05, spacing: float = 0.25, width: float = 2.5,
                   workers: int | None = None, stop: Callable[[], bool] = lambda: False) -> Iterator[State]:
-    """A wheel that wears.
+    """Wear of a wheel over a distance, step by step.
 
     Parameters
     ----------
     base
-        A case of wheel and rail, a right wheel, in the words of the readable format.
+        A case of wheel and rail, a right wheel, as a dictionary of the readable format.
     journey
-        Gives the cases of a step: inputs such as ``"position.y_ws"`` and ``"velocity.vpitch"``, a list for each, and weights.
-        Positions that differ from step to step leave no traces of their own; a wheel that rolls freely turns faster when worn.
+        Returns the cases of a step: inputs such as ``"position.y_ws"`` and ``"velocity.vpitch"``, a list for each, and weights.
+        Use positions that differ from step to step, so that they leave no traces; the pitch rate of a freely rolling wheel
+        increases with wear.
     distance
-        Of the journey [km].
+        Length of the journey [km].
     law
         Depth of a patch from its fields.
     folder
-        For worn profiles and what was computed: the same journey goes on there after it was ended.
+        Folder of worn profiles and computed cases, from which an interrupted journey is resumed.
     base_folder
-        To which names of files of the base are relative.
+        Folder of relative file names of the base.
     largest_step
-        Depth after which contacts are computed anew [mm].
+        Increase of the wear depth after which contacts are recomputed [mm].
     spacing
         Distance of points of the profile [mm].
     width
-        Standard deviation of the average over the depth [mm]: positions of a journey are no list, and hollows between two of
-        them would grow.
+        Standard deviation of the weights with which the depth is averaged [mm]: the real positions of a journey are continuous,
+        and hollows between two computed ones would grow.
     workers
         As for :meth:`contact.Study.run`.
     stop
-        Asked between steps: shall the journey end?
+        Called between steps; True ends the journey.
 
     Yields
     ------
@@ -273,7 +275,7 @@ def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, la
     Raises
     ------
     ContactError
-        If a contact of the journey has no result, or the law gives a depth that is negative or no number.
+        If a contact of the journey has no result, or the law returns a negative depth or NaN.
     """
     radius = float(base["wheel_dimensions"]["nomradw"])
     yield from _wear(base, "wheel_profile", 1e6 / (2.0 * math.pi * radius), "km", journey, distance, law, Path(folder),
@@ -283,19 +285,19 @@ def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, la
 def wear_of_rail(base: Mapping[str, Any], journey: Journey, wheels: float, law: Law, *, folder: str | os.PathLike[str],
                  base_folder: str | os.PathLike[str], largest_step: float = 0.05, spacing: float = 0.25, width: float = 2.5,
                  workers: int | None = None, stop: Callable[[], bool] = lambda: False) -> Iterator[State]:
-    """A rail that wheels wear.
+    """Wear of a rail by passing wheels, step by step.
 
     Parameters
     ----------
     base
-        A case of wheel and rail, a right wheel, in the words of the readable format. Where ``gaught`` is positive the rail is
-        placed by its gauge point, the worn one too.
+        A case of wheel and rail, a right wheel, as a dictionary of the readable format. If ``gaught`` is positive the rail is
+        placed by its gauge point, also when it is worn.
     journey
-        Gives the wheels that pass in a step, as for :func:`wear_of_wheel`; weights are their parts.
+        Returns the wheels that pass in a step, as for :func:`wear_of_wheel`; the weights are their fractions.
     wheels
-        How many pass, in millions.
+        Number of wheels that pass, in millions.
     law
-        Depth that a passage wears off the rail.
+        Wear depth of a passage.
     folder, base_folder, largest_step, spacing, width, workers, stop
         As for :func:`wear_of_wheel`.
 
@@ -315,7 +317,7 @@ def wear_of_rail(base: Mapping[str, Any], journey: Journey, wheels: float, law: 
 def _wear(base: Mapping[str, Any], group: str, factor: float, unit: str, journey: Journey, distance: float, law: Law,
           folder: Path, base_folder: str | os.PathLike[str], largest_step: float, spacing: float, width: float,
           workers: int | None, stop: Callable[[], bool]) -> Iterator[State]:
-    """Steps of a wheel or a rail, the file of whose profile is in a group; the factor is passages in a unit of distance"""
+    """Steps of a wheel or a rail; group names the group with its profile, factor is the number of passages per unit of distance"""
     from .study import Study, table
     home = folder.resolve()
     home.mkdir(parents=True, exist_ok=True)
@@ -351,7 +353,7 @@ def _wear(base: Mapping[str, Any], group: str, factor: float, unit: str, journey
         area += float((rate * widths).sum() * step)
         worn = profile.worn(rate * step)
         profile = worn.meshed(spacing)
-        # depths go along with the points; both lengths differ by what chords miss
+        # depths are moved with the points; both arc lengths differ slightly, because chords are shorter than the curve
         new, old = np.abs(profile.lengths()), np.abs(worn.lengths())
         depth = np.interp(new, old * (new[-1] / old[-1]), depth + rate * step)
         number += 1

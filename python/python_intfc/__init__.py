@@ -1,4 +1,4 @@
-"""The names under which scripts for the published library import its routines; see contact.cntc."""
+"""Routines of the library under the module name of the published library; see contact.cntc."""
 from typing import Any
 
 import contact.cntc
@@ -6,5 +6,5 @@ from contact.cntc import *  # noqa: F403
 
 
 def __getattr__(name: str) -> Any:
-    """The library itself, and names with cntc_"""
+    """The ctypes library, and names with cntc_"""
     return getattr(contact.cntc, name)

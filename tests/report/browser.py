@@ -1,6 +1,6 @@
-"""A headless browser for the tests of the page: skipped (exit status 77) without h5py, Playwright for Python or Debian's chromium.
+"""A headless browser for the tests of the page: skipped (exit status 77) without h5py, Playwright for Python or chromium.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE. axe-core is what tests/support/setup.sh installs below build/axe.
+Environment: CONTACT_PROGRAM, CONTACT_SOURCE. tests/support/setup.sh installs axe-core below build/axe.
 """
 import os
 import re
@@ -27,17 +27,17 @@ sys.path.insert(0, os.path.join(SOURCE, "python"))
 from contact.report import write_page
 
 AXE = os.path.join(SOURCE, "build", "axe", "node_modules", "axe-core", "axe.min.js")
-# [ms]; how long a step takes on a busy machine says nothing of the page
+# [ms]; long, as steps are slow on a busy machine
 PATIENCE = 200_000
 SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
-# Number of different colours on a canvas: a canvas that was not drawn has one
+# Number of different colours on a canvas; an empty canvas has one
 COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d')
   .getImageData(0, 0, c.width, c.height).data;
 const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]);
 return seen.size; }"""
 DESKTOP, PHONE = {"width": 1400, "height": 1300}, {"width": 390, "height": 844}
 
-# Cases of 2 kN that differ in their creepage
+# Cases of 2 kN with different creepages
 MANY = """3
 203100
 022020
@@ -69,7 +69,7 @@ def many_cases(path, count, elements):
 
 
 class Page(unittest.TestCase):
-    """A test case with a browser, a folder for results, and pages that tell what goes wrong in them"""
+    """A test case with a browser, a folder for results, and pages whose errors are recorded"""
 
     @classmethod
     def setUpClass(cls):
@@ -78,7 +78,7 @@ class Page(unittest.TestCase):
         cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"],
                                                      timeout=PATIENCE)
         cls.made = {}
-        # a page that one test leaves to the next: a new one starts processes, which takes twice the time of its contents
+        # pages are reused by the next test: the processes of a new one take twice the time of its contents
         cls.idle = None
 
     @classmethod
@@ -88,7 +88,7 @@ class Page(unittest.TestCase):
         cls.scratch.cleanup()
 
     def results_of(self, name, path=None):
-        """The .h5 file of an example, or of an input; made once"""
+        """The .h5 file of an example, or of an input; computed once"""
         if name not in self.made:
             subprocess.run([PROGRAM, "--quiet", "--hdf5", "--output-dir", self.scratch.name, "2",
                             path or os.path.join(EXAMPLES, name)], check=True, stdin=subprocess.DEVNULL, timeout=300)
@@ -107,7 +107,7 @@ class Page(unittest.TestCase):
         return page
 
     def take_page(self):
-        """The idle page, or a new one, for this test alone: empty, of desktop size, with nothing pressed"""
+        """An empty page of desktop size, without pressed keys: an idle one or a new one"""
         page = type(self).idle or self.browser.new_page(viewport=DESKTOP)
         type(self).idle = None
         page.set_default_timeout(PATIENCE)
@@ -115,7 +115,7 @@ class Page(unittest.TestCase):
         return page
 
     def leave_page(self, page):
-        """Make a page empty for the next test"""
+        """Reset a page for the next test"""
         if type(self).idle:
             page.close()
             return
@@ -129,14 +129,14 @@ class Page(unittest.TestCase):
         type(self).idle = page
 
     def open(self, address, index=0, **options):
-        """A page of results that has settled; self.troubles collects errors and requests to a network"""
+        """A fully loaded page of results; self.troubles collects errors and network requests"""
         page = self.new_page(**{"viewport": DESKTOP, **options}) if options else self.take_page()
         self.processor = page.context.new_cdp_session(page)
         self.addCleanup(self.processor.detach)
         self.processor.send("Performance.enable", {"timeDomain": "threadTicks"})
         troubles = self.troubles = []
 
-        # reading the colours of a canvas again and again is what these tests do, not the page
+        # the repeated reading of canvas colours is by these tests, not by the page
         def listen(message):
             if message.type in ("error", "warning") and "willReadFrequently" not in message.text:
                 troubles.append(message.text)
@@ -156,18 +156,18 @@ class Page(unittest.TestCase):
         return page
 
     def processor_time(self):
-        """What the last opened page has taken so far [s]"""
-        told = self.processor.send("Performance.getMetrics")["metrics"]
-        return next(item["value"] for item in told if item["name"] == "TaskDuration")
+        """Processor time of the last opened page so far [s]"""
+        metrics = self.processor.send("Performance.getMetrics")["metrics"]
+        return next(item["value"] for item in metrics if item["name"] == "TaskDuration")
 
     def assert_accessible(self, page):
-        """axe-core finds nothing; not judged where it is not installed"""
+        """axe-core reports no violation; skipped if it is not installed"""
         if not os.path.isfile(AXE):
-            print("axe-core is missing; what it finds is not judged")
+            print("axe-core is missing; accessibility is not tested")
             return
         with open(AXE, encoding="utf-8") as file:
             page.evaluate(file.read() + ";0")
-        # the rules that are kept are not listed element by element, which takes a third of the time
+        # passed rules are not listed element by element, which would take a third of the time
         found = page.evaluate("async () => (await axe.run({ resultTypes: ['violations'] })).violations")
         self.assertEqual([(one["id"], node["html"][:200], re.sub(r"\s+", " ", node["failureSummary"])) for one in found
                           for node in one["nodes"]], [])

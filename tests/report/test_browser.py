@@ -20,13 +20,13 @@ class Browser(Page):
         self.assertTrue(page.is_visible("#card-pt"))
         self.assertGreater(page.evaluate(COLOURS, "map-pt"), 20)
         self.assertIn("NormCG", page.inner_text("#solution"))
-        # the middle of the contact sticks, and its pressure is the largest
+        # the middle of the contact is in adhesion and has the largest pressure
         box = page.locator("#map-pn").bounding_box()
         page.mouse.move(box["x"] + 58 + (box["width"] - 142) / 2, box["y"] + 12 + (box["height"] - 52) / 2)
         page.wait_for_function("() => document.getElementById('readout').innerText.includes('adhesion')")
-        told = page.inner_text("#readout").replace("\n", " ")
+        readout = page.inner_text("#readout").replace("\n", " ")
         largest = page.evaluate("Math.max(...contactReport.state.fields.pn)")
-        self.assertRegex(told, r"pn\s*%.2f" % largest)
+        self.assertRegex(readout, r"pn\s*%.2f" % largest)
         # zoom and pan change the view, a double click shows all again
         before = page.evaluate("contactReport.state.view")
         page.keyboard.down("Control")
@@ -73,7 +73,7 @@ class Browser(Page):
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
         block = page.evaluate("contactReport.state.block")
         self.assertEqual((block["name"], block["plane"]), ("sigvm", "y"))
-        # what the pointer tells is the value of the file in the nearest point
+        # the value at the pointer is that of the nearest point in the file
         with h5py.File(os.path.join(self.scratch.name, "subsurface.h5")) as file:
             values = file["case_0002/patch_1/subsurface/block_1/sigvm"][...]
             points = {axis: file["case_0002/patch_1/subsurface/block_1/points/" + axis][...] for axis in "xyz"}
@@ -82,9 +82,9 @@ class Browser(Page):
                            [float(points["x"][10]), float(points["z"][1])])
         page.hover("#map-block", position=at)
         page.wait_for_function("() => document.getElementById('readout').innerText.includes('von Mises')")
-        told = page.inner_text("#readout").replace("\n", " ")
-        self.assertRegex(told, "von Mises stress ?%s" % float("%.5g" % values[1, place, 10]))
-        # another plane, its place, another stress
+        readout = page.inner_text("#readout").replace("\n", " ")
+        self.assertRegex(readout, "von Mises stress ?%s" % float("%.5g" % values[1, place, 10]))
+        # another plane, its position, another stress
         page.select_option("#plane", "z")
         page.fill("#depth", "2")
         page.select_option("#stress", "sigzz")
@@ -92,7 +92,7 @@ class Browser(Page):
             "() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; }"
         )
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
-        # a line of points, and a case whose patch has none
+        # a line of points, and a case without points
         page.select_option("#block", "1")
         page.wait_for_function("() => contactReport.state.block.x.length === 1")
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 10)

@@ -1,4 +1,4 @@
-"""Damaged HDF5 files in the reader of the page: one sentence or the right numbers, never a traceback, wrong numbers or no end.
+"""Damaged HDF5 files: the reader of the page gives an error in one sentence or correct numbers; no traceback, no endless loop.
 
 usage: test_damaged.py [COUNT [SEED]]
 """
@@ -28,20 +28,20 @@ PATIENCE = 20
 
 
 def places_of_indices(data):
-    """Bytes of the trees that tell where the pieces of an array are, the only ones without a checksum in HDF5 1.8"""
+    """Bytes of the chunk index of arrays, the only ones without a checksum in HDF5 1.8"""
     found = []
     at = data.find(b"TREE")
     while at >= 0:
         if data[at + 4] == 1 and data[at + 5] == 0:
             entries = int.from_bytes(data[at + 6:at + 8], "little")
-            # length, mask of the filters, offsets in one or two directions and 0, place; the two directions are taken here
+            # length, mask of the filters, offsets in one or two directions and 0, address; two directions are assumed here
             found += list(range(at + 24, min(len(data), at + 24 + 32*max(1, min(entries, 16)))))
         at = data.find(b"TREE", at + 4)
     return found
 
 
 def damaged(data, chance, indices):
-    """One of five kinds of damage: a bit, a byte, a cut, a stretch of nonsense, a bit of an index"""
+    """One of five kinds of damage: a bit, a byte, truncation, a range of random bytes, a bit of an index"""
     kind = chance.randrange(5)
     changed = bytearray(data)
     at = chance.choice(indices) if kind == 4 else chance.randrange(len(changed))
@@ -58,7 +58,7 @@ def damaged(data, chance, indices):
 
 
 def read(path):
-    """What the reader makes of a file, in words"""
+    """The outcome of reading a file, in words"""
     try:
         found = read_experiment(path)
     except MissingResults as reason:
@@ -68,7 +68,7 @@ def read(path):
 
 
 def in_a_child(path):
-    """The same by a process of its own: HDF5 itself may fail, take all memory or no end"""
+    """The same in a separate process: HDF5 itself may crash, exhaust the memory or not terminate"""
     back, there = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The server's folders, inputs, new experiments from a form, and runs that outlive the page that began them.
+"""The server's folders, inputs, new experiments from a form, and runs that continue after their page is closed.
 
-Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+Skipped (exit status 77) without h5py. Environment: CONTACT_PROGRAM, CONTACT_SOURCE.
 """
 import http.client
 import json
@@ -64,8 +64,8 @@ class Folders(unittest.TestCase):
         return json.loads(self.ask("GET", "/files", folder=folder)[1])
 
     def events(self):
-        told = self.ask("GET", "/messages")[1]
-        return [(kind, json.loads(data)) for kind, data in re.findall(r"event: (\w+)\ndata: (.*)\n", told)]
+        stream = self.ask("GET", "/messages")[1]
+        return [(kind, json.loads(data)) for kind, data in re.findall(r"event: (\w+)\ndata: (.*)\n", stream)]
 
     def job(self):
         return json.loads(self.ask("GET", "/job")[1])
@@ -115,10 +115,10 @@ class Folders(unittest.TestCase):
         self.assertEqual((state["name"], state["mode"], state["done"], state["planned"]), ("long", "run", False, 171))
         self.assertEqual(self.ask("POST", "/stop")[0], 200)
         self.assertTrue(self.job()["stopping"] or self.job()["done"])
-        told = self.events()
-        self.assertEqual(told[-1][0], "end")
-        self.assertGreater(told[-1][1], 128)
-        self.assertIn(("progress", {"begun": self.job()["begun"], "planned": 171}), told)
+        events = self.events()
+        self.assertEqual(events[-1][0], "end")
+        self.assertGreater(events[-1][1], 128)
+        self.assertIn(("progress", {"begun": self.job()["begun"], "planned": 171}), events)
         run = next(file for file in self.listed()["files"] if file["name"] == "long")["run"]
         self.assertEqual((run["complete"], run["cases_planned"]), (0, 171))
         self.assertLess(run["cases_finished"], 171)
@@ -141,12 +141,12 @@ class Folders(unittest.TestCase):
             totals = {}
             for form in ("inp", "toml"):
                 name = kind + form
-                status, told = self.form(kind, name=name, format=form, vary=vary, to=to, count=3)
-                self.assertEqual(status, 200, told)
-                self.assertEqual(json.loads(told)["name"], name)
+                status, answer = self.form(kind, name=name, format=form, vary=vary, to=to, count=3)
+                self.assertEqual(status, 200, answer)
+                self.assertEqual(json.loads(answer)["name"], name)
                 self.assertEqual([os.path.isfile(os.path.join(self.folder, name + "." + f)) for f in ("inp", "toml")],
                                  [f == form for f in ("inp", "toml")])
-                # the readable format has the second order of steady rolling, the other one where it is asked for
+                # the second order of steady rolling is the default of the readable format, and an option of the other one
                 order = ["--order", "2"] if form == "inp" else []
                 run = subprocess.run([PROGRAM, "--json=-", *order, "2", os.path.join(self.folder, name)], capture_output=True,
                                      text=True, stdin=subprocess.DEVNULL, timeout=120)
@@ -154,7 +154,7 @@ class Folders(unittest.TestCase):
                 self.assertEqual([case["status"] for case in cases], ["solved"]*3)
                 totals[form] = [case["patches"][0]["totals"] for case in cases]
             self.assertEqual(totals["inp"], totals["toml"])
-            if kind == "hertz":   # given values arrive, in equal steps; pressure is that of Hertz
+            if kind == "hertz":   # values are passed correctly, in equal steps; pressure is that of Hertz
                 self.assertEqual([round(t["cksi"]["value"], 9) for t in totals["inp"]], [-0.001, -0.002, -0.003])
                 self.assertAlmostEqual(totals["inp"][0]["fn"]["value"], 10000.0, delta=0.01)
             else:
@@ -171,14 +171,14 @@ class Folders(unittest.TestCase):
                    dict(values={"fn": True}), dict(values={"fn": 1e300}), dict(values={"motion": "other"}), dict(values={"rx":
                    -1.0}), dict(values={"gg": -1.0}), dict(values={"mx": 0})]
         for changes in refused:
-            status, told = self.form("hertz", **changes)
-            self.assertEqual(status, 422, (changes, told))
+            status, answer = self.form("hertz", **changes)
+            self.assertEqual(status, 422, (changes, answer))
         for profile in ("../outside/secret.inp", "profiles/../profiles/60E1.prr", "/etc/passwd", "cattaneo.inp"):
             self.assertEqual(self.form("wheel", values={"rail": profile})[0], 422, profile)
         for body in ("", "[]", "{}", "{", '{"values": {}}', "\0"):
             self.assertEqual(self.ask("POST", "/new", body)[0], 422, body)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
-        # bounds are those of the program, in its words
+        # bounds are checked by the program, with its messages
         self.assertRegex(self.form("hertz", values={"poiss": 0.7})[1], "(?i)poiss")
         self.assertEqual(os.listdir(self.outside), ["secret.inp"])
         os.symlink(os.path.join(self.outside, "made.toml"), os.path.join(self.folder, "new.toml"))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""contact report: pages from results, the launcher, and a server that does nothing for strangers.
+"""contact report: pages from results, the launcher, and a server that refuses foreign requests.
 
-Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+Skipped (exit status 77) without h5py. Environment: CONTACT_PROGRAM, CONTACT_SOURCE.
 """
 import contextlib
 import http.client
@@ -58,7 +58,7 @@ class Pages(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout.strip()), (0, "cattaneo.html"), run.stderr)
         with open(os.path.join(self.folder, "cattaneo.html"), encoding="utf-8") as file:
             page = file.read()
-        # the name of the format SVG looks like an address, and is none
+        # the name of the SVG namespace looks like an address
         page = page.replace("http://www.w3.org/2000/svg", "")
         found = re.search(r"""(src|href)\s*=|https?://|@[A-Z]+@|\bfetch\(""", page)
         self.assertIsNone(found, found and page[found.start() - 80:found.end() + 80])
@@ -177,10 +177,10 @@ class Serving(unittest.TestCase):
     def test_run_with_messages_and_result(self):
         self.assertEqual(self.ask("GET", "/result?name=cattaneo")[0], 404)
         self.assertEqual(self.ask("POST", "/run?name=cattaneo")[0], 200)
-        told = self.messages()
-        self.assertEqual(told[-1], ("end", 0))
-        self.assertTrue(any("Case" in str(text) for kind, text in told if kind == "line"))
-        self.assertEqual(told, self.messages())
+        messages = self.messages()
+        self.assertEqual(messages[-1], ("end", 0))
+        self.assertTrue(any("Case" in str(text) for kind, text in messages if kind == "line"))
+        self.assertEqual(messages, self.messages())
         state = json.loads(self.ask("GET", "/job")[1])
         self.assertEqual((state["name"], state["mode"], state["done"], state["status"], state["begun"]),
                          ("cattaneo", "run", True, 0, 2))
@@ -191,9 +191,9 @@ class Serving(unittest.TestCase):
 
     def test_check_tells_errors_and_names_are_no_options(self):
         self.assertEqual(self.ask("POST", "/check?name=wrong")[0], 200)
-        told = self.messages()
-        self.assertEqual(told[-1], ("end", 1))
-        self.assertTrue(any("wrong.inp:2" in str(text) for _, text in told))
+        messages = self.messages()
+        self.assertEqual(messages[-1], ("end", 1))
+        self.assertTrue(any("wrong.inp:2" in str(text) for _, text in messages))
         self.assertEqual(self.ask("POST", "/check?name=--version")[0], 200)
         self.assertTrue(any("checked" in str(text) for _, text in self.messages()))
 
@@ -224,9 +224,9 @@ class Serving(unittest.TestCase):
             file.write(text.replace("profiles/", "../outside/profiles/"))
         for name, status in (("inside", 0), ("away", 1)):
             self.assertEqual(self.ask("POST", "/check?name=" + name)[0], 200)
-            told = self.messages()
-            self.assertEqual(told[-1], ("end", status), told)
-        self.assertTrue(any("not below the folder" in str(text) for _, text in told))
+            messages = self.messages()
+            self.assertEqual(messages[-1], ("end", status), messages)
+        self.assertTrue(any("not below the folder" in str(text) for _, text in messages))
         os.symlink(os.path.join(self.folder, "other.txt"), os.path.join(self.folder, "cattaneo.h5"))
         self.assertEqual(self.ask("GET", "/result?name=cattaneo")[0], 404)
 
@@ -238,7 +238,7 @@ class Serving(unittest.TestCase):
             start = time.monotonic()
             connection.settimeout(0.1)
             with contextlib.suppress(ConnectionError):
-                while time.monotonic() - start < 5:   # drops, which end with the time of the whole request
+                while time.monotonic() - start < 5:   # single bytes, sent until the time limit of the request
                     connection.sendall(b"G")
                     with contextlib.suppress(TimeoutError):
                         if not connection.recv(1):
@@ -247,7 +247,7 @@ class Serving(unittest.TestCase):
 
 
 class Hostile(unittest.TestCase):
-    """The server as a process of its own, under requests that nobody's browser sends"""
+    """The server as a separate process, with requests that no browser sends"""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -257,8 +257,8 @@ class Hostile(unittest.TestCase):
         self.server = subprocess.Popen([PROGRAM, "report", "--serve", self.folder, "--port", "0"], stdin=subprocess.DEVNULL,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.environment())
         self.addCleanup(self.end)
-        told = self.server.stdout.readline()
-        self.port = int(re.search(r":(\d+)/", told)[1])
+        line = self.server.stdout.readline()
+        self.port = int(re.search(r":(\d+)/", line)[1])
         self.own = b"Host: 127.0.0.1:%d\r\n" % self.port
 
     @staticmethod
@@ -271,12 +271,12 @@ class Hostile(unittest.TestCase):
         self.server.communicate()
 
     def send(self, data, seconds=5.0, shut=False):
-        """The answer to some bytes, b"" for none"""
+        """The answer to some bytes, b"" without an answer"""
         with socket.create_connection(("127.0.0.1", self.port), timeout=seconds) as connection:
             try:
                 connection.sendall(data)
                 if shut:
-                    with contextlib.suppress(OSError):   # the server has ended the connection by now
+                    with contextlib.suppress(OSError):   # the server has closed the connection
                         connection.shutdown(socket.SHUT_WR)
                 answer = b""
                 while len(answer) < 1000000:
@@ -289,22 +289,22 @@ class Hostile(unittest.TestCase):
             except ConnectionError:
                 return b""
             except TimeoutError:
-                self.fail("no answer and no end of the connection after %r" % data[:80])
+                self.fail("no answer, and the connection is not closed after %r" % data[:80])
         return answer
 
     def good(self):
         start, answer = time.monotonic(), b""
-        while not answer and time.monotonic() - start < 5:   # connections that ended are counted for a moment
+        while not answer and time.monotonic() - start < 5:   # closed connections are still counted for a short time
             answer = self.send(b"GET /files HTTP/1.1\r\n" + self.own + b"Connection: close\r\n\r\n")
         self.assertTrue(answer.startswith(b"HTTP/1.1 200"), answer[:100])
 
     def ended_well(self):
         self.good()
         self.server.terminate()
-        _, told = self.server.communicate(timeout=10)
+        _, errors = self.server.communicate(timeout=10)
         self.assertEqual(self.server.returncode, 0)
-        self.assertNotIn("Traceback", told)
-        self.assertEqual(told, "")
+        self.assertNotIn("Traceback", errors)
+        self.assertEqual(errors, "")
 
     def test_hostile_requests(self):
         own = self.own

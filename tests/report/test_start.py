@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The start page of the server in a real browser: a run that outlives the page, folders, inputs, a form; desktop and phone."""
+"""The start page of the server in a real browser: a run that continues after the page is closed, folders, inputs, a form;
+desktop and phone."""
 import os
 import shutil
 import threading
@@ -8,7 +9,7 @@ import unittest
 from browser import COLOURS, DESKTOP, EXAMPLES, PATIENCE, PHONE, SETTLED, Page, many_cases
 from contact.report.server import Server
 
-# Number of cases of the run that does not end by itself
+# Number of cases of the long run
 LONG = 4000
 STATE = "text => document.getElementById('state').textContent.includes(text)"
 
@@ -19,7 +20,7 @@ class Start(Page):
         shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "study", "profiles"))
         shutil.copy(os.path.join(EXAMPLES, "cattaneo.inp"), self.folder)
         shutil.copy(os.path.join(EXAMPLES, "cattaneo.toml"), os.path.join(self.folder, "study"))
-        # minutes on a fast machine, of which the test takes some seconds
+        # takes minutes on a fast machine; the test stops it after some seconds
         many_cases(os.path.join(self.folder, "long.inp"), LONG, 300)
         server = Server(self.folder, 0)
         threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -73,7 +74,7 @@ class Start(Page):
         page.wait_for_selector("tr[data-name=long] .warn")
         self.assertRegex(page.inner_text("tr[data-name=long] .warn"), r"not complete: \d+ of %d cases" % LONG)
         self.assertTrue(page.is_disabled("#stop"))
-        # of a run that has ended the messages stay, too
+        # the messages of a finished run remain, too
         page.reload()
         page.wait_for_function(STATE, arg="stopped")
         self.assertIn("Case     1", page.inner_text("#messages"))
@@ -117,7 +118,7 @@ class Start(Page):
         self.no_troubles()
 
     def test_by_keyboard_alone(self):
-        """The focus stays where it was when the list is drawn anew, and goes to what a button opens"""
+        """The focus is kept when the list is rebuilt, and moves to the part that a button opens"""
         page = self.start(viewport=DESKTOP)
         focus = "() => document.activeElement.getAttribute('aria-label') || document.activeElement.id"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page in everybody's hands: address, colours, zoom, touch, keys, axe-core, files, paper, groups, play, sections, the rail."""
+"""Use of the page: links, colours, zoom, touch, keys, accessibility, export, printing, groups, play, sections, view of the rail."""
 import base64
 import csv
 import math
@@ -15,7 +15,7 @@ import numpy as np
 from browser import COLOURS, PHONE, PROGRAM, SETTLED, SOURCE, Page, many_cases
 
 INDEX = "contactReport.state.index"
-# A finger that is lifted leaves the page scrolling for a while
+# The page continues to scroll for a while after a touch ends
 STILL = """() => new Promise(done => { let last = -1, times = 0;
   const look = () => { times = scrollY === last ? times + 1 : 0; last = scrollY;
     if (times > 20) done(); else requestAnimationFrame(look); };
@@ -63,7 +63,7 @@ class Viewer(Page):
         own = self.fields("wheel_on_rail", 1)[0]["pn"].max()
         self.step(page, 0)
         self.assertAlmostEqual(page.evaluate(scale, 0)[1], own, delta=1e-5 * own)
-        # limits by hand hold in all cases, until they are taken back; nonsense is marked and changes nothing
+        # user limits apply to all cases until they are reset; invalid input is marked and ignored
         page.click("button[aria-label='Pressure: tools']")
         page.fill("input[aria-label='colours of Pressure from']", "100")
         page.fill("input[aria-label='colours of Pressure to']", "900")
@@ -97,7 +97,7 @@ class Viewer(Page):
                                    arg=[before[1] - before[0], least, most])
             self.assertGreater(page.evaluate(COLOURS, "map-pn"), 1)
         page.keyboard.up("Control")
-        # dragged as far as one likes, something stays in view
+        # dragged far out of the range, a part stays in view
         for _ in range(6):
             page.mouse.move(*middle)
             page.mouse.down()
@@ -161,9 +161,9 @@ class Viewer(Page):
         page.focus("#map-pn")
         page.keyboard.press("ArrowRight")
         page.wait_for_function("() => document.getElementById('said').textContent.includes('element')")
-        told = page.inner_text("#said")
-        ix, iy = (int(n) - 1 for n in re.search(r"element\s+(\d+), (\d+)", told).groups())
-        self.assertRegex(told, r"pn\s+%s" % re.escape("%.4g" % fields["pn"][iy, ix]))
+        text = page.inner_text("#said")
+        ix, iy = (int(n) - 1 for n in re.search(r"element\s+(\d+), (\d+)", text).groups())
+        self.assertRegex(text, r"pn\s+%s" % re.escape("%.4g" % fields["pn"][iy, ix]))
         page.keyboard.press("ArrowDown")
         page.wait_for_function("n => document.getElementById('said').textContent.includes(n)", arg="element %d, %d" % (ix + 1, iy))
         before, shown = page.evaluate(WIDTH), page.evaluate("contactReport.maps[0].shown")
@@ -174,15 +174,15 @@ class Viewer(Page):
         page.wait_for_function("w => Math.abs((%s) - w) < 1e-9" % WIDTH, arg=before)
         page.keyboard.press("Enter")
         page.wait_for_function("r => contactReport.state.row === r", arg=iy - 1)
-        self.assertEqual(page.evaluate(INDEX), 0)   # arrows on a picture do not change the case
-        # the table: one stop of the Tab key, arrows go on
+        self.assertEqual(page.evaluate(INDEX), 0)   # arrow keys on a plot do not change the case
+        # the table: one stop of the Tab key, arrow keys move inside
         self.assertEqual(page.evaluate("[...document.querySelectorAll('#cases button')].filter(b => b.tabIndex === 0).length"), 1)
         page.focus("#cases button[tabindex='0']")
         page.keyboard.press("ArrowDown")
         page.wait_for_function(SETTLED, arg=1)
         self.assertEqual(page.evaluate("document.activeElement.closest('tr').getAttribute('aria-current')"), "true")
         self.assertIn("case 2", page.get_attribute("#slider", "aria-valuetext"))
-        # turning the rail, and points of the curve
+        # rotating the rail, and points of the curve
         page.focus("#plot-scene")
         turn = page.evaluate("contactReport.plots.scene.turn[0]")
         page.keyboard.press("ArrowRight")
@@ -253,7 +253,7 @@ class Viewer(Page):
         rows = {row[1]: row for row in self.table(page, "Totals as CSV")}
         self.assertAlmostEqual(float(rows["t_gamma"][3]), -1000 * totals["friction_power"] / grid["veloc"], places=6)
         self.assertAlmostEqual(float(rows["y_over_q"][3]), float(rows["fy_tr"][3]) / float(rows["fz_tr"][3]), places=9)
-        # drawing into a file leaves the page as it was
+        # exporting a plot does not change the page
         self.assertGreater(page.evaluate(COLOURS, "plot-scene"), 30)
         self.assertEqual(self.troubles, [])
 
@@ -281,9 +281,9 @@ class Viewer(Page):
     def test_on_paper(self):
         page = self.open(self.page_of("wheel_on_rail"))
         page.emulate_media(media="print")
-        told = page.evaluate("""() => [...document.querySelectorAll('canvas')].filter(c => c.offsetParent).map(c => {
+        sizes = page.evaluate("""() => [...document.querySelectorAll('canvas')].filter(c => c.offsetParent).map(c => {
           const box = c.getBoundingClientRect(); return [box.width / box.height, c.width / c.height]; })""")
-        for there, drawn in told:
+        for there, drawn in sizes:
             self.assertAlmostEqual(there, drawn, delta=0.02 * drawn)
         for hidden in ("#readout", "#play", ".opener", "#compare"):
             self.assertTrue(page.is_hidden(hidden), hidden)
@@ -395,11 +395,11 @@ class Viewer(Page):
         self.step(page, 3)
         self.assertGreater(page.evaluate(COLOURS, "plot-scene"), 60)
         _, _, totals = self.fields("wheel_on_rail", 4)
-        # the contact reference lies where the totals say, and the axes are right-handed with z down
+        # the contact reference is at the position given by the totals, and the axes are right-handed with z down
         place = page.evaluate("""() => { const p = contactReport.data.cases[3].patches[0], g = p.grid;
           const iy = Math.floor(-g.yl / g.dy); return contactReport.plots.scene.place(p, 0, iy, -g.yl / g.dy - iy - .5); }""")
         np.testing.assert_allclose(place, [totals["xcp_tr"], totals["ycp_tr"], totals["zcp_tr"]], atol=1e-4)
-        # the wheel goes through its own contact reference, which it shares with the rail, and can be left out
+        # the wheel passes through the contact reference, which is that of the rail as well, and can be hidden
         for index in (3, 8):
             place = page.evaluate("""k => { const c = contactReport.data.cases[k], t = c.patches[0].totals;
               const angle = Math.asin(t.xcp_w / (c.radius + t.zcp_w));
@@ -414,7 +414,7 @@ class Viewer(Page):
         page.wait_for_function("before => document.getElementById('plot-scene').toDataURL() === before", arg=with_wheel)
         x, y, z = np.array(page.evaluate("""() => { const project = contactReport.plots.scene.project, o = project([0, 0, 0]);
           return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(e => project(e).map((v, k) => v - o[k])); }"""))
-        # on the screen right, down, away from the eye: a right-handed system
+        # on the screen right, down, away from the viewer: a right-handed system
         size = np.linalg.norm(z[:2]) / math.cos(page.evaluate("contactReport.plots.scene.turn[1]"))
         x[:2], y[:2], z[:2] = x[:2] / size, y[:2] / size, z[:2] / size
         np.testing.assert_allclose(np.cross(x, y), z, atol=1e-9)
@@ -429,7 +429,7 @@ class Viewer(Page):
         page.mouse.up()
         turned = page.evaluate("contactReport.plots.scene.turn")
         self.assertNotEqual(turned, turn)
-        # what was turned stays so in other cases; else the rail is seen from the side to which the contact is inclined
+        # a rotated view is kept in other cases; by default the rail is seen from the side to which the contact is inclined
         self.step(page, 8)
         self.assertEqual(page.evaluate("contactReport.plots.scene.turn"), turned)
         page.click("#reset")
@@ -456,7 +456,7 @@ class Viewer(Page):
 
 
 class Compared(Page):
-    """Two runs side by side: cattaneo, and the same with less friction"""
+    """Comparison of two runs: cattaneo, and the same with less friction"""
 
     def setUp(self):
         path = os.path.join(self.scratch.name, "less.inp")
@@ -478,13 +478,13 @@ class Compared(Page):
         mine, other = self.values("cattaneo"), self.values("less")
         self.assertGreater(abs(mine["px"] - other["px"]).max(), 0.01)
         page.select_option("#quantity", "px")
-        # a difference of one sign keeps its colour: less is blue, more is red, nothing is white
+        # colours of differences depend on the sign, even if all have the same: negative is blue, positive is red, zero is white
         for low, high, at, blue in ((-0.2, 0, 0, True), (0, 0.2, 1, False), (-0.3, -0.1, 0, True), (0, 0, 0.5, None)):
-            told = page.evaluate("([l, h, at]) => { const s = coloursOf([l, h], 'signed'); return [s.low, s.high, s.colour(at)]; }",
-                                 [low, high, at])
-            self.assertEqual(told[0], -told[1])
-            red, _, right = told[2]
-            self.assertTrue(abs(red - right) < 5 if blue is None else (right > red) == blue, (low, high, told))
+            colours = page.evaluate(
+                "([l, h, at]) => { const s = coloursOf([l, h], 'signed'); return [s.low, s.high, s.colour(at)]; }", [low, high, at])
+            self.assertEqual(colours[0], -colours[1])
+            red, _, right = colours[2]
+            self.assertTrue(abs(red - right) < 5 if blue is None else (right > red) == blue, (low, high, colours))
         for show in ("side", "difference"):
             page.select_option("#show", show)
             number, chosen_at = {"side": (2, "map-pn"), "difference": (3, "map-more")}[show]
@@ -519,7 +519,7 @@ class Compared(Page):
         self.judge(page)
 
     def deep(self, name, friction, depth):
-        """Stresses below a sliding ball in two blocks, the second at a depth of its own"""
+        """Stresses below a sliding ball in two blocks, the second at another depth"""
         path = os.path.join(self.scratch.name, name + ".inp")
         with open(path, "w") as file:
             file.write(f"3 MODULE\n 203103\n0022020\n0000101\n 100 100 30 1 1e-5\n 9.2 0.01 0 0\n {friction} {friction}\n"
@@ -532,17 +532,17 @@ class Compared(Page):
         mine, other = self.deep("deep", 0.4, 0.5), self.deep("deeper", 0.2, 0.7)
         page = self.open(self.page_of("deep", other="deeper"))
         page.select_option("#stress", "sigvm")
-        for show, wanted, title in (("this", mine, "Below the surface"), ("other", other, "other run"),
+        for show, expected, title in (("this", mine, "Below the surface"), ("other", other, "other run"),
                                     ("difference", mine - other, "this minus other"), ("side", mine - other, "this minus other")):
             page.select_option("#show", show)
             page.wait_for_function("t => document.querySelector('#card-block h2 .name').textContent.includes(t)", arg=title)
             page.wait_for_function("m => contactReport.state.block.mode === m", arg={"side": "difference"}.get(show, show))
             shown = np.array(page.evaluate("[...contactReport.state.block.values]"))
-            np.testing.assert_allclose(shown, wanted, atol=2e-6 * mine.max())
+            np.testing.assert_allclose(shown, expected, atol=2e-6 * mine.max())
             self.assertGreater(page.evaluate(COLOURS, "map-block"), 30)
         self.assertGreater(abs(mine - other).max(), 0.05 * mine.max())
         self.assertIn("this minus other", page.get_attribute("#map-block", "aria-label"))
-        # blocks of other points are not compared
+        # blocks with different points are not compared
         page.select_option("#block", "1")
         page.wait_for_function("() => contactReport.state.block.values === null")
         page.wait_for_function("() => document.getElementById('map-block').getAttribute('aria-label').includes('no block')")

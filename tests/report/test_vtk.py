@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""contact --vtk: files that VTK itself reads, with the forces of the case in them.
+"""contact --vtk: files that VTK can read, with the forces of the case.
 
-Without the package vtk the same is read by hand. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+Without the package vtk the files are read by this test. Environment: CONTACT_PROGRAM, CONTACT_SOURCE.
 """
 import json
 import os
@@ -99,7 +99,7 @@ class Vtk(unittest.TestCase):
                                        msg="case %d %s" % (case["case"], name))
 
     def test_patches_lie_on_rail_and_wheel(self):
-        """Where pressure is highest, rail and wheel are nearer to the patch than the step of their sections makes them"""
+        """At the largest pressure, rail and wheel are closer to the patch than the error due to the distance of their sections"""
         for case in self.run_example("wheel_on_rail")[:3]:
             name = "wheel_on_rail.%04d" % case["case"]
             self.assertIn((case["case"], name + ".rail.vts"), self.collection("wheel_on_rail"))
@@ -115,7 +115,7 @@ class Vtk(unittest.TestCase):
             self.assertLess(min(sum((a - b) ** 2 for a, b in zip(p, spot)) ** 0.5 for p in wheel), 25.0)
             # the lowest meridian is one of the sections
             self.assertLess(min(((p[1] - spot[1]) ** 2 + (p[2] - spot[2]) ** 2) ** 0.5 for p in wheel), 1.0)
-            # the axle is where the nominal radius of 460 mm puts it
+            # the axle is at the height given by the nominal radius of 460 mm
             heights = [p[2] for p in wheel]
             self.assertAlmostEqual((max(heights) + min(heights)) / 2, case["totals"]["z_ws"]["value"] - 460.0, delta=2.0)
 

@@ -1,4 +1,4 @@
-"""Experiments that studies of the tests vary."""
+"""Base cases of the studies in the tests."""
 import os
 from pathlib import Path
 

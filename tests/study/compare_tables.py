@@ -1,4 +1,4 @@
-"""Measures a table of creep forces against Fastsim, FaStrip and the full theory, over contacts of a wheelset that hunts.
+"""Measures a table of creep forces against Fastsim, FaStrip and the full theory, over contacts of a hunting wheelset.
 
 usage: compare_tables.py TABLE; PYTHONPATH and CONTACT_LIBRARY as for tests. Prints the table of doc/validation/tables.md.
 """

@@ -1,5 +1,5 @@
 /* The bare loop of the library against which studies are measured: a creep table, one thread; prints processor time per case.
- * usage: loop CASES ELEMENTS [FIRST LAST]: cases FIRST to LAST of so many, from 0, so that several processes share them */
+ * usage: loop CASES ELEMENTS [FIRST LAST]: computes cases FIRST to LAST, from 0, so that several processes share them */
 #include <caddon_flags.h>
 #include <contact_addon.h>
 #include <stdio.h>

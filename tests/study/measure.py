@@ -4,9 +4,9 @@
 usage: measure.py run CASES [--workers N] [--engine threads|processes] [--points N] [--elements N] [--folder DIR]
        measure.py table CASES [--turns N] [--elements N] [--tasks CASES] [--loop PROGRAM]
 
-`run` is one study, told as a line of JSON. `table` compares studies with one and two workers with as many processes of the
-bare loop, in turns, and studies with tasks of 1 to 1000 points with one that chooses for itself; medians, in Markdown.
-Processor time is that of all processes, without the start of Python; wall time is of use on an idle machine only.
+`run` computes one study and prints a line of JSON. `table` compares studies with one and two workers with as many processes of the
+bare loop, in turns, and studies with tasks of 1 to 1000 points with one that chooses the size; medians, in Markdown.
+Processor time is that of all processes, without the start of Python; wall time is meaningful on an idle machine only.
 """
 import argparse
 import json
@@ -24,24 +24,24 @@ sys.path[:0] = [str(SOURCE / "python"), str(SOURCE / "tests/study")]
 
 
 def used():
-    """Processor time of this process and those that it waited for [s]"""
+    """Processor time of this process and its finished children [s]"""
     return sum(os.times()[:4])
 
 
-def run(asked):
+def run(options):
     """One study"""
     import contact
     import xarray
     from bases import rolling
     from contact.study import span
-    # what is read once by a process, whatever it computes
+    # read once by each process
     xarray.Dataset({"a": ("b", [0.0])})
-    spins = max(1, asked.cases // 10000)
-    study = contact.Study(rolling(asked.elements), {
+    spins = max(1, options.cases // 10000)
+    study = contact.Study(rolling(options.elements), {
         "kinematics.cphi": span(-0.001, 0.001, spins) if spins > 1 else [0.0],
-        "kinematics.ceta": span(-0.01, 0.01, 100), "kinematics.cksi": span(-0.01, 0.01, 100)}, folder=asked.folder)
+        "kinematics.ceta": span(-0.01, 0.01, 100), "kinematics.cksi": span(-0.01, 0.01, 100)}, folder=options.folder)
     wall, processor = time.perf_counter(), used()
-    found = study.run(asked.workers, engine=asked.engine, points_per_task=asked.points, progress=False)
+    found = study.run(options.workers, engine=options.engine, points_per_task=options.points, progress=False)
     count = found.status.size
     print(json.dumps({
         "cases": count, "wall": time.perf_counter() - wall, "processor": used() - processor,
@@ -50,7 +50,7 @@ def run(asked):
 
 
 def one_study(cases, elements, workers=1, points=None):
-    """A study in a process of its own and a folder of its own"""
+    """A study in a separate process and folder"""
     with tempfile.TemporaryDirectory() as folder:
         words = [sys.executable, __file__, "run", str(cases), "--workers", str(workers), "--elements", str(elements),
                  "--folder", folder, *(["--points", str(points)] if points else [])]
@@ -62,7 +62,7 @@ def one_study(cases, elements, workers=1, points=None):
 
 
 def one_loop(program, cases, elements, workers):
-    """The bare loop in as many processes, each with its part of the cases"""
+    """The bare loop in several processes, each with its part of the cases"""
     borders = [cases * k // workers for k in range(workers + 1)]
     wall, processor = time.perf_counter(), used()
     parts = [subprocess.Popen([program, str(cases), str(elements), str(first), str(last - 1)], stdout=subprocess.PIPE, text=True)
@@ -78,41 +78,41 @@ def middle(runs, what):
     return statistics.median(one[what] for one in runs)
 
 
-def table(asked):
-    """What acceptance asks for"""
-    program = asked.loop or SOURCE / "build/release/tests/study_loop"
-    print(f"{asked.cases} cases of {asked.elements} x {asked.elements}, medians of {asked.turns}\n\n"
+def table(options):
+    """Table of the acceptance criteria"""
+    program = options.loop or SOURCE / "build/release/tests/study_loop"
+    print(f"{options.cases} cases of {options.elements} x {options.elements}, medians of {options.turns}\n\n"
           "| workers | loop: wall | processor time a case | study: wall | processor time a case | over the loop: wall "
           "| processor time | memory | folder |\n|---|---|---|---|---|---|---|---|---|", flush=True)
     walls = {}
     for workers in (1, 2):
         loops, studies = [], []
-        for _ in range(asked.turns):
-            loops.append(one_loop(program, asked.cases, asked.elements, workers))
-            studies.append(one_study(asked.cases, asked.elements, workers))
+        for _ in range(options.turns):
+            loops.append(one_loop(program, options.cases, options.elements, workers))
+            studies.append(one_study(options.cases, options.elements, workers))
             if abs(studies[-1]["sum"] / loops[-1]["sum"] - 1) > 1e-12:
                 sys.exit("the study has other forces than the loop")
         walls[workers] = middle(studies, "wall")
         pairs = list(zip(studies, loops))
         ratios = [statistics.median(one[what] / other[what] for one, other in pairs) for what in ("wall", "processor")]
-        print(f"| {workers} | {middle(loops, 'wall'):.1f} s | {1e6 * middle(loops, 'processor') / asked.cases:.1f} us "
-              f"| {walls[workers]:.1f} s | {1e6 * middle(studies, 'processor') / asked.cases:.1f} us "
+        print(f"| {workers} | {middle(loops, 'wall'):.1f} s | {1e6 * middle(loops, 'processor') / options.cases:.1f} us "
+              f"| {walls[workers]:.1f} s | {1e6 * middle(studies, 'processor') / options.cases:.1f} us "
               f"| {ratios[0]:.3f} | {ratios[1]:.3f} "
               f"| {max(one['memory'] for one in studies):.0f} MB | {middle(studies, 'disk'):.0f} MB |", flush=True)
     print(f"\nTwo workers are {walls[1] / walls[2]:.2f} times as fast as one.\n")
-    print(f"{asked.tasks} cases, one worker\n\n| points a task | processor time a case | over the loop |\n|---|---|---|",
+    print(f"{options.tasks} cases, one worker\n\n| points a task | processor time a case | over the loop |\n|---|---|---|",
           flush=True)
     for points in (1, 10, 100, 1000, None):
         loops, studies = [], []
-        for _ in range(asked.turns):
-            loops.append(one_loop(program, asked.tasks, asked.elements, 1))
-            studies.append(one_study(asked.tasks, asked.elements, 1, points))
+        for _ in range(options.turns):
+            loops.append(one_loop(program, options.tasks, options.elements, 1))
+            studies.append(one_study(options.tasks, options.elements, 1, points))
         ratio = statistics.median(one["processor"] / other["processor"] for one, other in zip(studies, loops))
-        print(f"| {points or 'its own'} | {1e6 * middle(studies, 'processor') / asked.tasks:.0f} us | {ratio:.3f} |", flush=True)
+        print(f"| {points or 'its own'} | {1e6 * middle(studies, 'processor') / options.tasks:.0f} us | {ratio:.3f} |", flush=True)
 
 
 def main():
-    """As the first words say"""
+    """Run the command line"""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     kinds = parser.add_subparsers(dest="kind", required=True)
     single, whole = kinds.add_parser("run"), kinds.add_parser("table")
@@ -126,8 +126,8 @@ def main():
     whole.add_argument("--turns", type=int, default=3)
     whole.add_argument("--tasks", type=int, default=10000, help="cases of the table of tasks, a multiple of 10000")
     whole.add_argument("--loop", help="the program of loop.c; default build/release/tests/study_loop")
-    asked = parser.parse_args()
-    (run if asked.kind == "run" else table)(asked)
+    options = parser.parse_args()
+    (run if options.kind == "run" else table)(options)
 
 
 if __name__ == "__main__":

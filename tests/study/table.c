@@ -41,7 +41,7 @@ int main(int count, char **words) {
     }
     printf("%.17g %.17g %.17g\n", force[0], force[1], force[2]);
   }
-  /* creepages of a walk, as a vehicle has them, and ones all over the table */
+  /* creepages of a random walk, as in a vehicle, and random ones of the whole table */
   unit[0] = unit[1] = patch.mu * patch.fn / (patch.gg * patch.aa * patch.bpos);
   unit[2] = unit[0] / patch.aa;
   begun = now();
@@ -59,7 +59,7 @@ int main(int count, char **words) {
     creepage[2] = unit[2] * (rand() / (double)RAND_MAX * 20.0 - 10.0);
     sum += contact_table_force_derivatives(table, &patch, creepage, force, slopes) + slopes[0][0];
   }
-  fprintf(stderr, "derivatives at random places %.1f ns%s\n", 1e9 * (now() - begun) / CALLS, sum == 0.0 ? "." : "");
+  fprintf(stderr, "derivatives at random points %.1f ns%s\n", 1e9 * (now() - begun) / CALLS, sum == 0.0 ? "." : "");
   contact_table_close(table);
   return 0;
 }

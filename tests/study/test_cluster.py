@@ -1,5 +1,5 @@
-"""A cluster of Dask on this machine: its processes are killed, started again, added, slowed and refused memory while a study runs.
-ACTS in the environment: how often at random."""
+"""A Dask cluster on this machine: its processes are killed, restarted, added, slowed and limited in memory while a study runs.
+Environment: ACTS, number of random actions."""
 import os
 import random
 import re
@@ -21,7 +21,7 @@ ACTS = int(os.environ.get("ACTS", "3"))
 
 
 class Cluster:
-    """A scheduler, and workers that come and go: processes of their own on the loopback device"""
+    """A scheduler and a varying set of workers: separate processes on the loopback device"""
 
     def __init__(self, folder):
         self.folder, self.processes = folder, []
@@ -29,7 +29,7 @@ class Cluster:
         self.address = re.search(r"tcp://127\.0\.0\.1:\d+", self.line_with(self.scheduler, "Scheduler at")).group()
 
     def start(self, kind, *words, **more):
-        """A process of Dask"""
+        """A Dask process"""
         environment = {**os.environ, **more, "DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE": "0.95",
                        "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "10"}
         process = subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_" + kind, *words], cwd=self.folder,
@@ -38,22 +38,22 @@ class Cluster:
         return process
 
     def line_with(self, process, words):
-        """A line of what a process says; the rest is read so that it never waits"""
+        """A line of the output of a process; the rest is read so that the process never blocks"""
         for line in process.stderr:
             if words in line:
                 threading.Thread(target=lambda: [None for _ in process.stderr], daemon=True).start()
                 return line
-        raise AssertionError(f"the process ended without saying {words}")
+        raise AssertionError(f"the process ended without the output {words}")
 
     def worker(self, *more, **variables):
-        """One more worker"""
+        """Add a worker"""
         process = self.start("worker", self.address, "--no-nanny", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1",
                              *more, **variables)
         self.line_with(process, "Registered to")
         return process
 
     def close(self):
-        """End what is left"""
+        """End all remaining processes"""
         for process in self.processes:
             if process.poll() is None:
                 process.send_signal(signal.SIGCONT)
@@ -78,7 +78,7 @@ def test_workers_come_and_go(cluster, tmp_path, monkeypatch):
     acts = []
 
     def act(words):
-        """One worker is killed, one stands still and goes on, two are added, one of them without memory"""
+        """One worker is killed, one is stopped and continued, two are added, one of them with too little memory"""
         done = int(words.split()[0])
         if done > 60 and not acts:
             acts.append("killed")
@@ -97,7 +97,7 @@ def test_workers_come_and_go(cluster, tmp_path, monkeypatch):
     original = shown.add
 
     def add(self, points, failed):
-        # told of every task, not four times a second
+        # called for every task, not four times a second
         self._last = 0.0
         original(self, points, failed)
 
@@ -120,20 +120,20 @@ def test_workers_come_and_go(cluster, tmp_path, monkeypatch):
 
 
 def taken(process):
-    """Addresses that a process has taken [bytes]"""
+    """Size of the address space of a process [bytes]"""
     with open(f"/proc/{process.pid}/statm") as file:
         return int(file.read().split()[0]) * resource.getpagesize()
 
 
 @pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="limits of other processes")
 def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
-    """Acts at random, until there were enough of them; every case is there once, and the same to the last bit"""
+    """Random actions up to the required number; every case is present once and identical bit by bit"""
     points = 400 + 150 * ACTS
     inputs = {"kinematics.cksi": contact.study.span(-0.01, 0.01, points // 2), "friction.coefficient": [0.2, 0.4]}
     study = contact.Study(rolling(7), inputs, folder=tmp_path / "s")
     draw = random.Random(ACTS)
     workers = [cluster.worker(), cluster.worker()]
-    told = dict.fromkeys(("killed and started again", "stopped for a while", "slow", "added", "left", "without memory"), 0)
+    acted = dict.fromkeys(("killed and started again", "stopped for a while", "slow", "added", "left", "without memory"), 0)
 
     def stop(worker, seconds):
         worker.send_signal(signal.SIGSTOP)
@@ -141,11 +141,11 @@ def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
         worker.send_signal(signal.SIGCONT)
 
     def act(words):
-        if sum(told.values()) >= ACTS:
+        if sum(acted.values()) >= ACTS:
             return
-        few = len(told) >= ACTS
-        kind = list(told)[sum(told.values())] if few else draw.choice(list(told))
-        told[kind] += 1
+        few = len(acted) >= ACTS
+        kind = list(acted)[sum(acted.values())] if few else draw.choice(list(acted))
+        acted[kind] += 1
         place = draw.randrange(len(workers))
         if kind == "killed and started again":
             workers.pop(place).kill()
@@ -159,7 +159,7 @@ def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
         elif kind == "left" and len(workers) > 1:
             workers.pop(place).send_signal(signal.SIGTERM)
         else:
-            # what it asks for from now on it does not get
+            # further requests for memory fail
             enough = taken(workers[place]) + (1 << 20)
             resource.prlimit(workers[place].pid, resource.RLIMIT_AS, (enough, enough))
             workers.append(cluster.worker())
@@ -175,7 +175,7 @@ def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
 
     monkeypatch.setattr(shown, "add", add)
     found = study.run(scheduler=cluster.address, progress=act, points_per_task=5)
-    assert sum(told.values()) == ACTS, told
+    assert sum(acted.values()) == ACTS, acted
     serial = contact.Study(rolling(7), inputs).run(workers=1)
     assert (found.status == 0).all()
     for name, values in serial.data_vars.items():
@@ -188,11 +188,11 @@ def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
 
 
 def test_workers_of_another_build_are_refused(cluster, tmp_path):
-    """By name: those that are there, before anything is computed; one that comes later, by its first task"""
+    """Wrong workers are refused by name: existing ones before anything is computed, one that joins later at its first task"""
     library = Path(os.environ["CONTACT_LIBRARY"])
     other = tmp_path / "other" / library.name
     other.parent.mkdir()
-    # the same library with something behind its end
+    # the same library with bytes appended
     other.write_bytes(library.read_bytes() + b"x")
     study = contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, 200)}, folder=tmp_path / "s")
     first = cluster.worker()
@@ -205,7 +205,7 @@ def test_workers_of_another_build_are_refused(cluster, tmp_path):
     acts = []
 
     def act(words):
-        """The right worker is gone as soon as a wrong one is there"""
+        """The right worker ends as soon as a wrong one has joined"""
         if not acts:
             acts.append(cluster.worker(CONTACT_LIBRARY=str(other)))
             first.kill()

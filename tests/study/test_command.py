@@ -1,4 +1,4 @@
-"""contact study FILE.toml: from a file to files, its exit status, what it says where something is missing."""
+"""contact study FILE.toml: from a file to files, exit status, messages if something is missing."""
 import os
 import signal
 import subprocess
@@ -51,8 +51,8 @@ def folder(tmp_path):
 
 
 def test_from_a_file_to_files(folder):
-    told = run(folder, "study", "a.toml", "--workers", "1")
-    assert told.returncode == 0 and "16 cases: 12 solved, 0 not converged, 0 refused, 4 left out" in told.stdout, told
+    done = run(folder, "study", "a.toml", "--workers", "1")
+    assert done.returncode == 0 and "16 cases: 12 solved, 0 not converged, 0 refused, 4 left out" in done.stdout, done
     with xarray.open_dataset(folder / "all.nc") as data:
         assert dict(data.sizes) == {"cksi": 4, "coefficient": 2, "sample": 2, "sentence": 1}
         assert "fy" not in data and (data.ratio == data.fx / data.fn)[:3].all()
@@ -74,14 +74,14 @@ def test_mistakes_in_a_file(folder, monkeypatch, capsys):
         (folder / "b.toml").write_text((folder / "a.toml").read_text().replace(old, new))
         monkeypatch.setattr(sys, "argv", ["contact study", str(folder / "b.toml")])
         assert main() == 1
-        told = capsys.readouterr().err
-        assert told.startswith("contact study: ") and words in told
+        text = capsys.readouterr().err
+        assert text.startswith("contact study: ") and words in text
     assert run(folder, "study", "nothing.toml").returncode == 1
     for words in (["--folder", str(folder / "roller.toml")], ["--results", str(folder / "none" / "a.nc")]):
         monkeypatch.setattr(sys, "argv", ["contact study", str(folder / "a.toml"), "--quiet", *words])
         assert main() == 1
-        told = capsys.readouterr().err
-        assert told.startswith("contact study: ") and told.count("\n") == 1, told
+        text = capsys.readouterr().err
+        assert text.startswith("contact study: ") and text.count("\n") == 1, text
 
 
 def test_cases_that_fail_are_told(folder, monkeypatch, capsys):
@@ -89,20 +89,20 @@ def test_cases_that_fail_are_told(folder, monkeypatch, capsys):
     for words, status in ((["--strict"], 2), ([], 0)):
         monkeypatch.setattr(sys, "argv", ["contact study", str(folder / "b.toml"), *words])
         assert main() == status
-        told = capsys.readouterr().out
-        assert "1 refused" in told and "is below its lower bound" in told
+        text = capsys.readouterr().out
+        assert "1 refused" in text and "is below its lower bound" in text
 
 
 def test_without_python_it_says_so(folder):
-    told = run(folder, "study", "a.toml", env={"PATH": str(folder)})
-    assert told.returncode == 1 and told.stderr.startswith("contact study: Python 3 is not found; install it"), told
+    done = run(folder, "study", "a.toml", env={"PATH": str(folder)})
+    assert done.returncode == 1 and done.stderr.startswith("contact study: Python 3 is not found; install it"), done
 
 
 def test_without_a_package_it_says_which(folder):
     (folder / "empty").mkdir()
     (folder / "empty" / "xarray.py").write_text("raise ModuleNotFoundError(\"No module named 'xarray'\", name='xarray')\n")
-    told = run(folder, "study", "a.toml", env={"PYTHONPATH": str(folder / "empty") + ":" + os.environ.get("PYTHONPATH", "")})
-    assert told.returncode == 1 and "package xarray is not found" in told.stderr and "[study]" in told.stderr, told
+    done = run(folder, "study", "a.toml", env={"PYTHONPATH": str(folder / "empty") + ":" + os.environ.get("PYTHONPATH", "")})
+    assert done.returncode == 1 and "package xarray is not found" in done.stderr and "[study]" in done.stderr, done
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -118,7 +118,7 @@ def test_a_signal_ends_it_and_it_goes_on(folder):
         time.sleep(0.1)
     process.send_signal(signal.SIGTERM)
     assert process.wait(60) == 128 + signal.SIGTERM
-    assert "the same command goes on" in process.stderr.read()
+    assert "repeat the command to continue" in process.stderr.read()
     process.stderr.close()
     plan = contact.Study(folder / "roller.toml", {"kinematics.cksi": contact.study.span(0.0, 0.01, 30000)},
                          folder=folder / "b.study").explain()
@@ -130,7 +130,7 @@ def test_a_signal_ends_it_and_it_goes_on(folder):
                                           ("wheelset", {"count = 5 ": "count = 1 ", "count = 25": "count = 2",
                                                         "[0.0, 0.025, 0.05]": "[0.025]"})])
 def test_worked_studies(tmp_path, monkeypatch, capsys, name, coarse):
-    """The examples as they stand, with fewer points"""
+    """The examples with fewer points"""
     text = (EXAMPLES / "studies" / f"{name}.toml").read_text()
     text = text.replace('"../wheel', f'"{EXAMPLES}/wheel').replace('"roller.toml"', f'"{EXAMPLES}/studies/roller.toml"')
     for old, new in coarse.items():
@@ -141,6 +141,6 @@ def test_worked_studies(tmp_path, monkeypatch, capsys, name, coarse):
     with xarray.open_dataset(tmp_path / f"{name}.nc") as data:
         assert (data.status == 0).all()
         if name == "creep_curves":
-            # beyond saturation the traction is the friction; more creepage is more traction
+            # beyond saturation the traction is the friction bound; traction increases with creepage
             assert abs(data.traction[:, -1] + data.coefficient).max() < 1e-4
             assert (data.fx.diff("cksi") < 1e-6 * 7e4).all()

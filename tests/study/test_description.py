@@ -1,4 +1,4 @@
-"""What varies: axes, samples, tables, rules, constraints; what a study says beforehand; what it refuses."""
+"""Varied inputs: axes, samples, tables, rules, constraints; the estimate before a study; refused descriptions."""
 import contact
 import numpy as np
 import pandas
@@ -28,7 +28,7 @@ def test_ranges():
 def test_samples_fill_their_ranges(method):
     axis = sample({"a.x": (2.0, 4.0), "a.y": (1e-3, 1e3, "log")}, 64, method, seed=3)
     x, y = axis.columns["a.x"], axis.columns["a.y"]
-    # one point in each of 64 layers of both, which both methods promise
+    # one point in each of 64 layers of both inputs, a property of both methods
     for unit in ((x - 2.0) / 2.0, np.log10(y) / 6.0 + 0.5):
         assert len(np.unique(np.floor(64.0 * unit))) == 64
         assert unit.min() >= 0.0 and unit.max() <= 1.0
@@ -93,13 +93,13 @@ def test_mistakes_are_told():
     (lambda: contact.Study(EXAMPLES / "wheel_on_rail.toml", case=1, fields=["pn", "p"]).run(), "there is no element field p;"),
     (lambda: contact.Study(rolling(7), seconds=-1.0), "seconds = -1.0"),
     (lambda: contact.Study(rolling(7), folder=__file__).run(), "cannot be the folder of a study: File exists"),
-    (lambda: contact.Study(rolling(7)).run(scheduler="hello"), "hello is no address of a scheduler"),
+    (lambda: contact.Study(rolling(7)).run(scheduler="hello"), "hello is not the address of a scheduler"),
     (lambda: contact.Study(rolling(7)).run(workers="2"), "workers = '2' is no number"),
     (lambda: contact.Study(rolling(7)).write("a.nc"), "needs a folder")])
-def test_what_is_wrong_is_told_in_a_sentence(make, words):
-    with pytest.raises((contact.ContactError, ValueError), match=words) as told:
+def test_errors_are_reported_in_a_sentence(make, words):
+    with pytest.raises((contact.ContactError, ValueError), match=words) as caught:
         make()
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_a_base_with_errors_is_refused():
@@ -138,7 +138,7 @@ def test_one_name_is_a_list_of_one():
     assert {"fx", "pn"} <= set(found.data_vars) and "fy" not in found
 
 
-def test_explain_tells_before_it_runs(tmp_path):
+def test_explain_before_a_run(tmp_path):
     study = contact.Study(rolling(), {"kinematics.cksi": span(0, 0.01, 21)}, where="cksi < 0.00951", folder=tmp_path / "s")
     plan = study.explain(workers=2)
     assert (plan.points, plan.left_out, plan.there, plan.cases, plan.workers) == (21, 1, 0, 20, 2)
@@ -147,16 +147,16 @@ def test_explain_tells_before_it_runs(tmp_path):
     study.run(workers=1)
     after = study.explain()
     assert (after.there, after.cases) == (20, 0)
-    # what it said of the size, against what the folder has: within the heads of the batches
+    # estimated size against the size of the folder, within the headers of the batches
     assert plan.bytes < (tmp_path / "s" / "cases.sqlite").stat().st_size < 4 * plan.bytes + 60000
     assert "nothing is left" in str(after)
 
 
-def test_progress_tells_time_left():
-    told = []
-    progress = Progress(10, 5, told.append)
+def test_progress_reports_time_left():
+    texts = []
+    progress = Progress(10, 5, texts.append)
     progress.add(10, 2)
-    assert told and told[0].startswith("15 of 15 points, 2 not solved, ") and told[0].endswith("left")
+    assert texts and texts[0].startswith("15 of 15 points, 2 not solved, ") and texts[0].endswith("left")
     assert [duration(t) for t in (3.0, 59, 600, 86400, 1e6)] == ["3.0 s", "59 s", "10 min", "24 h", "11.6 days"]
 
 
@@ -165,5 +165,5 @@ def test_both_formats_are_the_same_base():
     one, other = (contact.Study(EXAMPLES / f"cattaneo{suffix}", vary).run(workers=1) for suffix in (".inp", ".toml"))
     assert one.sizes["step"] == 2
     np.testing.assert_array_equal(one.fx.values, other.fx.values)
-    # the friction that varies is what the shift meets
+    # the varied friction is that of the shift
     np.testing.assert_allclose(one.fx.sel(step=2), -0.875 * np.array([0.2, 0.4]) * 9.1954, rtol=1e-3)

@@ -1,4 +1,4 @@
-"""Killed at any moment and started again: every case once, and the same to the last bit. KILLS in the environment: how often."""
+"""A study is killed at random times and restarted: every case once, identical bit by bit. Environment: KILLS, their number."""
 import os
 import random
 import signal
@@ -21,13 +21,13 @@ study(sys.argv[1]).run(workers=2, points_per_task=7)
 
 
 def study(folder=None):
-    """What is killed"""
+    """The study that is killed"""
     return contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, POINTS // 3),
                                       "friction.coefficient": [0.1, 0.3, 0.5]}, folder=folder)
 
 
 def stored(folder):
-    """Keys of the points in the folder"""
+    """Keys of the stored points"""
     store = Store(folder)
     keys = store.keys()
     store.close()
@@ -40,7 +40,7 @@ def test_nothing_is_lost_and_nothing_is_twice(tmp_path):
     for _ in range(20 * KILLS):
         child = subprocess.Popen([sys.executable, "-c", CHILD, str(tmp_path)])
         before = len(stored(tmp_path)) if killed == 0 else sizes[-1]
-        # not during its start: until it has computed something, and then at any moment
+        # not during its start: first computes something, then is killed at a random time
         file = tmp_path / "cases.sqlite"
         begun = file.stat().st_mtime_ns if file.exists() else 0
         while child.poll() is None and (not file.exists() or file.stat().st_mtime_ns == begun):

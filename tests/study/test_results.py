@@ -1,4 +1,4 @@
-"""Results of studies against other doors of the library, against themselves in another order, and their files."""
+"""Results of studies against other interfaces of the library, against themselves in another order, and their files."""
 import json
 import os
 import subprocess
@@ -17,12 +17,12 @@ from contact.study._store import FILE, Store, distinct
 
 SLIPS = {"kinematics.cksi": [0.0, 0.002, -0.005], "kinematics.cphi": [0.0, 0.0004]}
 PAIR = EXAMPLES / "wheel_on_rail.toml"
-#: A wheel in the tread, at the flange, and beside the rail, on elements that a test can afford
+#: A wheel in contact on the tread, at the flange, and beside the rail, on coarse elements
 PLACES = {"position.y_ws": [-1.0, 5.0, 60.0], "search.dx": [0.8], "search.ds": [0.8]}
 
 
 def same(one, other, names=None):
-    """Are two datasets the same to the last bit?"""
+    """Are two datasets identical bit by bit?"""
     for name in names or one.data_vars:
         if one[name].dtype.kind == "f":
             assert one[name].values.tobytes() == other[name].values.tobytes(), name
@@ -32,7 +32,7 @@ def same(one, other, names=None):
 
 @pytest.mark.parametrize("count, kinds", [(0, 2), (1, 2), (500, 2), (500, 20), (500, 2**63)])
 def test_keys_that_are_equal(count, kinds):
-    """First places and numbers of keys, as numpy finds them by another way"""
+    """First positions and indices of keys, by another algorithm of numpy"""
     keys = np.random.default_rng(2).integers(0, kinds, (count, 2)).astype(np.uint64)
     first, inverse = distinct(keys)
     if count:
@@ -62,7 +62,7 @@ def test_totals_are_those_of_the_objects():
                 assert here.x_first == pytest.approx(result.x[0], rel=1e-12)
 
 
-def test_wheel_and_rail_as_the_program_tells(tmp_path):
+def test_wheel_and_rail_as_by_the_program(tmp_path):
     found = contact.Study(PAIR, PLACES, case=1).run(workers=2)
     assert found.fz_tr.dims == ("y_ws", "dx", "ds") and found.fn.dims == ("y_ws", "dx", "ds", "patch")
     text = "".join(Scene(PAIR, 1).text({"position.y_ws": y, "search.dx": 0.8, "search.ds": 0.8})
@@ -88,7 +88,7 @@ def test_wheel_and_rail_as_the_program_tells(tmp_path):
 @pytest.mark.parametrize("base, vary, case", [
     (rolling(), [SLIPS, {"friction.coefficient": [0.1, 0.5], "grid.aa": [6.0, 2.0]}], None), (PAIR, PLACES, 1)])
 def test_results_follow_from_nothing_but_the_inputs(base, vary, case):
-    """Order, size of tasks, threads and processes: the same to the last bit"""
+    """Results do not depend on order, size of tasks, threads or processes: identical bit by bit"""
     study = contact.Study(base, vary, case=case)
     serial = study.run(workers=1, points_per_task=1)
     same(serial, study.run(workers=1, points_per_task=1000))
@@ -140,20 +140,20 @@ def test_studies_go_on_and_grow(tmp_path, monkeypatch):
     def study(values, **more):
         return contact.Study(rolling(), {"kinematics.cksi": values, "friction.coefficient": [0.2, 0.3]}, folder=tmp_path, **more)
 
-    asked = []
-    part = study(span(0, 0.01, 11)).run(workers=1, points_per_task=2, stop=lambda: asked.append(1) or len(asked) > 6)
+    calls = []
+    part = study(span(0, 0.01, 11)).run(workers=1, points_per_task=2, stop=lambda: calls.append(1) or len(calls) > 6)
     there = sum(solved)
     assert 0 < there < 22 and (part.status == -2).sum() == 22 - there
     whole = study(span(0, 0.01, 11)).run()
     assert sum(solved) == 22 and (whole.status == 0).all()
-    # new values, another order, another way to say it: only what is new is computed
+    # new values, another order, another form of the description: only new points are computed
     more = study([0.01, 0.0, 0.0035]).run()
     assert sum(solved) == 24
     np.testing.assert_array_equal(more.fx.values[0], whole.fx.values[-1])
     axis = contact.study.Axis("row", {"friction.coefficient": np.array([0.3, 0.2]), "kinematics.cksi": np.array([0.01, 0.0035])})
     contact.Study(rolling(), axis, folder=tmp_path).run()
     assert sum(solved) == 24
-    # another base, another field, another version: nothing of it fits
+    # another base, another field, another version: no stored result is used
     contact.Study(rolling(7), {"kinematics.cksi": [0.01]}, folder=tmp_path).run()
     assert sum(solved) == 25
     study([0.01], fields=["pn"]).run()
@@ -222,7 +222,7 @@ def test_rows_of_long_tables_are_numbered_on(tmp_path, monkeypatch):
     (PAIR, PLACES, 1, ["pn"])])
 @pytest.mark.parametrize("memory", [1, 1 << 27])
 def test_files_by_parts_are_those_of_the_whole(tmp_path, base, vary, case, fields, memory):
-    """Whatever the parts: single points, or all at once; refused cases, several sizes of grids, steps, wheel and rail"""
+    """Results do not depend on the parts, single points or all at once; refused cases, several grid sizes, steps, wheel and rail"""
     study = contact.Study(base, vary, case=case, fields=fields, where="coefficient < 0.45" if case is None and not fields else None,
                           derive={"ratio": "fx / fn"} if case is None else None, folder=tmp_path / "s")
     study.compute(workers=2)
@@ -241,7 +241,7 @@ def test_files_by_parts_are_those_of_the_whole(tmp_path, base, vary, case, field
                     key: np.asarray(value).tolist() for key, value in found[name].attrs.items()}
             np.testing.assert_array_equal(one.reasons.values[one.reason.values], found.reasons.values[found.reason.values])
     save(found, tmp_path / "b.parquet")
-    # reasons are numbered as they are met
+    # reasons are numbered in the order of their occurrence
     one, other = (pandas.read_parquet(tmp_path / name).drop(columns="reason") for name in ("a.parquet", "b.parquet"))
     order = [name for name in other.columns if name in found.coords]
     pandas.testing.assert_frame_equal(*(frame.sort_values(order, ignore_index=True) if order else frame
@@ -275,7 +275,7 @@ def test_parts_need_formulae_and_a_folder(tmp_path):
 
 
 def test_a_process_that_dies_costs_its_case_only(monkeypatch):
-    """A worker that ends with its case is not waited for again and again; all others are there"""
+    """A case that kills its worker is refused after some attempts; all others are computed"""
     import deadly
     found = contact.Study(rolling(), {"kinematics.cksi": [0.001, 0.002, 0.003, 0.004]})
     engine = contact.study.Engine(2, "processes")
@@ -289,7 +289,7 @@ def test_a_process_that_dies_costs_its_case_only(monkeypatch):
 
 
 def test_another_library_computes_anew(tmp_path, monkeypatch):
-    """What was computed belongs to the library that computed it, known by the hash of its file"""
+    """Stored results are used only with the library that computed them, identified by the hash of its file"""
     def study():
         return contact.Study(rolling(), {"kinematics.cksi": [0.001, 0.002]}, folder=tmp_path)
 
@@ -303,7 +303,7 @@ def test_another_library_computes_anew(tmp_path, monkeypatch):
 
 
 def test_contacts_of_other_sizes_do_not_know_each_other():
-    """Load, stiffness and shape vary: each case lays out its own geometry, whatever was solved before in the same place"""
+    """Load, stiffness and shape vary: each case has its own grid, independent of the previous case"""
     inputs = {"kinematics.fn": [30e3, 90e3], "material.gg": [40e3, 82e3], "grid.form": ["hertz_axes"]}
     whole = contact.Study(rolling(), inputs)
     found = whole.run(workers=1)
@@ -319,5 +319,5 @@ def test_contacts_of_other_sizes_do_not_know_each_other():
             alone = contact.Study(base).run(workers=1)
             one = found.sel(fn=fn, gg=gg).isel(form=0)
             assert all(alone[name].values.tobytes() == one[name].values.tobytes() for name in ("fx", "pmax", "pen", "contact_area"))
-            # Hertz, whose semi-axes were given
+            # Hertz with prescribed semi-axes
             assert float(one.pmax) == pytest.approx(1.5 * fn / (np.pi * 30.0), rel=0.02)

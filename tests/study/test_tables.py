@@ -29,7 +29,7 @@ def table(file):
 
 
 def inputs(count, seed=7, spread=2.0):
-    """Random contacts, creepages of all sizes"""
+    """Random contacts with creepages of all magnitudes"""
     random = np.random.default_rng(seed)
     ratio = np.exp(random.uniform(np.log(0.5), np.log(2.0), count))
     aa, bb = 5.0 * np.sqrt(ratio), 5.0 / np.sqrt(ratio)
@@ -38,7 +38,7 @@ def inputs(count, seed=7, spread=2.0):
 
 
 def test_error_is_what_the_table_says(table):
-    """At points of our own, with creepages, forces and sizes that the builder does not use"""
+    """Errors at independent points, with creepages, forces and sizes that the builder does not use"""
     random = np.random.default_rng(11)
     worst = 0.0
     for aa, bb, mu, fn in ((6.0, 5.0, 0.5, 40e3), (3.0, 5.5, 0.1, 120e3)):
@@ -70,7 +70,7 @@ def test_slope_at_rest_is_kalkers(file, ratio, c11, c22, c23):
 
 
 def test_sliding(table):
-    """Endless creepage without spin: friction against it; endless spin: no force, and the moment of Coulomb's friction"""
+    """Infinite creepage without spin: the friction bound against it; infinite spin: no force, and the moment of Coulomb friction"""
     forces = table.force(FN, MU, GG, 5.0, 5.0, 3e5, -4e5, 0.0)
     np.testing.assert_allclose(forces / LIMIT, [-0.6, 0.8, 0.0], atol=table.facts.asked)
     forces = table.force(FN, MU, GG, 5.0, 5.0, 0.0, 0.0, 1e9)
@@ -91,14 +91,14 @@ def test_symmetries_and_scales(table):
     forces = table.force(*contacts, cksi, ceta, cphi)
     np.testing.assert_array_equal(table.force(*contacts, -cksi, ceta, cphi), forces * [-1, 1, 1])
     np.testing.assert_array_equal(table.force(*contacts, cksi, -ceta, -cphi), forces * [1, -1, -1])
-    # half the friction with half the creepages; metres in place of millimetres
+    # half the friction with half the creepages; metres instead of millimetres
     np.testing.assert_allclose(table.force(FN, MU / 2, *contacts[2:], cksi / 2, ceta / 2, cphi / 2), forces / 2, rtol=1e-10)
     np.testing.assert_allclose(table.force(FN, MU, GG * 1e6, contacts[3] / 1e3, contacts[4] / 1e3, cksi, ceta, cphi * 1e3),
                                forces * [1, 1, 1e-3], rtol=1e-9, atol=1e-6)
 
 
 def test_smooth(table):
-    """Derivatives are those of differences, and their jumps vanish with the step: at creepages that change sign too"""
+    """Derivatives agree with finite differences, and their jumps vanish with the step, also where creepages change sign"""
     contacts, given = inputs(3000)
     given[:, ::3] *= [[1e-9], [1.0], [1e-9]]
     unit = LIMIT / (GG * 25.0) * np.array([1.0, 1.0, 0.2])
@@ -122,7 +122,7 @@ def test_threads_see_the_same(table):
 
 
 def test_other_languages(file, table):
-    """The same numbers in C and Fortran; half a millisecond is no look-up on any machine"""
+    """The same numbers in C and Fortran; a look-up takes less than half a millisecond on any machine"""
     random = np.random.default_rng(3)
     given = random.normal(size=(50, 3)) * [0.003, 0.003, 0.0005]
     forces = table.force(FN, MU, GG, 6.0, 5.0, *given.T)
@@ -137,7 +137,7 @@ def test_other_languages(file, table):
             assert float(line.split()[-2]) < 5e5
 
 
-def test_what_is_wrong_is_told(table, file, tmp_path):
+def test_errors_are_reported(table, file, tmp_path):
     with pytest.raises(contact.ContactError, match=r"a/b from 0.5 to 2 and no offset"):
         table.force(FN, MU, GG, 30.0, 5.0, 0.001)
     assert table.force(FN, MU, GG, 30.0, 5.0, 0.001, outside=True)[0] < 0.0
@@ -148,9 +148,9 @@ def test_what_is_wrong_is_told(table, file, tmp_path):
     turned = whole[:5000] + bytes([whole[5000] ^ 1]) + whole[5001:]
     for content, words in ((whole[:-100], "damaged"), (turned, "checksum"), (b"x" * 300, "start")):
         bad.write_bytes(content)
-        with pytest.raises(contact.ContactError, match=words) as told:
+        with pytest.raises(contact.ContactError, match=words) as caught:
             Table(bad)
-        assert "\n" not in str(told.value) and "bad.table" in str(told.value)
+        assert "\n" not in str(caught.value) and "bad.table" in str(caught.value)
     for plan, words in ((Plan(tolerance=0.5), "tolerance"), (Plan(ratio=(2.0, 1.0)), "a/b"), (Plan(offset=1.0), "offset"),
                         (Plan(ratio=(0.5, 2.0), elements=9, most_cases=100), "more than 100 solutions")):
         with pytest.raises(contact.ContactError, match=words):
@@ -159,11 +159,11 @@ def test_what_is_wrong_is_told(table, file, tmp_path):
 
 
 def test_nodes_are_solved_where_they_are_needed(tmp_path, monkeypatch):
-    """Of forces with a bend across all axes a table has the error that is asked for, from fewer results than nodes"""
-    told, solved = [], []
+    """A table of forces with a bend across all axes reaches the requested error, with fewer results than nodes"""
+    messages, solved = [], []
 
     class Bent:
-        """In place of contacts: a moment that bends where y + 0.9 z = 0.3"""
+        """Replacement of contacts: a moment with a bend at y + 0.9 z = 0.3"""
 
         def __init__(self, *_):
             self.cases = 0
@@ -176,16 +176,16 @@ def test_nodes_are_solved_where_they_are_needed(tmp_path, monkeypatch):
 
     monkeypatch.setattr("contact.table._build.Results", Bent)
     facts = build(tmp_path / "bent.table", Plan(tolerance=0.003, ratio=(0.8, 1.25), elements=9, points=3000), workers=1,
-                  tell=told.append)
-    nodes = np.prod([int(count) for count in re.search(r"solutions, (.*) nodes", told[-2])[1].split(" x ")])
+                  tell=messages.append)
+    nodes = np.prod([int(count) for count in re.search(r"solutions, (.*) nodes", messages[-2])[1].split(" x ")])
     assert max(facts.error) <= 0.003 and facts.points == 3000
-    # points of the checks are no results of the table; how many checks there are depends on round-off
-    checked = facts.points * sum("checked at" in line for line in told)
+    # points of the checks are not part of the table; the number of checks depends on round-off
+    checked = facts.points * sum("checked at" in line for line in messages)
     assert solved[-1] - checked < 0.7 * nodes
 
 
 def test_few_elements_where_most_slides():
-    """Against a grid three times as fine: what it misses is less there than elsewhere, though there are fewer elements"""
+    """Against a grid three times as fine: errors are smaller there than elsewhere, although there are fewer elements"""
     random = np.random.default_rng(3)
     points = random.uniform([np.log(0.5), 0.0, 0.0, -1.0, 0.0], [np.log(2.0), 0.0, 1.0, 1.0, 0.85], (150, 5))
     radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
@@ -198,7 +198,7 @@ def test_few_elements_where_most_slides():
 
 
 def test_half_ellipses(tmp_path):
-    """Mirror images hold, the table keeps to its error, and without offset it is an ellipse whose pressures are given"""
+    """Symmetries hold, errors are below the stated one, and without offset the contact is an ellipse with prescribed pressures"""
     facts = build(tmp_path / "halves.table", Plan(tolerance=0.12, ratio=(0.95, 1.05), offset=0.3, spin=1.5, elements=7, points=200),
                   workers=2)
     assert facts.has_offset and facts.offset == 0.3 and max(facts.error) <= 0.12
@@ -218,7 +218,7 @@ def test_half_ellipses(tmp_path):
         middle = 0.5 * (4.0 - 6.0) + 3.0 / 8.0 * (6.0**2 - 4.0**2) / (6.0 + 4.0)
         forces = table.force(FN, MU, GG, 5.0, 5.0, 1e5, 0.0, 0.0, offset=0.2)
         np.testing.assert_allclose(forces / LIMIT, [-1.0, 0.0, middle], atol=0.06)
-        # derivatives are those of differences, with the moment about the middle of both extents
+        # derivatives agree with finite differences, with the moment about the middle of both extents
         given = np.array([[0.002], [-0.001], [0.0003]]) * np.linspace(0.1, 3.0, 20)
         _, slopes = table.derivatives(FN, MU, GG, 5.0, 5.0, *given, offset=0.2)
         for k, unit in enumerate((1e-3, 1e-3, 2e-4)):
@@ -234,8 +234,8 @@ def test_command(file, tmp_path):
         command = [os.environ["CONTACT_PROGRAM"], "table", str(path), *words]
         return subprocess.run(command, capture_output=True, text=True, timeout=200)
 
-    told = run(file, "--about")
-    assert "a/b from 0.5 to 2" in told.stdout and "at 1000 random points" in told.stdout
+    about = run(file, "--about")
+    assert "a/b from 0.5 to 2" in about.stdout and "at 1000 random points" in about.stdout
     made = run(tmp_path / "new.table", "--tolerance", "0.15", "--ratio", "0.8", "1.25", "--spin", "0.6", "--elements", "7",
                "--points", "200", "--workers", "1")
     assert made.returncode == 0 and "new.table is written: ellipses" in made.stdout and "solutions" in made.stderr

@@ -18,7 +18,7 @@ P0 = 1.5 * FN / (np.pi * 6.0 * 5.0)
 
 @pytest.fixture(scope="module")
 def sliding():
-    """A Hertzian contact that slides as a whole, along x"""
+    """A Hertzian contact in full sliding along x"""
     base = rolling(41)
     base["grid"]["scale"] = 1.05
     return contact.Study(base, {"kinematics.cksi": [SLIP]}, fields=["pn", "px", "py", "sx", "sy"], derive={
@@ -30,8 +30,8 @@ def test_t_gamma_of_full_sliding(sliding):
 
 
 def test_t_gamma_is_what_refinement_finds():
-    """In steady rolling nothing but friction takes energy: with half the elements half the gap to the power of the slip,
-    and a quarter of it with the second order"""
+    """In steady rolling only friction dissipates energy: the difference from the frictional power decreases with the element size,
+    and with its square by the second order"""
     gaps = {}
     for order in (1, 2):
         for n in (21, 41):
@@ -40,8 +40,8 @@ def test_t_gamma_is_what_refinement_finds():
             base["kinematics"].update(cksi=0.0005, ceta=0.0008, cphi=0.0002)
             found = contact.Study(base).run(workers=1)
             # all three terms have the same sign here
-            told = wear.t_gamma(found.fx, found.fy, 0.0005, 0.0008, found.mz, 0.0002)
-            gaps[order, n] = float(told + 1e3 * found.friction_power / VELOC) / float(told)
+            dissipation = wear.t_gamma(found.fx, found.fy, 0.0005, 0.0008, found.mz, 0.0002)
+            gaps[order, n] = float(dissipation + 1e3 * found.friction_power / VELOC) / float(dissipation)
     assert 0.0 < gaps[1, 41] < 0.15 and 0.4 < gaps[1, 41] / gaps[1, 21] < 0.65, gaps
     assert 0.0 < gaps[2, 41] < 0.01 and gaps[2, 41] / gaps[2, 21] < 0.3, gaps
 
@@ -59,7 +59,7 @@ def test_archard_depth_of_full_sliding(sliding):
     y = float(sliding.y_first) + float(sliding.dy) * np.arange(41)
     exact = coefficient / hardness * SLIP * 1.5 * FN / (np.pi * bb) * np.maximum(0.0, 1 - (y / bb)**2) * np.pi / 2
     np.testing.assert_allclose(depth, exact, atol=0.02 * exact.max())
-    # what is worn off in all is Archard's volume, whatever the pressures
+    # the total worn volume is Archard's, independent of the pressures
     volume = depth.sum() * float(sliding.dy)
     assert volume == pytest.approx(coefficient * FN * SLIP / hardness, rel=0.003)
     with pytest.raises(ValueError):
@@ -89,7 +89,7 @@ def test_shakedown_map():
     for traction in (0.0, 0.1, 0.2, 0.3, 0.36, 0.37, 0.6):
         assert wear.shakedown_limit(traction) == pytest.approx(1.0 / largest_shear(traction), rel=2e-5)
     np.testing.assert_allclose(wear.shakedown_limit([0.0, 0.5, 1.0]), [4.0, 2.0, 1.0])
-    # continuous where the surface begins to decide
+    # continuous at the transition to failure at the surface
     edge = wear._SURFACE_TRACTION
     assert wear.shakedown_limit(edge - 1e-12) == pytest.approx(wear.shakedown_limit(edge), rel=1e-5)
     assert wear.shakedown_state(1200.0, 0.0, 300.0) == pytest.approx(1.0)
@@ -100,8 +100,8 @@ def test_wear_index():
     np.testing.assert_allclose(wear.wear_index(np.array([100.0, 0.0]), np.array([50.0, 0.0])), [2.0, 0.0])
 
 
-def asked(cksi=SLIP, n=41, **more):
-    """The case that slides as a whole, or another one, with wear"""
+def sliding_case(cksi=SLIP, n=41, **more):
+    """The case of full sliding, or another one, with wear"""
     base = rolling(n)
     base["grid"]["scale"] = 1.05
     base["kinematics"]["cksi"] = cksi
@@ -109,8 +109,8 @@ def asked(cksi=SLIP, n=41, **more):
 
 
 def test_totals_of_full_sliding():
-    """What the library tells: friction is the coefficient times the pressure everywhere, and slip is the creepage"""
-    found = contact.Study(asked(), fields=["power", "wear"]).run(workers=1)
+    """Results of the library: friction is the coefficient times the pressure everywhere, and slip is the creepage"""
+    found = contact.Study(sliding_case(), fields=["power", "wear"]).run(workers=1)
     area = np.pi * 6.0 * 5.0
     for name, exact, accuracy in (("t_gamma", MU * FN * SLIP, 1e-5), ("wear_index", MU * FN * SLIP / area, 5e-3),
                                   ("max_power", 1e-3 * MU * P0 * SLIP * VELOC, 2e-3), ("traction", MU, 1e-5),
@@ -124,23 +124,23 @@ def test_totals_of_full_sliding():
 
 
 def test_totals_are_those_of_the_functions():
-    """In partial slip, with spin about another point than the middle"""
-    base = asked(0.001)
+    """Partial slip, with spin about a point other than the middle"""
+    base = sliding_case(0.001)
     base["kinematics"].update(ceta=-0.0005, cphi=0.0003, spinxo=1.0, spinyo=-2.0)
     found = contact.Study(base, fields=["pn", "sx", "sy"]).run(workers=1)
     mz = found.mz - 2.0 * found.fx - 1.0 * found.fy
     t_gamma = wear.t_gamma(found.fx, found.fy, 0.001, -0.0005, mz, 0.0003)
     traction = float(np.hypot(found.fx, found.fy) / FN)
     depth = wear.archard_depth(found.pn.values, found.sx.values, found.sy.values, float(found.dx), ARCHARD, HARDNESS)
-    for name, told in (("t_gamma", t_gamma), ("wear_index", wear.wear_index(t_gamma, found.contact_area)),
-                       ("max_wear", depth.max()), ("shakedown", wear.shakedown_state(found.pmax, traction, YIELD)),
-                       ("fatigue_index", traction - YIELD / float(found.pmax))):
-        assert float(found[name]) == pytest.approx(float(told), rel=1e-9), name
+    for name, expected in (("t_gamma", t_gamma), ("wear_index", wear.wear_index(t_gamma, found.contact_area)),
+                           ("max_wear", depth.max()), ("shakedown", wear.shakedown_state(found.pmax, traction, YIELD)),
+                           ("fatigue_index", traction - YIELD / float(found.pmax))):
+        assert float(found[name]) == pytest.approx(float(expected), rel=1e-9), name
 
 
 def test_stresses_below_the_surface():
     """On the axis of a circular contact without friction; von Mises and Tresca are the same there"""
-    base = asked(motion="none")
+    base = sliding_case(motion="none")
     del base["rolling"], base["friction"]
     base["kinematics"] = {"fn": FN}
     base["grid"].update(aa=5.0, bb=5.0)
@@ -157,8 +157,8 @@ def test_stresses_below_the_surface():
 
 
 def test_a_shift_wears():
-    """Sliding by 0.1 mm as a whole: depth is pressure times distance"""
-    base = asked(0.1, motion="shift")
+    """Full sliding by 0.1 mm: depth is pressure times distance"""
+    base = sliding_case(0.1, motion="shift")
     del base["rolling"]
     base["iteration"] = {"eps": 1e-8}
     found = contact.Study(base, fields=["pn", "sx", "sy", "wear"]).run(workers=1)
@@ -167,15 +167,15 @@ def test_a_shift_wears():
 
 
 def test_nothing_is_told_unasked(tmp_path):
-    base = asked()
+    base = sliding_case()
     del base["wear"]
     found = contact.Study(base, fields=["power", "wear"]).run(workers=1)
     assert (found.status == 0).all() and not {"t_gamma", "traction", "power", "wear"} & set(found.variables)
 
 
 def test_wear_ends(tmp_path):
-    """A case that ends wear after one that has not all of its fields: no depth without Archard's coefficient"""
-    first = asked()
+    """Wear is switched off after a case without all of its fields: no depth without Archard's coefficient"""
+    first = sliding_case()
     first["wear"] = {"shear_yield": YIELD}
     last = {"wear": {"model": "none"}}
     (tmp_path / "ends.toml").write_text("".join(write_case(case) for case in (first, last)))
@@ -187,15 +187,15 @@ def test_wear_ends(tmp_path):
 
 
 def test_what_cannot_be_is_refused():
-    base = asked()
+    base = sliding_case()
     base["wear"] = {"archard": ARCHARD}
     assert "hardness" in str(contact.Study(base).run(workers=1).reasons.values)
-    turned = asked()
+    turned = sliding_case()
     turned["rolling"]["chi"] = 0.5
     assert "along x" in str(contact.Study(turned).run(workers=1).reasons.values)
 
 
-def test_python_objects_tell_it():
+def test_results_of_python_objects():
     with contact.Problem(units="si") as problem:
         problem.set_material(82e9, 0.28)
         problem.set_friction(MU)
@@ -206,7 +206,7 @@ def test_python_objects_tell_it():
         assert problem.solve().wear is None
         problem.set_wear(ARCHARD, 3e9, 300e6)
         found = problem.solve()
-    mm = contact.Study(asked()).run(workers=1)
+    mm = contact.Study(sliding_case()).run(workers=1)
     for name, factor in (("t_gamma", 1.0), ("wear_index", 1e6), ("max_power", 1.0), ("max_wear", 1e-3), ("worn_section", 1e-6),
                          ("traction", 1.0), ("shakedown", 1.0), ("fatigue_index", 1.0)):
         assert found.wear[name] == pytest.approx(float(mm[name]) * factor, rel=1e-6), name

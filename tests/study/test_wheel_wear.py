@@ -1,4 +1,4 @@
-"""Wear of a wheel: volumes of Archard and Braghin, smoothing that loses nothing, profiles that stay what they are, the example."""
+"""Wear of a wheel: volumes of Archard and Braghin, conservation by smoothing, profiles read back unchanged, the example."""
 import os
 import subprocess
 import sys
@@ -19,7 +19,7 @@ def test_rate_joins_its_branches():
 
 
 def test_worn_mass_of_full_sliding_is_that_of_t_gamma():
-    """In mild wear the mass per metre is 5.3 T-gamma, whatever the pressures"""
+    """In mild wear the mass per metre is 5.3 T-gamma, independent of the pressures"""
     base = rolling(21)
     base["grid"]["scale"] = 1.05
     found = contact.Study(base, {"kinematics.cksi": [0.02]}, fields=["px", "py", "sx", "sy"]).run(workers=1).isel(cksi=0)
@@ -37,7 +37,7 @@ def test_smoothing_loses_nothing():
     for width in (0.0, 1.0, 4.0):
         found = smoothed(values, 0.25, width)
         assert found.sum() == pytest.approx(values.sum(), rel=1e-12) and found.min() >= 0.0
-    # weights of Gauss: variances add
+    # Gaussian weights: variances add
     place = np.arange(200) * 0.25
     one = smoothed(np.eye(200)[100], 0.25, 2.0)
     assert ((place - 25.0)**2 * one).sum() == pytest.approx(4.0, rel=0.01)
@@ -55,7 +55,7 @@ def test_profile_is_kept_by_file_and_mesh(tmp_path):
     again.write(tmp_path / "again.prw", "meshed")
     read = Profile.read(tmp_path / "again.prw")
     np.testing.assert_allclose(read.z, again.z, atol=1e-9)
-    # a depth that is the same everywhere moves the tread inwards, and the flange face away from the rail
+    # a uniform depth moves the tread inwards, and the flange face away from the rail
     thinner = profile.worn(np.full(len(profile.y), 0.1))
     assert float(thinner.height_at(0.0) - profile.height_at(0.0)) == pytest.approx(-0.1, abs=1e-3)
     assert thinner.y[np.abs(profile.y + 38.0).argmin()] < profile.y[np.abs(profile.y + 38.0).argmin()]
@@ -70,7 +70,7 @@ def test_profile_of_a_rail(tmp_path):
     head = np.linspace(-30.0, 30.0, 200)
     assert again.is_rail and not Profile.read(S1002).is_rail
     np.testing.assert_allclose(again.height_at(head), rail.height_at(head), atol=2e-3)
-    # a depth that is the same everywhere lowers the head, and takes the gauge face away from the flange
+    # a uniform depth lowers the head, and moves the gauge face away from the flange
     thinner = rail.worn(np.full(len(rail.y), 0.1))
     assert float(thinner.height_at(0.0) - rail.height_at(0.0)) == pytest.approx(0.1, abs=1e-3)
     assert thinner.y[0] - rail.y[0] == pytest.approx(0.1, rel=0.01) and rail.y[-1] - thinner.y[-1] == pytest.approx(0.1, rel=0.01)
@@ -107,7 +107,7 @@ def test_depth_lies_where_the_contact_is_with_archards_volume():
 
 
 def test_a_journey(tmp_path):
-    """Distances add up, area is depth times width, and a journey that was ended goes on with the same profile to the last bit"""
+    """Distances add up, area is depth times width, and an interrupted journey is resumed with the same profile bit by bit"""
     def go(folder, **more):
         return list(wear_of_wheel(base(), one_place, 400.0, archard, folder=folder, base_folder=EXAMPLES, workers=1,
                                   largest_step=0.02, **more))
@@ -118,7 +118,7 @@ def test_a_journey(tmp_path):
     assert last.depth.max() <= 0.0201 * (len(states) - 1)
     widths = np.gradient(np.abs(last.profile.lengths()))
     assert last.area > 0.0 and (last.depth * widths).sum() == pytest.approx(last.area, rel=1e-3)
-    # what is missing of the section is what was worn off
+    # the loss of the section is the worn area
     tread = np.linspace(-35.0, 55.0, 4000)
     gone = np.trapezoid(states[0].profile.height_at(tread) - last.profile.height_at(tread), tread)
     assert gone == pytest.approx(last.area, rel=0.02)
@@ -131,7 +131,7 @@ def test_a_journey(tmp_path):
 
 
 def test_a_rail_wears_where_its_contacts_are(tmp_path):
-    """The section that is missing is what was worn off, and the program reads the worn rail"""
+    """The loss of the section is the worn area, and the program reads the worn rail"""
     wheels = 0.3
     states = list(wear_of_rail(base(), one_place, wheels, archard, folder=tmp_path / "rail", base_folder=EXAMPLES, workers=1,
                                largest_step=0.02))
@@ -147,7 +147,7 @@ def test_a_rail_wears_where_its_contacts_are(tmp_path):
 
 
 def test_depth_on_a_rail_lies_where_pressures_are():
-    """A depth that is the sum of pressures has its centre where the lateral centre of the pressures is, on both bodies"""
+    """A depth that is the sum of pressures has its centre at the lateral centre of the pressures, on both bodies"""
     names = ["pn", "px", "py", "sx", "sy"]
     found = contact.Study(base(), contact.study.table({"position.y_ws": [-4.0]}), fields=names, base_folder=EXAMPLES).run(workers=1)
     one = found.isel(row=0, patch=0)
@@ -163,23 +163,23 @@ def test_depth_on_a_rail_lies_where_pressures_are():
 
 
 def test_example_of_a_rail(tmp_path):
-    told = subprocess.run([sys.executable, str(EXAMPLES / "studies/rail_wear.py"), "--small", "--folder", str(tmp_path / "study")],
+    done = subprocess.run([sys.executable, str(EXAMPLES / "studies/rail_wear.py"), "--small", "--folder", str(tmp_path / "study")],
                           capture_output=True, text=True, timeout=250, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    assert told.returncode == 0, told.stderr
-    assert "5.00 million wheels" in told.stdout and Profile.read(tmp_path / "study/worn.prr").is_rail
+    assert done.returncode == 0, done.stderr
+    assert "5.00 million wheels" in done.stdout and Profile.read(tmp_path / "study/worn.prr").is_rail
 
 
 def test_example(tmp_path):
-    """The worked study, small: smooth, and worn where the contact is"""
-    told = subprocess.run([sys.executable, str(EXAMPLES / "studies/wheel_wear.py"), "--small", "--folder", str(tmp_path / "study")],
+    """The example with few positions: a smooth profile, worn where the contacts are"""
+    done = subprocess.run([sys.executable, str(EXAMPLES / "studies/wheel_wear.py"), "--small", "--folder", str(tmp_path / "study")],
                           capture_output=True, text=True, timeout=250, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    assert told.returncode == 0, told.stderr
-    assert "2000 km" in told.stdout
+    assert done.returncode == 0, done.stderr
+    assert "2000 km" in done.stdout
     rows = np.loadtxt(tmp_path / "study/wear.csv", delimiter=",", skiprows=1)
     assert rows[-1, 0] == 2000.0 and (np.diff(rows[:, 1]) > 0.0).all()
     before, after = (Profile.read(tmp_path / "study" / name).meshed(0.5) for name in ("wheel_0000.prw", "worn.prw"))
     tread = np.linspace(-25.0, 45.0, 71)
     depth = before.height_at(tread) - after.height_at(tread)
     assert 0.02 < depth.max() < 0.3 and abs(tread[depth.argmax()]) < 25.0
-    # no ripples: the depth rises to its few hills and falls, in steps that are small beside it
+    # no ripples: the depth has few maxima, and its steps are small
     assert np.abs(np.diff(depth, 2)).max() < 0.1 * depth.max()

@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
-"""Keep what the program and the library answer, and tell later what has changed.
+"""Store the outputs of the program and the library, and report later what has changed.
 
-    bytes.py store DIR --exe PROGRAM --library LIBRARY      run everything, keep the answers in DIR
-    bytes.py compare DIR --exe PROGRAM --library LIBRARY    run the same again, tell every file that differs
+    bytes.py store DIR --exe PROGRAM --library LIBRARY      run everything, store the outputs in DIR
+    bytes.py compare DIR --exe PROGRAM --library LIBRARY    run the same again, report every file that differs
 
-A store that was interrupted goes on where it was. It keeps its own copies of inputs, profiles, scripts and of the Python package,
-so a comparison looks at program and library only. It runs the examples, and the inputs below
-CONTACT_REFERENCE where there are any, through these doors:
+An interrupted store is resumed. It has its own copies of inputs, profiles, scripts and of the Python package,
+so that a comparison concerns program and library only. It runs the examples, and the inputs below
+CONTACT_REFERENCE if there are any, through these interfaces:
 
-    program   contact 2 with .out, .mat, .subs, HDF5, JSON, VTK, and what it says on the screen
+    program   contact 2 with .out, .mat, .subs, HDF5, JSON, VTK, and its messages
     check     contact 3, also on inputs with single words replaced: errors, and the echo of the input
     run       contact_run_with of the library, the same files
     read      cntc_readinpfile for inputs of wheel and rail, then every cntc_get* in several units, and the input that is written
-    calls     the scripts of tests/capi and examples/library; every call of a routine with its results, and the files they leave
+    calls     the scripts of tests/capi and examples/library; every call of a routine with its results, and the files they write
 
-Left out of a comparison are times, versions, and names of machine and folders, see CHANGING. Computations are done with one thread.
+Times, versions, and names of machine and folders are excluded from a comparison, see CHANGING. Computations use one thread.
 """
 import argparse
 import concurrent.futures
@@ -36,25 +36,25 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 #: Lines of texts that differ from build to build
 CHANGING = re.compile(rb"Version \d+\.\d+\.\d+|^contact \d+\.\d+|compiled by", re.IGNORECASE)
-#: Rows of the table of times: name and count stay
+#: Rows of the table of times: name and count are compared
 TIMES = re.compile(rb"^(\s*\|[^|\n]*\|\s*\d+ \|)(?:\s*[\d.]+ \|){4}", re.MULTILINE)
 #: Folders that scripts make
 TEMPORARY = re.compile(rb"(<work>/tmp/(?:contact_|tmp))\w{8}")
-#: Keys of JSON records, attributes and data sets of HDF5 that do
+#: Keys of JSON records, attributes and data sets of HDF5 that differ
 CHANGING_KEYS = {"seconds", "date", "created", "version", "host", "compiler", "history", "program", "threads"}
-#: Seconds of processor time that a run may take to belong to a quick comparison
+#: Limit of processor time of runs in a quick comparison [s]
 QUICK = 2.5
-#: Seconds of processor time after which a run of a new store is put off to the end
+#: Processor time after which a run of a new store is postponed to the end [s]
 SHORT = 6
-#: What stands in for a word in the inputs of the door "check"
+#: Replacements of a word in the inputs of "check"
 REPLACED = ("x", "-1", "0", "1e9", "99", "", "1.5", "7", "0d", "'name'")
-#: Bytes of a text that are kept; of longer ones only the hash
+#: Maximum size of a stored text; of longer ones only the hash is stored [bytes]
 KEPT = 60_000_000
 SKIPPED = 77
 
 
 def canonical(path, places):
-    """The content of a file without what changes from run to run"""
+    """The content of a file without data that change from run to run"""
     with open(path, "rb") as file:
         data = file.read()
     if data[:8] == b"\x89HDF\r\n\x1a\n":
@@ -125,7 +125,7 @@ def tree(folder, suffixes):
 
 
 def freeze(store, source, inputs):
-    """Copy what the runs read into the store"""
+    """Copy the inputs of the runs into the store"""
     clients = os.path.join(store, "clients")
     for part in ("examples", "python", "tests/capi", "tests/regression"):
         shutil.copytree(os.path.join(source, part), os.path.join(clients, "source", part),
@@ -143,7 +143,7 @@ def freeze(store, source, inputs):
 
 
 def mutate(path):
-    """Inputs beside this one with one word replaced, always the same"""
+    """Variants of an input with one word replaced, always the same"""
     with open(path, encoding="latin-1", newline="") as file:
         text = file.read()
     if text.count("\n") > 2000:
@@ -194,7 +194,7 @@ def tasks(store, patterns):
 
 
 def limited():
-    """In a process that is being started"""
+    """Executed in a new process before its program starts"""
     resource.setrlimit(resource.RLIMIT_CPU, (SHORT, SHORT + 2))
 
 
@@ -254,7 +254,7 @@ def everything(chosen, store, tools, jobs):
 
 
 def read_index(store):
-    """What the store has; empty when it is new"""
+    """Index of the store; empty if it is new"""
     try:
         with open(os.path.join(store, "index.json"), encoding="utf-8") as file:
             return json.load(file)
@@ -271,7 +271,7 @@ def write_index(store, index):
 def do_store(store, arguments, tools):
     if not os.path.exists(os.path.join(store, "clients")):
         freeze(store, arguments.source, arguments.inputs)
-    # what takes long comes last, so that a store can be used while it is being made
+    # slow runs come last, so that a store can be used while it is being made
     index = read_index(store)
     waiting = [task for task in tasks(store, arguments.only) if f"{task[0]}/{task[1]}" not in index]
     for tools["limit"] in (SHORT, None):
@@ -304,8 +304,8 @@ def stored_text(store, door, name, file):
         return None
 
 
-def told(old, new, ignored, lines):
-    """The first differing lines; None when what differs is ignored"""
+def differences(old, new, ignored, lines):
+    """The first differing lines; None if all differences are ignored"""
     def split(text):
         return [line for line in text.decode("utf-8", errors="backslashreplace").split("\n")
                 if not (ignored and ignored.search(line))]
@@ -346,7 +346,9 @@ def do_compare(store, arguments, tools):
             if digest == before[file]:
                 continue
             old = stored_text(store, door, name, file)
-            lines = told(old, text, ignored, arguments.lines) if old is not None and text is not None else ["too long to be kept"]
+            lines = ["too long to be stored"]
+            if old is not None and text is not None:
+                lines = differences(old, text, ignored, arguments.lines)
             if lines is None:
                 continue
             different += 1
@@ -381,9 +383,9 @@ def main():
     parser.add_argument("--patience", type=float, default=900.0, help="seconds that one run may take")
     parser.add_argument("--only", nargs="*", default=["*"], help="door/name patterns, as 'program/*cattaneo*'")
     parser.add_argument("--all", action="store_true", help=f"compare: also runs that took more than {QUICK:g} seconds")
-    parser.add_argument("--ignore", nargs="*", help="compare: regular expressions of lines whose differences are wanted")
+    parser.add_argument("--ignore", nargs="*", help="compare: regular expressions of lines whose differences are ignored")
     parser.add_argument("--lines", type=int, default=4, help="compare: differences shown per file")
-    parser.add_argument("--keep", help="compare: write old and new texts of what differs to this folder")
+    parser.add_argument("--keep", help="compare: write old and new texts that differ to this folder")
     arguments = parser.parse_args()
     tools = {"exe": os.path.abspath(arguments.exe), "library": os.path.abspath(arguments.library),
              "python": arguments.python and os.path.abspath(arguments.python), "patience": arguments.patience}

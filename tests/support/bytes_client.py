@@ -1,4 +1,4 @@
-"""What bytes.py runs in a process of its own: one door of the library, with everything it answers printed.
+"""Process of bytes.py: calls one interface of the library and prints all results.
 
     bytes_client.py run NAME              contact_run_with on an experiment, all outputs
     bytes_client.py read NAME             cntc_readinpfile on an experiment of wheel and rail, then every getter
@@ -12,9 +12,9 @@ import os
 import runpy
 import sys
 
-#: Numbers of an array that are printed one by one
+#: Maximum number of values of an array that are printed one by one
 WHOLE = 20000
-#: Answers that are times or addresses
+#: Results that are times or addresses
 CHANGING = ("cntc_getcalculationtime",)
 
 
@@ -72,7 +72,7 @@ def ask(cntc, ire, icp):
         here = ([ire] if "ire" in names else []) + ([icp] if "icp" in names else [])
         try:
             print(icp, name, printed(function(*here, *more)))
-        except Exception as error:  # what is refused is an answer as well
+        except Exception as error:  # a refusal is a result, too
             print(icp, name, type(error).__name__, error)
 
 

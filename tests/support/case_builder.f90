@@ -84,7 +84,7 @@ contains
       call release_session(self%session)
    end subroutine release
 
-   !> Begin anew: a case with this specification and without a past
+   !> Start again: a case with this specification and without a history
    subroutine start_case(case, spec)
       type(test_case), intent(inout) :: case
       type(case_spec), intent(in) :: spec

@@ -26,8 +26,8 @@ program harness_test
    call inner%close_to([1.0_wp], [1.0_wp, 2.0_wp], 0.1_wp, "other size")
    call inner%equal(1, 2, "integers")
    call inner%equal("a", "a ", "texts")
-   call suite%equal(inner%passed, 0, "none of the wrong claims passes")
-   call suite%equal(inner%failed, 13, "all of the wrong claims fail")
+   call suite%equal(inner%passed, 0, "all false statements fail")
+   call suite%equal(inner%failed, 13, "failures are counted")
 
    call inner%start("right claims")
    call inner%check(.true., "true")
@@ -39,11 +39,11 @@ program harness_test
    call inner%equal(2, 2, "integers")
    call inner%equal("a", "a", "texts")
    call inner%skip("a part", "on purpose")
-   call suite%equal(inner%passed, 8, "all right claims pass")
-   call suite%equal(inner%failed, 0, "no right claim fails")
+   call suite%equal(inner%passed, 8, "all true statements pass")
+   call suite%equal(inner%failed, 0, "no true statement fails")
    call suite%equal(inner%skipped, 1, "skips are counted")
 
-   call suite%check(len(environment("CONTACT_SOURCE")) > 0, "ctest tells the source folder")
+   call suite%check(len(environment("CONTACT_SOURCE")) > 0, "ctest sets the source folder")
    call suite%equal(environment("CONTACT_NO_SUCH_VARIABLE"), "", "an unset variable is empty")
    call suite%finish()
 end program harness_test

@@ -20,31 +20,31 @@ reason_of() {
   case $1 in
     memcheck_*) echo "is run by valgrind" ;;
     capi_host_* | faults_* | confine_without_openat2) echo "limits the memory or replaces calls of the system, which the sanitizers do too" ;;
-    capi_statics | capi_consumer | manual_first_call) echo "looks at the library as it is installed, without instruments" ;;
-    capi_memory | capi_many_rounds) echo "measures memory, of which the sanitizers keep what was freed" ;;
-    performance*) echo "judges times and requests for memory" ;;
+    capi_statics | capi_consumer | manual_first_call) echo "examines the installed library, which is not instrumented" ;;
+    capi_memory | capi_many_rounds) echo "measures memory, and the sanitizers keep freed memory" ;;
+    performance*) echo "measures times and requests for memory" ;;
     octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
     report_browser | report_start | report_viewer) echo "tests the page in the browser" ;;
-    study_*) echo "Python loads the library into workers that have no instruments" ;;
+    study_*) echo "Python loads the library into workers that are not instrumented" ;;
     capi_wheel | capi_types) echo "tests the package of Python, not the library" ;;
   esac
 }
 
 export ASAN_OPTIONS=allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$top/tests/support/leaks.supp:print_suppressions=0"
-# programs of the tests that are timed get more time
+# timed programs of the tests get more time
 export CONTACT_SLOWER=20
 elsewhere='^(performance.*|octave_.*|report_browser|report_start|report_viewer|no_exports)$'
 
 build sanitize -DCONTACT_TESTS=ON
 part "Address and undefined-behaviour sanitizers, leaks" \
   ctest --test-dir "$top/build/sanitize" --output-on-failure -j2 -LE '^long$' -E "$elsewhere"
-# a traced process cannot be searched for leaks
+# leaks cannot be detected in a traced process
 part "The same for a traced program" \
   env ASAN_OPTIONS=detect_leaks=0 ctest --test-dir "$top/build/sanitize" --output-on-failure -R '^no_exports$'
 
 build sanitize-thread -DCONTACT_TESTS=ON
-# units of libgfortran lock in both orders, with a try that the sanitizer does not see; it wants addresses without surprises
+# units of libgfortran lock in both orders, with a trylock that the sanitizer does not see; it needs addresses without randomisation
 part "Thread sanitizer" env TSAN_OPTIONS=detect_deadlocks=0 OMP_NUM_THREADS=8 \
   setarch -R ctest --test-dir "$top/build/sanitize-thread" --output-on-failure -L '^threads$'
 

@@ -193,7 +193,7 @@ install_axe() {
     quiet_apt npm || say "npm could not be installed"
   fi
   npm install --prefix "$top/build/axe" --ignore-scripts --no-audit --no-fund --silent "axe-core@$axe" ||
-    say "axe-core could not be installed; tests of the pages go on without it"
+    say "axe-core could not be installed; tests of the pages run without it"
 }
 
 install_valgrind() {
@@ -224,7 +224,7 @@ install_linters() {
 install_fuzzer() {
   ls /usr/lib/llvm-*/lib/libFuzzer.a >/dev/null 2>&1 && return 0
   say "Installing libFuzzer"
-  quiet_apt libfuzzer-14-dev || fail "libFuzzer is missing; ask for the package libfuzzer-14-dev or one of a later number"
+  quiet_apt libfuzzer-14-dev || fail "libFuzzer is missing; install the package libfuzzer-14-dev or a later version"
 }
 
 # build PRESET [options of cmake]
@@ -240,7 +240,7 @@ build() {
   say "Building ($preset)"
   # shellcheck disable=SC2086
   (cd "$top" && cmake --preset "$preset" $generator "$@" && cmake --build --preset "${build_targets:-$preset}" -j "$jobs") ||
-    fail "The build failed; its messages stand above."
+    fail "The build failed; see its messages above."
 }
 
 jobs=${CONTACT_JOBS:-2}

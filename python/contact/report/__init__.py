@@ -1,6 +1,6 @@
-"""A page to look at: the results of an experiment as one HTML file, and a small server on this machine.
+"""`contact report`: the results of an experiment as one HTML file, and a small server on this machine.
 
-Works without the CONTACT library; NumPy and h5py are needed.
+Does not use the CONTACT library; requires NumPy and h5py.
 """
 from .page import write_page
 from .read import MissingResults, read_experiment

@@ -27,7 +27,7 @@ class Plane extends Frame {
     const b = state.block;
     return (b && b.mode === "difference" ? "difference " : "") + "block " + (b ? b.name : "");
   }
-  // Number of a point, from its numbers along the two axes of the plane
+  // Index of a point, from its indices along the two axes of the plane
   at(block, i, j) {
     const n = [block.x.length, block.y.length],
       { plane, place } = block;
@@ -59,7 +59,7 @@ class Plane extends Frame {
     const width = Math.round((x1 - x0) * ratio),
       height = Math.round((y1 - y0) * ratio);
     if (width > 0 && height > 0) {
-      // linear between the points
+      // linear interpolation between the points
       const cells = (list, n, place) =>
         Array.from({ length: n }, (_, k) => {
           const p = place((k + 0.5) / ratio);
@@ -101,7 +101,7 @@ class Plane extends Frame {
   }
   describe(b, flat) {
     const [low, high] = rangeOf(flat);
-    this.tell(
+    this.describe(
       `${STRESSES[b.name]}${WHOSE[b.mode]} in ${b.plane} = ${figures(b[b.plane][b.place])} mm, ` +
         `from ${figures(low)} to ${figures(high)} ${stressUnit(b.name)}`,
     );
@@ -111,7 +111,7 @@ class Plane extends Frame {
     const k = across.length > 1 ? 0 : 1,
       places = [across, along][k];
     if (places.length < 2)
-      return this.blank(`${STRESSES[b.name]} ${figures(values[0], 5)} ${stressUnit(b.name)} in the only point`);
+      return this.blank(`${STRESSES[b.name]} ${figures(values[0], 5)} ${stressUnit(b.name)} at the only point`);
     this.down = this.equal = false;
     let [low, high] = rangeOf([0, ...values]);
     if (high === low) high = low + 1;
@@ -145,7 +145,7 @@ class Plane extends Frame {
     ]);
   }
 }
-// Values of the same points in the other run; null where it has none. Blocks agree in all their coordinates
+// Values at the same points in the other run, from the block with equal coordinates; null if there is none
 async function otherBlock(other, number, block, name) {
   const there = other && other.patch && other.patch.blocks && other.patch.blocks[number];
   const same = axis =>
@@ -153,8 +153,8 @@ async function otherBlock(other, number, block, name) {
     there[axis].every((v, i) => Math.abs(v - block[axis][i]) <= 1e-5 * Math.max(1, Math.abs(v)));
   return there && name in there.fields && ["x", "y", "z"].every(same) ? load(other.run, there.fields[name]) : null;
 }
-// The chosen block, stress and plane of the patch; keeps what was chosen where it can. One picture cannot show both runs side by
-// side: it shows their difference then
+// The selected block, stress and plane of the patch; the selection is kept if possible. The plot cannot show both runs side by
+// side, so it shows their difference then
 async function chosenBlock(p, other) {
   const blocks = p && p.blocks ? p.blocks : [];
   byId("card-block").hidden = !blocks.length;
@@ -198,7 +198,7 @@ async function chosenBlock(p, other) {
     key = `${plane}${count}`;
   slider.max = count - 1;
   if (slider.dataset.key !== key) {
-    // through the middle; with depths a little below the surface
+    // through the middle; for planes of constant depth a little below the surface
     slider.dataset.key = key;
     slider.value = Math.floor((count - 1) / 2);
   }

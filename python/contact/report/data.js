@@ -1,14 +1,13 @@
-// What the page shows: the results of one run, or of two side by side. The arrays are deflated and in base64;
-// page.py writes them, and everything else happens here, without any network.
+// Data of the page: the results of one run, or of two for comparison. page.py writes the arrays, deflated and in base64.
 const byId = id => document.getElementById(id);
 const embedded = id => JSON.parse(byId(id).textContent);
 const runOf = (data, blobs) => ({ data, blobs, decoded: new Map() });
-// The run of the page, and perhaps another one to compare it with
+// The run of the page, and optionally another one for comparison
 const runs = [runOf(embedded("data"), embedded("blobs"))];
 if (embedded("data-other")) runs.push(runOf(embedded("data-other"), embedded("blobs-other")));
 const data = runs[0].data;
 const columns = data.columns;
-// What is chosen: case, patch, row and column of the sections, view of the maps, and what follows from it
+// Current selection: case, patch, row and column of the sections, view of the maps; and data derived from it
 const state = { index: 0, patch: 0, row: null, column: null, view: null, home: null, fields: null, other: null, ready: false };
 
 const STATES = [
@@ -35,11 +34,11 @@ const NAMES = {
   taucrt: "yield limit",
   upls: "plastic displacement",
 };
-// Fields that are shown in other ways than by themselves
+// Fields that are not offered as maps, because they are part of other displays
 const PARTS = ["eldiv", "uplsx", "uplsy"];
 const nameOf = name => NAMES[name] || data.titles[name] || name;
 
-// One array of a run: numbers of 4 bytes are stored as four planes of bytes
+// One array of a run; numbers of 4 bytes are stored as four planes of bytes
 function load(run, id) {
   if (!run.decoded.has(id)) run.decoded.set(id, unpack(run.blobs[id]));
   return run.decoded.get(id);
@@ -59,7 +58,7 @@ async function unpack(blob) {
   for (let i = 0; i < n; i++) numbers[i] = view.getFloat32(4 * i, true);
   return numbers;
 }
-// All fields of a patch, and those that follow from them; read.py has the same of their ranges
+// All fields of a patch, and derived fields; read.py computes their ranges in the same way
 async function fieldsOf(run, patch) {
   const fields = {};
   for (const name of Object.keys(patch.fields)) fields[name] = await load(run, patch.fields[name]);
@@ -75,7 +74,7 @@ async function fieldsOf(run, patch) {
     fields.pt = derive(i => Math.hypot(px[i], py[i]));
     if (sx) fields.slip = derive(i => Math.hypot(sx[i], sy[i]));
     if (mu) fields.use = derive(i => (pn[i] > 0 && mu[i] > 0 ? Math.min(1.5, fields.pt[i] / (mu[i] * pn[i])) : 0));
-    // slip is relative in rolling: N/mm2 times mm/s, in W/mm2
+    // slip is relative in rolling: N/mm2 times mm/s, converted to W/mm2
     if (sx && "cksi" in patch.totals && veloc > 0)
       fields.power = derive(i => (Math.abs(px[i] * sx[i] + py[i] * sy[i]) * veloc) / 1000);
   }
@@ -100,7 +99,7 @@ function figures(value, digits = 4) {
 const withUnit = (value, unit, digits) => figures(value, digits) + (pretty(unit) ? " " + pretty(unit) : "");
 const meta = name => columns[name] || { unit: "", title: name };
 const label = name => name + (pretty(meta(name).unit) ? ` [${pretty(meta(name).unit)}]` : "");
-// A total of a patch or of its case; how often the wheel or problem stands for itself in a curve
+// Value of a total, of a patch or of its case
 function valueOf(c, p, name) {
   if (name === "case") return c.number;
   if (p && name in p.totals) return p.totals[name];
@@ -119,8 +118,8 @@ function counterpart(index, patch) {
   const number = mine.patches[patch] && mine.patches[patch].number;
   return { run, case: found, patch: found.patches.find(p => p.number === number) || null };
 }
-// Values of a field of the other patch at the centres of mine: bilinear between its centres, exact on the same grid; beside its
-// grid there is no contact, and the value is zero
+// Values of a field of the other patch at the element centres of this one: bilinear interpolation, exact on equal grids, zero
+// outside of its grid, where there is no contact
 function resampled(values, from, to) {
   const result = new Float32Array(to.mx * to.my);
   for (let iy = 0; iy < to.my; iy++)

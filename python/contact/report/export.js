@@ -1,4 +1,4 @@
-// Pictures as PNG and SVG, their numbers and all tables as CSV; limits of colours by hand. Each card has a bar of tools for that.
+// Export of plots as PNG and SVG, of their data and of all tables as CSV; user limits of colours. Each card has a toolbar for that.
 const PICTURE = { width: 900, height: 640, scale: 2 };
 function save(name, content, kind) {
   const link = document.createElement("a"),
@@ -10,7 +10,7 @@ function save(name, content, kind) {
   link.remove();
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
-// Texts with a comma, a quote or an end of line in quotes; numbers as they are, nothing where there is none
+// CSV field: texts with a comma, a quote or a line break are quoted, numbers are unchanged, missing values are empty
 const csvCell = value =>
   value === null || value === undefined || Number.isNaN(value)
     ? ""
@@ -23,7 +23,7 @@ const fileName = (what, suffix) => {
     number = nowCase().label.replace(/[^0-9]+/g, "-");
   return `${data.experiment}_${what}_case${number}${patch}.${suffix}`.replace(/[^A-Za-z0-9._-]+/g, "_");
 };
-// Draw a picture with another brush than that of its canvas
+// Draw a plot with another context than that of its canvas
 function drawn(plot, file) {
   plot.file = file;
   try {
@@ -54,7 +54,7 @@ function saveSvg(plot, what) {
 }
 const sizeOf = plot => (plot.canvas.closest(".card").classList.contains("wide") ? { ...PICTURE, width: 1200 } : PICTURE);
 
-// Numbers of the pictures
+// Data of the plots
 function csvOfMap(map) {
   const name = map.choose(),
     shown = picture(name, map.mode()),
@@ -135,7 +135,7 @@ function csvOfScene() {
       }
   return rows;
 }
-// All totals of all cases and patches, each with its estimated error where errors were asked for
+// All totals of all cases and patches, each with its estimated error if errors were computed
 function csvOfCases() {
   const rows = [],
     names = new Set(),
@@ -193,7 +193,7 @@ function csvOfInputs() {
   ];
 }
 
-// The bar of tools of a card: files, and limits of the colours where the picture has some
+// Toolbar of a card: files, and limits of the colours if the plot has a colour scale
 function addTools(card, { what, plot, rows }) {
   const name = card.querySelector("h2 .name").textContent,
     bar = document.createElement("div"),

@@ -1,7 +1,7 @@
-"""A new experiment from a form: the common cases, in either format of the input.
+"""New experiments from a form, for common cases, in either format of the input.
 
-The form is described here once; the page draws it and sends names and values back. The input is written in the readable format,
-checked by the program, and converted by it when the other format is wanted. What the program refuses is taken away again.
+The form is defined here; the page displays it and sends names and values back. The input is written in the readable format,
+checked by the program, and converted by it if the other format is requested. A refused input is deleted again.
 """
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from typing import Any
 from .folder import FORMATS, Folder
 from .job import program_path
 
-#: A name of a new experiment, cases of a new experiment at most, and the time that its check may take [s]
-NAME, MOST_CASES, CHECK_TIME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}"), 500, 30.0
+#: Pattern of names of new experiments, maximum number of cases of one, and time limit of its check [s]
+NAME, MAX_CASES, CHECK_TIME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}"), 500, 30.0
 
 STEEL = [("gg", "Modulus of rigidity", "N/mm\u00b2", 82000.0), ("poiss", "Poisson ratio", "", 0.28)]
-#: Kinds of experiments. A field is (name, label, unit, value to begin with) or, for a choice, (name, label, [(value, words)]), or,
-#: for a file, (name, label, "profile", endings of likely ones); "vary" names the fields that can change from case to case, with
-#: the group of the input in which each stands
+#: Kinds of experiments. A field is (name, label, unit, initial value) or, for a choice, (name, label, [(value, words)]), or,
+#: for a file, (name, label, "profile", preferred suffixes); "vary" has the fields that can vary from case to case, with the
+#: group of the input to which each belongs
 KINDS: dict[str, dict[str, Any]] = {
     "hertz": {
         "title": "Two smooth bodies (Hertz)",
@@ -132,16 +132,16 @@ fx_ws = {fx_ws}
 
 
 class Refused(Exception):
-    """The form cannot become an experiment, and the message says why"""
+    """The form does not define a valid experiment; the message gives the reason"""
 
 
 def form_of(folder: Folder, place: str) -> dict[str, Any]:
-    """What the page needs to draw the form for new experiments in a folder"""
-    return {"kinds": KINDS, "profiles": folder.profiles(place), "formats": FORMATS, "most": MOST_CASES}
+    """Data with which the page displays the form for new experiments in a folder"""
+    return {"kinds": KINDS, "profiles": folder.profiles(place), "formats": FORMATS, "most": MAX_CASES}
 
 
 def _values(kind: dict[str, Any], given: dict[str, Any], profiles: list[str]) -> dict[str, Any]:
-    """The fields of a form, each one judged"""
+    """The fields of a form, each one checked"""
     values: dict[str, Any] = {}
     for name, label, third, *_ in kind["fields"]:
         value = given.get(name)
@@ -164,11 +164,11 @@ def _number(label: str, value: Any) -> float:
 
 
 def text_of(kind: str, values: dict[str, Any], vary: str = "", to: float = 0.0, count: int = 1) -> str:
-    """The input in the readable format; one field may go to another value in equal steps"""
+    """The input in the readable format; one field may vary to another value in equal steps"""
     if kind == "hertz":
         if not (values["rx"] > 0.0 and values["ry"] > 0.0 and values["mx"] >= 1.0):
             raise Refused("Radii and number of elements are positive")
-        # about one element, of a ball on a plane of the mean radius (Hertz 1882); the program takes the element it finds
+        # about one element, for a ball of the mean radius on a plane (Hertz 1882); the program uses the element of its grid
         stiffness = values["gg"] / max(1.0 - values["poiss"], 0.1)
         radius = (0.75 * abs(values["fn"]) * math.sqrt(values["rx"] * values["ry"]) / max(stiffness, 1e-9)) ** (1 / 3)
         lines = HERTZ.format(**{**values, "mx": int(values["mx"]), "a1": 0.5 / values["rx"], "b1": 0.5 / values["ry"],
@@ -184,65 +184,65 @@ def text_of(kind: str, values: dict[str, Any], vary: str = "", to: float = 0.0, 
     return "\n".join(cases)
 
 
-def _asked(body: bytes) -> tuple[dict[str, Any], str, str, str]:
+def _parse_form(body: bytes) -> tuple[dict[str, Any], str, str, str]:
     """The form as it was sent, with name, folder and format"""
     try:
-        asked = json.loads(body)
+        data = json.loads(body)
     except ValueError:
-        asked = None
-    if not isinstance(asked, dict) or not isinstance(asked.get("values"), dict):
+        data = None
+    if not isinstance(data, dict) or not isinstance(data.get("values"), dict):
         raise Refused("the form cannot be understood")
-    name, place, form = (asked.get(key) for key in ("name", "folder", "format"))
+    name, place, form = (data.get(key) for key in ("name", "folder", "format"))
     if not isinstance(name, str) or not NAME.fullmatch(name):
         raise Refused("A name has letters, digits, - and _, 60 at most, and begins with a letter or a digit")
-    if not isinstance(place, str) or form not in FORMATS or asked.get("kind") not in KINDS:
+    if not isinstance(place, str) or form not in FORMATS or data.get("kind") not in KINDS:
         raise Refused("the form cannot be understood")
-    return asked, name, place, str(form)
+    return data, name, place, str(form)
 
 
 def new_input(folder: Folder, body: bytes) -> dict[str, Any]:
-    """Write the experiment of a form into a folder; its name, and what the check of the program says"""
-    asked, name, place, form = _asked(body)
-    kind = KINDS[asked["kind"]]
+    """Write the experiment of a form into a folder; returns its name and the messages of the program's check"""
+    data, name, place, form = _parse_form(body)
+    kind = KINDS[data["kind"]]
     path = folder.place(place)
     if path is None:
         raise Refused("there is no such folder")
-    values = _values(kind, asked["values"], folder.profiles(place))
-    vary, count = asked.get("vary") or "", asked.get("count", 1)
+    values = _values(kind, data["values"], folder.profiles(place))
+    vary, count = data.get("vary") or "", data.get("count", 1)
     if vary and vary not in kind["vary"]:
         raise Refused("%s cannot be varied" % vary)
-    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MOST_CASES or (count > 1) != bool(vary):
-        raise Refused("The number of cases is from 2 to %d where something varies" % MOST_CASES)
-    text = text_of(asked["kind"], values, vary, _number("The last value", asked.get("to", 0.0)), count)
+    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MAX_CASES or (count > 1) != bool(vary):
+        raise Refused("The number of cases is from 2 to %d where something varies" % MAX_CASES)
+    text = text_of(data["kind"], values, vary, _number("The last value", data.get("to", 0.0)), count)
     base = os.path.join(path, name)
     if any(os.path.lexists("%s.%s" % (base, other)) for other in FORMATS):
         raise Refused("there is an experiment %s already" % name)
-    return {"name": (place + "/" if place else "") + name, "told": _written(base, form, text)}
+    return {"name": (place + "/" if place else "") + name, "messages": _written(base, form, text)}
 
 
 def _written(base: str, form: str, text: str) -> str:
-    """Write an input in the readable format, check it, and convert it when the other format is wanted; what the check says"""
+    """Write an input in the readable format, check it, and convert it if the other format is requested; messages of the check"""
     source = base + ".toml"
     try:
-        with open(source, "x", encoding="utf-8") as file:  # never over a file or a link that is there
+        with open(source, "x", encoding="utf-8") as file:  # never overwrites a file or a link
             file.write(text)
     except OSError as reason:
         raise Refused("%s could not be written: %s" % (source, reason.strerror)) from None
     keep = False
     try:
         name = os.path.basename(base)
-        told = _program(base, "--confine", "--", "3", name + ".toml").replace(name + ".toml:", "%s.%s:" % (name, form))
+        messages = _program(base, "--confine", "--", "3", name + ".toml").replace(name + ".toml:", "%s.%s:" % (name, form))
         if form != "toml":
             _program(base, "convert", source)
         keep = form == "toml"
-        return told
+        return messages
     finally:
         if not keep:
             os.remove(source)
 
 
 def _program(base: str, *arguments: str) -> str:
-    """What the program tells; Refused where it does not end well"""
+    """Output of the program; raises Refused if it fails"""
     try:
         run = subprocess.run([program_path(), *arguments], cwd=os.path.dirname(base), stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=CHECK_TIME,

@@ -1,8 +1,8 @@
-// A picture: a canvas that is drawn anew on demand, can be moved and enlarged within limits by pointer, touch and keys,
-// and can be drawn into a file as well. Frame adds axes; children draw inside. A view is [x0, x1, y0, y1].
+// A plot: a canvas that is redrawn on demand, can be panned and zoomed within limits by pointer, touch and keys, and can be
+// exported to a file. Frame adds axes; subclasses draw inside. A view is [x0, x1, y0, y1].
 const MARGIN = { left: 64, right: 18, top: 12, bottom: 40 };
 const FONT = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
-// Smallest and largest view against the whole picture
+// Size of the smallest and the largest view relative to the whole plot
 const CLOSEST = 1 / 200,
   WIDEST = 3;
 
@@ -19,7 +19,7 @@ class Picture {
     this.title = this.name = this.canvas.closest(".card").querySelector("h2 .name").textContent;
     this.handle();
   }
-  // Size of the picture and what it is drawn with: the canvas, or what export.js has put in its place
+  // Size of the plot and its drawing context: that of the canvas, or the substitute of export.js
   prepare() {
     let ratio = window.devicePixelRatio || 1,
       c = this.context;
@@ -53,10 +53,10 @@ class Picture {
     c.textBaseline = "middle";
     c.fillText(text, this.width / 2, this.height / 2);
     this.shown = null;
-    this.tell(text);
+    this.describe(text);
   }
-  // What the picture shows, in words, for those who do not see it
-  tell(text) {
+  // Description of the plot in words, for screen readers
+  describe(text) {
     const name = `${this.title}: ${text}`;
     if (!this.file && this.canvas.getAttribute("aria-label") !== name) this.canvas.setAttribute("aria-label", name);
   }
@@ -92,7 +92,7 @@ class Picture {
     canvas.addEventListener("pointercancel", () => {
       from = null;
     });
-    // one finger scrolls the page, a tap tells values, two fingers move and enlarge
+    // one finger scrolls the page, a tap shows values, two fingers pan and zoom
     let pinch = null;
     const two = list => {
       const [a, b] = [this.spot(list[0]), this.spot(list[1])];
@@ -185,20 +185,20 @@ class Frame extends Picture {
   get home() {
     return this.shared ? state.home : this.ownHome;
   }
-  // The view that shows all; the first one, and the limit of others
+  // The complete view: the initial one, and the limit of panning
   set home(v) {
     this.ownHome = v;
     if (!this.own) this.own = v;
   }
-  // With the range of all curves and the entries of a legend: the first view has the curves below the legend
+  // Set the range of all curves and the entries of a legend; the initial view has the curves below the legend
   begin(all, entries = []) {
     const c = this.prepare(),
       w = this.width - MARGIN.left - this.right,
       h = this.height - MARGIN.top - MARGIN.bottom;
     if (all) {
       const [x0, x1, low, high] = all,
-        room = entries.length && Math.min(legendPlaces(c, this, entries).at(-1)[1] - MARGIN.top + 12, h / 2);
-      this.home = [x0, x1, low, high + ((high - low) * room) / (h - room)];
+        legendHeight = entries.length && Math.min(legendPlaces(c, this, entries).at(-1)[1] - MARGIN.top + 12, h / 2);
+      this.home = [x0, x1, low, high + ((high - low) * legendHeight) / (h - legendHeight)];
     }
     let [x0, x1, y0, y1] = this.view;
     if (this.equal) {
@@ -302,7 +302,7 @@ class Frame extends Picture {
     }
     c.stroke();
   }
-  // Within the limits: neither so near that nothing is left, nor so far that it is lost
+  // Restrict a view to the limits of zooming and panning
   limited([x0, x1, y0, y1]) {
     const home = this.home || this.shown,
       wide = [home[1] - home[0], home[3] - home[2]];
@@ -404,7 +404,7 @@ function colourBar(frame, { low, high, colour, given }, unit) {
   for (const t of ticks(low, high, 5))
     c.fillText(tickText(t, high - low), left + 16, MARGIN.top + 20 + (height * (high - t)) / (high - low));
 }
-// Where the entries of a legend begin, in as many rows as they need
+// Positions of the entries of a legend, in as many rows as necessary
 function legendPlaces(c, frame, entries) {
   const left = MARGIN.left + 10;
   let x = left,

@@ -1,4 +1,4 @@
-"""One run of the program for the server, and what it tells."""
+"""One run of the program for the server, and its messages."""
 from __future__ import annotations
 
 import os
@@ -11,11 +11,11 @@ from typing import Any
 
 from .read import MissingResults
 
-#: Messages of a run that are kept
-MOST_MESSAGES = 20000
-#: How long a run that is to end may take for the case in hand [s], and the count of its cases [s]
+#: Maximum number of stored messages of a run
+MAX_MESSAGES = 20000
+#: Time limits: of the current case of a run that is to end [s], and of counting the cases of an input [s]
 LAST_CASE, COUNT_TIME = 2.0, 60.0
-#: The line with which a case begins, and the one that counts the cases of an input
+#: Patterns of the first line of a case, and of the line with the number of cases of an input
 CASE, COUNT = re.compile(rb" Case +\d+"), re.compile(r": (\d+) cases? checked")
 
 
@@ -29,7 +29,7 @@ def program_path() -> str:
 
 
 def count_of(path: str) -> int | None:
-    """Number of cases of an input, as the program counts them when it checks; None where it does not"""
+    """Number of cases of an input, as reported by a check of the program; None without a report"""
     try:
         run = subprocess.run([program_path(), "--confine", "--", "3", path], cwd=os.path.dirname(path), stdin=subprocess.DEVNULL,
                              capture_output=True, text=True, errors="replace", timeout=COUNT_TIME, check=False)
@@ -40,7 +40,7 @@ def count_of(path: str) -> int | None:
 
 
 class Job:
-    """One run of the program; its messages are kept, so that every listener gets all of them"""
+    """One run of the program; its messages are stored, so that every listener receives all of them"""
 
     def __init__(self, name: str, path: str, mode: str) -> None:
         self.name, self.mode, self.path = name, mode, path
@@ -52,7 +52,7 @@ class Job:
         self.begun = 0
         self.planned: int | None = None
         self.news = threading.Condition()
-        # the name comes from the list of the folder; after -- it cannot be an option
+        # the path is that of an existing input; after -- it cannot be read as an option
         command = [program_path(), "--confine", *(["--hdf5"] if mode == "run" else []), "--", "2" if mode == "run" else "3", path]
         self.process = subprocess.Popen(command, cwd=os.path.dirname(path), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT, start_new_session=True)
@@ -61,7 +61,7 @@ class Job:
             threading.Thread(target=self._count, daemon=True).start()
 
     def state(self) -> dict[str, Any]:
-        """What a page that comes later needs to know"""
+        """State of the job, for a page that is opened later"""
         with self.news:
             return {"name": self.name, "mode": self.mode, "done": self.done, "status": self.status, "stopping": self.stopping,
                     "seconds": (self.ended or time.time()) - self.started, **self._progress()}
@@ -69,7 +69,7 @@ class Job:
     def _progress(self) -> dict[str, Any]:
         return {"begun": self.begun, "planned": self.planned}
 
-    def _tell(self, kind: str, value: Any) -> None:
+    def _publish(self, kind: str, value: Any) -> None:
         with self.news:
             self.messages.append((kind, value))
             if kind == "end":
@@ -89,14 +89,15 @@ class Job:
                 if CASE.match(line):
                     with self.news:
                         self.begun += 1
-                if number < MOST_MESSAGES:
-                    self._tell("line", line[:1000].decode("utf-8", "replace").rstrip("\r\n"))
-                elif number == MOST_MESSAGES:
-                    self._tell("line", "There are more messages; the .out file has them.")
-        self._tell("end", self.process.wait())
+                if number < MAX_MESSAGES:
+                    self._publish("line", line[:1000].decode("utf-8", "replace").rstrip("\r\n"))
+                elif number == MAX_MESSAGES:
+                    self._publish("line", "There are more messages; the .out file has them.")
+        self._publish("end", self.process.wait())
 
     def follow(self, sent: int, patience: float) -> tuple[list[tuple[str, Any]], dict[str, Any], bool]:
-        """Messages behind the first ones, waited for; how far the run is, and whether it has ended"""
+        """Waits for messages beyond the first `sent` ones, at most `patience` seconds; returns them, the progress of the run, and
+        whether it has ended"""
         with self.news:
             before = self._progress()
             if sent == len(self.messages) and not self.done:
@@ -104,13 +105,13 @@ class Job:
             return self.messages[sent:], self._progress(), self.done
 
     def stop(self) -> None:
-        """The first time the run ends after the case in hand, the second time at once"""
+        """Stop the run: the first call ends it after the current case, the second one at once"""
         if not self.done:
             self.stopping = True
             self.process.terminate()
 
     def end(self) -> None:
-        """End the run, with its files closed if the case in hand is short"""
+        """End the run; its files are closed if the current case ends in time"""
         self.stop()
         try:
             self.process.wait(LAST_CASE)

@@ -1,12 +1,12 @@
 // Maps of the elements, and sections through them.
 class ElementMap extends Frame {
-  // What is shown: the name of a field, and whether of this run, the other one, or their difference
+  // Contents: the name of a field, and whether it is that of this run, of the other one, or their difference
   constructor(id, choose, mode) {
     super(id, { equal: true, right: 92, shared: true });
     this.choose = choose;
     this.mode = mode;
   }
-  // Name under which limits of the colours are kept
+  // Key of the user limits of the colours
   get key() {
     return (this.mode() === "difference" ? "difference " : "") + this.choose();
   }
@@ -70,7 +70,7 @@ class ElementMap extends Frame {
         `${shown.mode === "this" ? "" : shown.mode + ", "}${nameOf(name)}, ` +
         `${caseName(nowCase())}, patch ${shown.patch.number}`;
     if (name === "eldiv")
-      return this.tell(
+      return this.describe(
         `${what}; ` +
           STATES.map(([text], k) => [text, inside.reduce((n, v) => n + (v === k), 0)])
             .filter(s => s[1])
@@ -88,7 +88,7 @@ class ElementMap extends Frame {
     const place = i =>
       `x ${figures(grid.xl + ((i % grid.mx) + 0.5) * grid.dx, 3)}, ` +
       `y ${figures(grid.yl + (Math.floor(i / grid.mx) + 0.5) * grid.dy, 3)} mm`;
-    return this.tell(
+    return this.describe(
       high < 0
         ? `${what}; no contact`
         : `${what}; from ${withUnit(values[low], unitOf(shown.patch, name))} at ${place(low)} ` +
@@ -141,7 +141,7 @@ class ElementMap extends Frame {
     c.stroke();
     c.setLineDash([]);
   }
-  // Border of the contact and of the slip area
+  // Borders of the contact area and of the slip area
   outline(c, grid, inside) {
     this.border(c, grid, inside, v => v > 0, "rgba(29,39,51,.8)", 1.2);
     if (inside.includes(1) && inside.includes(2)) this.border(c, grid, inside, v => v === 1, "rgba(29,39,51,.5)", 1);
@@ -205,7 +205,7 @@ class ElementMap extends Frame {
       }
   }
 }
-// An arrow about its middle, in a direction of length 1
+// An arrow centred at a point, along a unit vector
 function arrow(c, x, y, ux, uy, length) {
   const x0 = x - (ux * length) / 2,
     y0 = y - (uy * length) / 2,
@@ -225,7 +225,7 @@ function arrow(c, x, y, ux, uy, length) {
 
 // Pressure, tractions and their bound along one row or column of elements
 class Section extends Frame {
-  // Places and lines [name, colour, values, dash] of a patch
+  // Abscissas and lines [name, colour, values, dash] of a patch
   lines(patch, f, along, at, faint) {
     const { mx, my, xl, yl, dx, dy } = patch.grid,
       n = along ? mx : my;
@@ -306,11 +306,13 @@ class Section extends Frame {
     c.setLineDash([]);
     this.end(along ? "x [mm]" : nowCase().module === 1 ? "s [mm]" : "y [mm]", "N/mm\u00b2");
     legend(c, this, entries);
-    const told = along ? `row ${at + 1} of ${my}, y = ${figures(place)} mm` : `column ${at + 1} of ${mx}, x = ${figures(place)} mm`;
-    byId("section-row").textContent = told;
-    byId("section-row").title = `${told}; click a map for another`;
-    this.tell(
-      `${told}; ` +
+    const section = along
+      ? `row ${at + 1} of ${my}, y = ${figures(place)} mm`
+      : `column ${at + 1} of ${mx}, x = ${figures(place)} mm`;
+    byId("section-row").textContent = section;
+    byId("section-row").title = `${section}; click a map for another`;
+    this.describe(
+      `${section}; ` +
         this.drawn
           .filter(l => l.name && !l.name.startsWith("\u00b1"))
           .map(l => {
@@ -374,7 +376,7 @@ function read(pairs) {
     }),
   );
 }
-// Row and column of the sections: those that were chosen, or through the largest pressure
+// Row and column of the sections: the selected ones, or those through the largest pressure
 function sectionRow() {
   const p = nowPatch();
   if (state.row !== null && state.row < p.grid.my) return state.row;
@@ -393,7 +395,7 @@ function sectionColumn() {
     return most;
   });
 }
-// Of equal ones the middle one
+// The middle one of equal values
 function middleOfTop(n, value) {
   const all = Array.from({ length: n }, (_, k) => value(k)),
     most = Math.max(...all),

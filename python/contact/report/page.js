@@ -1,4 +1,4 @@
-// The page: which case is shown, how it is chosen and told in the address, and how all of it is drawn.
+// The page: selection of the case, its link in the address, and drawing of all parts.
 const maps = [],
   plots = {};
 function resetView() {
@@ -46,7 +46,7 @@ function draw() {
   for (const map of maps) map.draw();
   for (const plot of Object.values(plots)) if (plot.canvas.offsetParent !== null) plot.draw();
 }
-// What the pictures of wheel and rail need of all patches of a case
+// Data of all patches of a case for the plots of wheel and rail
 async function prepareRail(c) {
   if (c.module !== 1) return;
   for (const q of c.patches) {
@@ -81,17 +81,17 @@ async function go(index, patch = 0) {
   for (const body of ["rail", "wheel"])
     if (c.profiles && body in c.profiles) profiles[body] = await load(runs[0], c.profiles[body]);
   const block = await chosenBlock(p, other);
-  if (mine !== turn) return; // a later step was faster
+  if (mine !== turn) return; // a later selection has been drawn already
   await prepareRail(c);
   if (mine !== turn) return;
   const same = before && p && ["xl", "dx", "mx", "my"].every(key => before.grid[key] === p.grid[key]) && state.view;
-  const told = state.ready && (state.index !== index || state.patch !== patch);
+  const isChanged = state.ready && (state.index !== index || state.patch !== patch);
   Object.assign(state, { index, patch, fields, profiles, block, other, ready: true });
   if (!same) {
     state.row = null;
     state.column = null;
   }
-  showWhere(c, told);
+  showWhere(c, isChanged);
   chooseFields(p, fields);
   plots.section.own = null;
   tableOfTotals();
@@ -101,7 +101,7 @@ async function go(index, patch = 0) {
   else draw();
 }
 // Case and patch in the header, in the table and in the address
-function showWhere(c, told) {
+function showWhere(c, isChanged) {
   const { index, patch } = state,
     text = `${caseName(c)} (${index + 1} of ${data.cases.length})`;
   byId("slider").value = index;
@@ -121,10 +121,10 @@ function showWhere(c, told) {
       : [];
   byId("patches").replaceChildren(...tabs);
   markCase();
-  if (told) history.replaceState(null, "", addressOf(c, patch));
+  if (isChanged) history.replaceState(null, "", addressOf(c, patch));
 }
 const addressOf = (c, patch) => `#case=${c.label}` + (patch ? `&patch=${c.patches[patch].number}` : "");
-// Case and patch that an address names; the first ones where it names none
+// Case and patch of an address; the first ones by default
 function fromAddress(hash) {
   const found = /^#case=([0-9:\/]+)(?:&patch=(\d+))?$/.exec(hash);
   if (!found) return null;
@@ -165,7 +165,7 @@ function chooseFields(p, fields) {
   scene.replaceChildren(...there.map(option));
   scene.value = there.includes(was) ? was : there[0] || "";
 }
-// Titles of the maps: what they are, or whose, when two runs stand side by side
+// Titles of the maps: the field, or the run if two runs are shown side by side
 function nameMaps() {
   const field = capital(nameOf(byId("quantity").value)),
     side = [`${field}, this run`, `${field}, other run`, `${field}, this minus other`];
@@ -174,7 +174,7 @@ function nameMaps() {
     map.canvas.closest(".card").querySelector("h2 .name").textContent = map.title;
   });
   byId("hint-pt").hidden = sideBySide();
-  // the choice of a field stands at the map that it is for
+  // the selection of a field is placed at its map
   const select = byId("quantity"),
     head = maps[sideBySide() ? 0 : 3].canvas.closest(".card").querySelector("h2 .name");
   if (head.nextElementSibling !== select) head.after(select);
@@ -240,7 +240,7 @@ function showRuns() {
   byId("incomplete").textContent = missing.join(" \u00b7 ");
   byId("incomplete").hidden = !missing.length;
 }
-// A page of another run, as a file: what stands in it becomes the other run
+// Load the page of another run from a file, and use its data as the other run
 async function compareWith(file) {
   const found = new DOMParser().parseFromString(await file.text(), "text/html");
   try {
@@ -248,7 +248,7 @@ async function compareWith(file) {
     if (!Array.isArray(there.cases) || !Array.isArray(arrays)) throw new Error("no results");
     runs[1] = runOf(there, arrays);
   } catch {
-    read([["", `${file.name} is no page of contact report`]]);
+    read([["", `${file.name} is not a page of contact report`]]);
     return;
   }
   showRuns();
@@ -358,7 +358,7 @@ function start() {
     [
       "",
       matchMedia("(pointer:coarse)").matches
-        ? "tap a picture to read values; two fingers move and enlarge it"
+        ? "tap a picture to read values; two fingers pan and zoom"
         : "point at a picture to read values; drag to move, Ctrl and wheel to zoom, double click to see all; " +
           "arrow keys step through the cases",
     ],

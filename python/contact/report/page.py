@@ -17,7 +17,7 @@ def resource(name: str) -> str:
 
 
 def _embedded(value: Any) -> str:
-    """JSON that can stand inside a script element"""
+    """JSON, escaped for a script element"""
     return (json.dumps(value, separators=(",", ":"), allow_nan=False)
             .replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"))
 
@@ -28,7 +28,7 @@ SCRIPTS = ("data.js", "scale.js", "svg.js", "frame.js", "maps.js", "plots.js", "
 
 
 def page_of(path: str, other: str | None = None) -> str:
-    """The page of an .h5 file, and of another one beside it"""
+    """The page of an .h5 file, optionally with another one for comparison"""
     page = resource("viewer.html")
     data, blobs = read_experiment(path)
     beside = read_experiment(other) if other else (None, [])
@@ -44,7 +44,7 @@ def page_of(path: str, other: str | None = None) -> str:
 
 
 def write_page(path: str, target: str | None = None, other: str | None = None) -> str:
-    """Write the page of an .h5 file, and of another one to compare with; beside it unless told otherwise. Returns its name"""
+    """Write the page of an .h5 file, optionally with another one for comparison; by default beside the file. Returns its name"""
     target = target or os.path.splitext(path)[0] + ".html"
     text = page_of(path, other)
     temporary = target + ".tmp"

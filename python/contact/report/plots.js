@@ -1,6 +1,6 @@
-// Totals over the cases, and the profiles of wheel and rail.
+// Plots of totals over the cases, and of the profiles of wheel and rail.
 const SERIES = ["#1f5fa8", "#c96a12", "#2c7a4b", "#8a4fa8", "#a8323e", "#4b6478"];
-// Totals against each other, one point per patch. Wheels of both sides, patches, problems and runs are lines of their own
+// Totals against each other, one point per patch. There are separate lines for sides, patches, problems and runs
 class Curve extends Frame {
   collect() {
     const [nx, ny] = [byId("curve-x").value, byId("curve-y").value],
@@ -77,7 +77,7 @@ class Curve extends Frame {
     }
     this.end(label(name[0]), label(name[1]));
     legend(c, this, entries);
-    this.tell(
+    this.describe(
       `${name[1]} over ${name[0]}, ${this.points.length} points in ${series.length} line${series.length > 1 ? "s" : ""}; ` +
         `${name[1]} from ${withUnit(y0, meta(name[1]).unit)} to ${withUnit(y1, meta(name[1]).unit)}` +
         (now ? `; this case: ${figures(now.y, 5)} at ${figures(now.x, 5)}` : ""),
@@ -108,7 +108,7 @@ class Curve extends Frame {
     const p = this.near(px, py);
     if (p && p.run === 0) go(p.index, p.patch);
   }
-  // Arrow keys go from point to point
+  // Arrow keys move from point to point
   move(dx, dy) {
     const own = this.points.filter(p => p.run === 0),
       from = this.chosen || own.find(p => p.index === state.index && p.patch === state.patch);
@@ -137,14 +137,14 @@ function turned(points, oy, oz, roll) {
   return list;
 }
 const railLine = c => turned(state.profiles.rail, c.markers.y_r, c.markers.z_r, c.markers.roll_r);
-// Where the middle of a row of elements lies: y, z and inclination in track coordinates
+// Position of the middle of a row of elements: y, z and inclination in track coordinates
 function rowPlace(p, iy) {
   const t = p.totals,
     s = p.grid.yl + (iy + 0.5) * p.grid.dy;
   if (p.curve) return { y: p.curve.y[iy], z: p.curve.z[iy], angle: p.curve.angle[iy] };
   return { y: t.ycp_tr + s * Math.cos(t.deltcp_tr), z: t.zcp_tr + s * Math.sin(t.deltcp_tr), angle: t.deltcp_tr };
 }
-// Profiles and where they touch
+// Profiles and contact patches
 class Profiles extends Frame {
   draw() {
     const c0 = nowCase();
@@ -187,7 +187,7 @@ class Profiles extends Frame {
       ["rail", "#1d2733"],
       ["pressure over the row", "#d2434c"],
     ]);
-    this.tell(
+    this.describe(
       `${caseName(c0)}; ` +
         (c0.patches
           .map(
@@ -218,7 +218,7 @@ class Profiles extends Frame {
         c.fill();
       }
   }
-  // Names of the patches below them, moved down until none covers another, with a line to the place
+  // Labels of the patches below them, moved down to avoid overlap, with a line to the patch
   labels(c, patches) {
     const taken = (this.taken = []);
     c.textAlign = "center";

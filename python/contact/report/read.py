@@ -1,4 +1,4 @@
-"""Read the HDF5 file of an experiment into what the page shows."""
+"""Read the data of the page from the HDF5 file of an experiment."""
 from __future__ import annotations
 
 import base64
@@ -8,30 +8,30 @@ import re
 import zlib
 from typing import Any
 
-# Fields that the page leaves out; it shows all others that there are
+# Fields that the page does not show
 HIDDEN_FIELDS = ("un", "ux", "uy")
-# Below the surface: what is shown of any block, and what of blocks of some size only
+# Subsurface results: shown for all blocks, and shown for blocks of at most MAX_POINTS points only
 SHOWN_STRESSES = ("sigvm", "sighyd", "sigtr", "sigma1", "sigma3")
 MORE_STRESSES = ("sigma2", "sigxx", "sigyy", "sigzz", "sigxy", "sigxz", "sigyz", "ux", "uy", "uz")
-MOST_POINTS = 20000
+MAX_POINTS = 20000
 LAYOUT = 1
-# What stands where HDF5 does not find a piece of an array: bits of a NaN, and an element state
+# Values that HDF5 returns for a missing chunk of an array: bits of a NaN, and an element state
 LOST_NUMBER, LOST_STATE = 0x7FF8636F6E746163, -128
 
 
 class MissingResults(Exception):
-    """There is nothing to show, and the message says what to do"""
+    """There are no results to show; the message says what to do"""
 
 
 class Blobs:
-    """Arrays for the page: deflated, in base64, each one stored once"""
+    """Arrays for the page, deflated and in base64; equal arrays are stored once"""
 
     def __init__(self) -> None:
         self.items: list[dict[str, str]] = []
         self._known: dict[bytes, int] = {}
 
     def add(self, array: Any) -> int:
-        """Number of the blob that holds this array; real numbers become 4 bytes, in planes of equal bytes"""
+        """Index of the blob with this array; real numbers are stored in 4 bytes, split into four planes of bytes"""
         import numpy as np
         if array.dtype.kind in "iu":
             kind, raw = "u1", array.astype("u1").tobytes()
@@ -46,7 +46,7 @@ class Blobs:
 
 
 def _plain(value: Any) -> Any:
-    """A value of the file as Python and JSON know it; None where there is no number"""
+    """A value of the file as a value for JSON; None for NaN and infinity"""
     if isinstance(value, bytes):
         return value.decode("utf-8", "replace").strip()
     if getattr(value, "shape", ()) != ():
@@ -58,13 +58,13 @@ def _plain(value: Any) -> Any:
 
 
 def _unit(item: Any) -> str:
-    """The unit of a dataset; that of a ratio, 1 in the file, is shown as a dash"""
+    """The unit of a dataset; a dash for ratios, whose unit in the file is 1"""
     unit = str(_plain(item.attrs.get("units", b"")))
     return "-" if unit == "1" else unit
 
 
 def _is_lost(values: Any) -> bool:
-    """Are there values that HDF5 has filled in where it did not find a piece of an array? See src/hdf5/file.f90"""
+    """Are there fill values of HDF5 for missing chunks of an array? See src/hdf5/file.f90"""
     if values.dtype == "<f8":
         return bool((values.view("<u8") == LOST_NUMBER).any())
     return bool(values.dtype == "i1" and (values == LOST_STATE).any())
@@ -75,8 +75,8 @@ class _Reader:
         import h5py
         self.h5py = h5py
         self.file = file
-        # no compression makes more of a byte than deflate can
-        self._most = 2000 * size + 1000000
+        # limit of the size of an array: the highest compression ratio of deflate
+        self._max_values = 2000 * size + 1000000
         self.blobs = Blobs()
         self.inputs: list[dict[str, Any]] = []
         self._input_numbers: dict[tuple[Any, ...], int] = {}
@@ -84,7 +84,7 @@ class _Reader:
         self._groups: dict[int, dict[str, Any]] = {}
         self._fields: dict[int, int] = {}
         self._meanings: dict[tuple[Any, ...], tuple[str, str]] = {}
-        # arrays of the last case, by patch and name, with their places in the file
+        # arrays of the previous case, by patch and name, with their addresses in the file
         self._last: dict[tuple[int, str], tuple[int, Any]] = {}
         self.ranges: dict[str, list[float]] = {}
 
@@ -92,8 +92,8 @@ class _Reader:
         return int(self.h5py.h5o.get_info(item.id).addr)
 
     def data(self, item: Any) -> Any:
-        """Contents of a dataset; a damaged one may claim to be of any size"""
-        if item.size * item.dtype.itemsize > self._most:
+        """Contents of a dataset; the stated size is checked, as it may be wrong in a damaged file"""
+        if item.size * item.dtype.itemsize > self._max_values:
             raise ValueError("%s claims to hold %d values" % (item.name, item.size))
         found = item[()]
         if item.chunks is not None and _is_lost(found):
@@ -101,14 +101,14 @@ class _Reader:
         return found
 
     def values(self, group: Any) -> dict[str, Any]:
-        """Values of a group; groups that several cases share are read once"""
+        """Values of a group; groups shared by several cases are read once"""
         at = self.address(group)
         if at not in self._groups:
             self._groups[at] = {name: _plain(self.data(item)) for name, item in group.items()}
         return self._groups[at]
 
     def meaning(self, key: tuple[Any, ...], item: Any) -> tuple[str, str]:
-        """Unit and description, which all items with the same key have in common; attributes are slow to read"""
+        """Unit and description, which are the same for all items with the same key, so that the slow attributes are read once"""
         if key not in self._meanings:
             self._meanings[key] = _unit(item), _plain(item.attrs.get("long_name", b""))
         return self._meanings[key]
@@ -121,7 +121,7 @@ class _Reader:
         return self._groups[at]
 
     def columns(self, name: str) -> tuple[dict[str, Any], dict[str, dict[str, str]]]:
-        """Columns of a table and what they are"""
+        """Columns of a table, and their units and descriptions"""
         table, meta = {}, {}
         for column, item in self.file[name].items():
             table[column] = self.data(item)
@@ -131,7 +131,7 @@ class _Reader:
         return table, meta
 
     def input_of(self, case: Any) -> int:
-        """Number of the inputs of a case among all different ones"""
+        """Index of the inputs of a case among all different ones"""
         if "inputs" not in case:
             return -1
         groups = case["inputs"]
@@ -142,14 +142,14 @@ class _Reader:
         return self._input_numbers[key]
 
     def array(self, number: int, name: str, item: Any) -> Any:
-        """Values of a field; those that the patch had in the case before are not read again"""
+        """Values of a field; values shared with the previous case are not read again"""
         at = self.address(item)
         if self._last.get((number, name), (0,))[0] != at:
             self._last[number, name] = at, self.data(item)
         return self._last[number, name][1]
 
     def widen(self, name: str, values: Any) -> None:
-        """Take values into the range that the common colours of all cases stand for"""
+        """Extend the range of the common colour scale of all cases by values"""
         if values.size:
             low, high = float(values.min()), float(values.max())
             if abs(low) < float("inf") and abs(high) < float("inf"):
@@ -157,7 +157,7 @@ class _Reader:
                 self.ranges[name] = [min(low, before[0]), max(high, before[1])]
 
     def ranges_of(self, values: dict[str, Any], rolling: bool, veloc: float) -> None:
-        """Ranges of the fields of a patch in contact, and of those that the page makes of them (fieldsOf in data.js)"""
+        """Ranges of the fields of a patch in contact, and of the derived fields of the page (fieldsOf in data.js)"""
         import numpy as np
         inside = values["eldiv"] > 0
         f = {name: array[inside] for name, array in values.items() if name != "eldiv"}
@@ -218,7 +218,7 @@ class _Reader:
         """Points below the surface, x fastest in the arrays"""
         points = {axis: _plain(self.data(group["points"][axis])) for axis in "xyz"}
         count = len(points["x"]) * len(points["y"]) * len(points["z"])
-        names = SHOWN_STRESSES + (MORE_STRESSES if count <= MOST_POINTS else ())
+        names = SHOWN_STRESSES + (MORE_STRESSES if count <= MAX_POINTS else ())
         arrays = {name: self.data(group[name]) for name in names if name in group}
         for name, array in arrays.items():
             self.widen("block " + name, array)
@@ -232,7 +232,7 @@ def _problem_of(head: dict[str, Any]) -> str:
 
 
 def _side_of(case: Any, module: int) -> str:
-    """Which wheel of the wheelset a case of wheel and rail is about"""
+    """Side of the wheel of a wheel/rail case"""
     if module != 1 or "inputs/choices/configuration" not in case:
         return ""
     return "left" if _plain(case["inputs/choices/configuration"][()]).startswith("left") else "right"
@@ -246,7 +246,7 @@ def _case_name(head: dict[str, Any]) -> str:
 
 
 def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
-    """What the page shows of an .h5 file: a description of all cases, and arrays by number"""
+    """Data of the page from an .h5 file: a description of all cases, and arrays by index"""
     try:
         import h5py
         import numpy  # noqa: F401
@@ -258,13 +258,13 @@ def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
             return _read(file, path)
     except MissingResults:
         raise
-    except Exception as reason:  # h5py and NumPy have many kinds of them for a damaged file
+    except Exception as reason:  # h5py and NumPy raise many kinds of errors for a damaged file
         what = " ".join(str(reason).split()) or type(reason).__name__
         raise MissingResults("%s cannot be read, it is damaged or no HDF5 file: %s" % (path, what)) from None
 
 
 def _run_of(file: Any) -> dict[str, Any] | None:
-    """How far the run has come; None in files of earlier versions"""
+    """Progress of the run; None in files of earlier versions"""
     if "complete" not in file.attrs:
         return None
     found = {name: _plain(file.attrs[name]) for name in ("complete", "cases_planned", "input_readable", "cases_finished")}
@@ -272,17 +272,17 @@ def _run_of(file: Any) -> dict[str, Any] | None:
 
 
 def run_of(path: str) -> dict[str, Any] | None:
-    """How far the run has come that wrote an .h5 file; None where the file does not say it or cannot be read"""
+    """Progress of the run that wrote an .h5 file; None if the file does not have it or cannot be read"""
     try:
         import h5py
         with h5py.File(path, "r") as file:
             return _run_of(file)
-    except Exception:  # what is wrong is told when the results are looked at
+    except Exception:  # the error is reported when the results are opened
         return None
 
 
-def told_of_run(path: str) -> str:
-    """A sentence about results that are not complete; nothing about complete ones"""
+def warning_of_run(path: str) -> str:
+    """A sentence about incomplete results; "" for complete ones"""
     import h5py
     with h5py.File(path, "r") as file:
         run = _run_of(file)
@@ -293,7 +293,7 @@ def told_of_run(path: str) -> str:
 
 
 def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
-    """The same of an open file"""
+    """As read_experiment, from an open file"""
     import numpy as np
     if int(file.attrs.get("layout", 0)) != LAYOUT:
         raise MissingResults("%s is no result of contact --hdf5, or of another version of it" % path)

@@ -1,4 +1,4 @@
-// Colours, and the range of values that they stand for: common to all cases, of each picture by itself, or given by hand.
+// Colour scales and their ranges: common to all cases, of each plot separately, or set by the user.
 const MAPS = {
   pressure: ["#f7f4fb", "#fde0b8", "#fbb36b", "#f07c4a", "#d2434c", "#9b2062", "#551a64", "#1c0f38"],
   calm: ["#f5f9f7", "#cfe8e0", "#93cfc3", "#55ada9", "#2b8491", "#1e5b77", "#153457"],
@@ -24,7 +24,7 @@ function rangeOf(values) {
   }
   return [low, high];
 }
-// Colours of a range: symmetric about zero when both signs occur, and of differences always; from zero when that is near
+// Colour scale of a range: symmetric about zero if both signs occur, and for differences; starting at zero if that is near
 function coloursOf([low, high], map) {
   if (!(high >= low)) {
     low = 0;
@@ -46,7 +46,7 @@ function coloursOf([low, high], map) {
   const scale = ramp(signed ? "signed" : map);
   return { low, high, colour: negative ? t => scale(1 - t) : scale };
 }
-// Limits that were given by hand, by the name of the quantity; a difference and a stress have names of their own
+// User limits by the name of the quantity; differences and stresses have separate names
 const limits = new Map();
 function scaleFor(key, values, map) {
   const given = limits.get(key);

@@ -1,12 +1,12 @@
-// The rail as a body, with the patches on it in their colours, the tractions as arrows and the wheel as a net of lines; turned by
-// dragging, from above only.
+// 3D view of the rail with coloured patches, tractions as arrows, and the wheel as a wire frame; rotated by dragging, seen from
+// above only.
 const LIGHT = [0.35, -0.45, -0.82];
 class Scene extends Picture {
   constructor(id) {
     super(id);
     Object.assign(this, { turn: [0.75, 0.7], scale: 1, shift: [0, 0], free: true });
   }
-  // Until somebody turns the rail it is seen from the side to which its contact is inclined
+  // Initially the rail is seen from the side to which its contact is inclined
   face(patches) {
     const load = patches.reduce((sum, p) => sum + p.totals.fn, 0);
     const tilt = patches.reduce((sum, p) => sum + p.totals.fn * p.totals.deltcp_tr, 0) / (load || 1);
@@ -33,7 +33,7 @@ class Scene extends Picture {
     const size = (this.scale * Math.min(this.width, this.height * 1.3)) / (1.7 * reach),
       [azimuth, height] = this.turn;
     const [ca, sa, ch, sh] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(height), Math.sin(height)];
-    // right, up and towards the eye; z of the track points down
+    // right, up and towards the viewer; z of the track points down
     this.project = ([x, y, z]) => {
       const [u, v, w] = [x - middle[0], middle[1] - y, middle[2] - z],
         a = u * ca - v * sa,
@@ -66,13 +66,13 @@ class Scene extends Picture {
     c.fillStyle = "rgba(255,255,255,.8)";
     c.fillRect(this.width - this.right + 2, 0, this.right, this.height);
     colourBar(this, scale, unit);
-    this.tell(
+    this.describe(
       `${nameOf(name)} on the rail, ${caseName(c0)}; ` +
         c0.patches.map(p => `patch ${p.number} at y ${figures(p.totals.ycp_tr, 5)} mm`).join(", ") +
         "; arrows: tangential tractions on the rail",
     );
   }
-  // Strips between the points of the profile, the farthest first
+  // Strips between the points of the profile, ordered from back to front
   rail(c, line, x0, x1) {
     const step = Math.max(1, Math.floor(line.length / 160)),
       points = line.filter((_, i) => i % step === 0 || i === line.length - 1),
@@ -113,7 +113,7 @@ class Scene extends Picture {
     for (const q of quads.sort((a, b) => depth(b) - depth(a))) this.polygon(c, q.corners, q.colour, true);
     end(ends[1]);
   }
-  // A point of the wheel's profile at an angle around the axle from the lowest place, in track coordinates
+  // A point of the wheel profile at an angle about the axle from the lowest position, in track coordinates
   wheelPoint(c0, [y, z], angle) {
     const m = c0.markers,
       radius = c0.radius + z,
@@ -126,7 +126,7 @@ class Scene extends Picture {
       m.z_w + y * Math.sin(m.roll_w) + down * Math.cos(m.roll_w),
     ];
   }
-  // Circles through some points of the profile, and the profile at some angles: one sees through to the patches
+  // Circles through some points of the profile, and the profile at some angles, so that the patches remain visible
   wheel(c, c0, middle, reach) {
     const profile = state.profiles.wheel;
     if (!profile || !c0.radius) return;
@@ -167,10 +167,10 @@ class Scene extends Picture {
       c.stroke();
     }
   }
-  // A point of a patch from its x and a row, with a part of the next or last row
-  place(p, x, iy, part) {
+  // A point of a patch from its x and its row, with a fraction towards the next or previous row
+  place(p, x, iy, fraction) {
     const { y, z, angle } = rowPlace(p, iy),
-      s = part * p.grid.dy;
+      s = fraction * p.grid.dy;
     return [(p.totals.xcp_tr || 0) + x, y + s * Math.cos(angle), z + s * Math.sin(angle)];
   }
   patch(c, p, name, scale) {
@@ -186,7 +186,7 @@ class Scene extends Picture {
           [ix + 1, -0.5],
           [ix + 1, 0.5],
           [ix, 0.5],
-        ].map(([k, part]) => this.project(this.place(p, xl + k * dx, iy, part)));
+        ].map(([k, fraction]) => this.project(this.place(p, xl + k * dx, iy, fraction)));
         this.polygon(c, corners, `rgb(${scale.colour((f[name][i] - scale.low) / (scale.high - scale.low))})`, true);
       }
   }

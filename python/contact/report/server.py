@@ -1,10 +1,10 @@
-"""Experiments of a folder checked, run and seen in a browser on this machine.
+"""Server with which experiments of a folder are checked, run and viewed in a browser on this machine.
 
-The server listens on the loopback address and refuses requests that carry the name of another host or come from
-a page of another origin, so that no web page elsewhere can use it. It runs one program only, contact, and on
-nothing but the inputs that lie in the folder and below it; each run is confined to the folder of its input and to the
-limits of --confine. It writes results, and new inputs from a form, never over a file that is there.
-A request has to be complete after some seconds, and only so many connections are open at a time.
+The server listens on the loopback address and refuses requests for another host name and requests from pages of another
+origin, so that no other web page can use it. It runs only the program contact, and only on inputs in the folder and its
+subfolders; each run is confined to the folder of its input and to the limits of --confine. It writes results, and new inputs
+from a form, which never overwrite a file.
+The time of a request and the number of open connections are limited.
 """
 from __future__ import annotations
 
@@ -28,31 +28,31 @@ from .read import MissingResults
 
 DEFAULT_PORT = 8765
 ADDRESS = "127.0.0.1"
-# How long a stream of messages waits before it says that it is alive [s]
+# Interval of keep-alive comments in a stream without messages [s]
 PATIENCE = 10.0
-# Time for a whole request, and for an answer to be taken [s]
+# Time limits of receiving a request and of sending an answer [s]
 REQUEST_TIME, ANSWER_TIME = 10.0, 60.0
-# Connections at a time, and pages that are made from results at a time
-MOST_CONNECTIONS, MOST_PAGES = 64, 2
-# Longest body of a request [bytes]
-MOST_BYTES = 65536
+# Maximum number of simultaneous connections, and of pages that are generated at the same time
+MAX_CONNECTIONS, MAX_PAGES = 64, 2
+# Maximum length of the body of a request [bytes]
+MAX_BYTES = 65536
 
 
-class _InTime(io.RawIOBase):
-    """What a client sends until some moment; then it is cut off, however slowly it went on"""
+class _TimedInput(io.RawIOBase):
+    """Input stream of a connection with a deadline for the whole request, so that slow clients cannot occupy it"""
 
     def __init__(self, connection: Any) -> None:
         self.connection = connection
         self.start()
 
     def start(self) -> None:
-        self.until = time.monotonic() + REQUEST_TIME
+        self.deadline = time.monotonic() + REQUEST_TIME
 
     def readable(self) -> bool:
         return True
 
     def readinto(self, buffer: Any) -> int:
-        left = self.until - time.monotonic()
+        left = self.deadline - time.monotonic()
         if left <= 0.0:
             raise TimeoutError("the request took too long")
         self.connection.settimeout(left)
@@ -70,11 +70,11 @@ class Handler(BaseHTTPRequestHandler):
 
     def setup(self) -> None:
         super().setup()
-        self.in_time = _InTime(self.connection)
-        self.rfile = io.BufferedReader(self.in_time)
+        self.timed_input = _TimedInput(self.connection)
+        self.rfile = io.BufferedReader(self.timed_input)
 
     def handle_one_request(self) -> None:
-        self.in_time.start()
+        self.timed_input.start()
         try:
             super().handle_one_request()
         except (ConnectionError, TimeoutError):
@@ -96,7 +96,7 @@ class Handler(BaseHTTPRequestHandler):
             self.wfile.write(data)
 
     def _is_foreign(self) -> bool:
-        """Does the request name another host, or does it come from a page of another origin?"""
+        """Is the request for another host name, or from a page of another origin?"""
         own = ["%s:%d" % (host, self.server.server_port) for host in (ADDRESS, "localhost")]
         hosts, origins = self.headers.get_all("Host", []), self.headers.get_all("Origin", [])
         return (len(hosts) != 1 or hosts[0].lower() not in own
@@ -108,7 +108,7 @@ class Handler(BaseHTTPRequestHandler):
         return name if self.server.folder.input(name) else None
 
     def _safely(self, work: Any) -> None:
-        """Answer a request; what goes wrong is an answer too"""
+        """Answer a request; errors are answered too"""
         try:
             if self._is_foreign():
                 self.close_connection = True
@@ -134,7 +134,7 @@ class Handler(BaseHTTPRequestHandler):
         if len(lengths) != 1 or not re.fullmatch("[0-9]{1,9}", lengths[0]) or "Transfer-Encoding" in self.headers:
             self.close_connection = True
             return self._answer(400, "the length of the request cannot be understood")
-        if int(lengths[0]) > MOST_BYTES:
+        if int(lengths[0]) > MAX_BYTES:
             self.close_connection = True
             return self._answer(413, "the request is too long")
         body = self.rfile.read(int(lengths[0]))
@@ -165,11 +165,11 @@ class Handler(BaseHTTPRequestHandler):
         return self._answer(404, "there is no such page")
 
     def _files(self, folder: str) -> dict[str, Any]:
-        """What the start page shows of a folder"""
+        """Folders and experiments of a folder for the start page"""
         return {"folder": folder, "folders": self.server.folder.folders(folder), "files": self.server.folder.list(folder)}
 
     def _result(self, name: str, other: str) -> None:
-        """The page of a result, or of two of them side by side"""
+        """The page of a result, or of two results for comparison"""
         paths = []
         for one in [name, other] if other else [name]:
             path, changed = self.server.folder.result(one) if self.server.folder.input(one) else ("", None)
@@ -204,7 +204,7 @@ class Handler(BaseHTTPRequestHandler):
         return self._answer(200 if started else 409, "started" if started else "another experiment is running; wait or stop it")
 
     def _stream(self) -> None:
-        """Messages of the job as server-sent events, from its first one on, and how far it is"""
+        """All messages of the job and its progress, as server-sent events"""
         job = self.server.job
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
@@ -212,20 +212,20 @@ class Handler(BaseHTTPRequestHandler):
         self.send_header("Connection", "close")
         self.end_headers()
         self.close_connection = True
-        sent, told = 0, None
+        sent, reported = 0, None
         try:
             while job is not None:
                 news, progress, done = job.follow(sent, PATIENCE)
-                if not news and progress == told:
+                if not news and progress == reported:
                     self.wfile.write(b": still at work\n\n")
                 for kind, value in news[:-1] if done else news:
                     self._event(kind, value)
-                if progress != told:
+                if progress != reported:
                     self._event("progress", progress)
                 if done:
                     return self._event(*news[-1])
                 self.wfile.flush()
-                sent, told = sent + len(news), progress
+                sent, reported = sent + len(news), progress
         except (ConnectionError, TimeoutError):
             pass
 
@@ -235,24 +235,24 @@ class Handler(BaseHTTPRequestHandler):
 
 class Server(ThreadingHTTPServer):
     daemon_threads = True
-    request_queue_size = MOST_CONNECTIONS
+    request_queue_size = MAX_CONNECTIONS
 
     def __init__(self, folder: str, port: int = DEFAULT_PORT) -> None:
         self.folder = Folder(folder)
         program_path()
         self.job: Job | None = None
         self._starting = threading.Lock()
-        self._free = threading.BoundedSemaphore(MOST_CONNECTIONS)
-        self.pages = threading.BoundedSemaphore(MOST_PAGES)
+        self._free = threading.BoundedSemaphore(MAX_CONNECTIONS)
+        self.pages = threading.BoundedSemaphore(MAX_PAGES)
         super().__init__((ADDRESS, port), Handler)
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """A thread for a connection, or the end of it when there are too many"""
+        """Start a thread for a connection, or close it if there are too many"""
         if not self._free.acquire(blocking=False):  # pylint: disable=consider-using-with
             return self.shutdown_request(request)
         try:
             super().process_request(request, client_address)
-        except RuntimeError:  # the system gives no more threads
+        except RuntimeError:  # the system cannot start another thread
             self._free.release()
             self.shutdown_request(request)
         return None
@@ -264,19 +264,19 @@ class Server(ThreadingHTTPServer):
             self._free.release()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """A connection that ended in an unexpected way: one line, and the server goes on"""
+        """Report a failed connection in one line; the server continues"""
         fault = sys.exc_info()[1]
         if not isinstance(fault, (ConnectionError, TimeoutError)):
             print("contact report: a connection failed: %r" % fault, file=sys.stderr)
 
     def start_job(self, name: str, mode: str) -> bool:
-        """Start a run or a check unless one is going on"""
+        """Start a run or a check unless a job is running"""
         with self._starting:
             if self.job is not None and not self.job.done:
                 return False
             path = self.folder.input(name)
             if path is None:
-                raise MissingResults("there is no input of %s any more" % name)
+                raise MissingResults("the input of %s does not exist any more" % name)
             self.job = Job(name, path, mode)
             return True
 
@@ -286,7 +286,7 @@ class Server(ThreadingHTTPServer):
 
 
 def serve(folder: str, port: int = DEFAULT_PORT) -> None:
-    """Serve a folder until the keyboard, or a signal to this process, ends it"""
+    """Serve a folder until Ctrl-C or a signal"""
     def end(number: int, frame: Any) -> None:
         raise KeyboardInterrupt
 

@@ -1,4 +1,4 @@
-// The start page of `contact report --serve`: folders, experiments, the run that goes on, the text of an input, a form.
+// The start page of `contact report --serve`: folders, experiments, the current run, the text of an input, the form.
 const byId = id => document.getElementById(id);
 const page = { folder: "", running: false, stream: null, begun: 0, title: "Messages", opener: "" };
 
@@ -19,8 +19,8 @@ const ask = (path, values) => fetch(path + "?" + new URLSearchParams(values));
 
 // ---------------------------------------------------------------- folders and experiments
 
-// What there is of a result, in words; the second value tells whether it is all there should be
-function told(file) {
+// State of a result in words, and whether it is complete with all cases solved
+function resultState(file) {
   if (file.result === "none") return ["not run yet", true];
   const run = file.run,
     age = file.result === "old" ? "result is older than the input" : "result is up to date";
@@ -56,7 +56,7 @@ async function list() {
   if (focused) focusOn(focused);
   return undefined;
 }
-// The list is drawn anew when something changes; whoever uses the keyboard stays where he was
+// The list is rebuilt on changes; keyboard focus is restored
 const labelOf = e => e.getAttribute("aria-label") || e.textContent;
 function focusOn(label) {
   const buttons = [...byId("list").querySelectorAll("button, a, select")];
@@ -66,7 +66,7 @@ function rowOf(file) {
   const row = element("tr"),
     name = element("th", file.name.split("/").pop()),
     actions = element("td", undefined, "do");
-  const [text, whole] = told(file),
+  const [text, whole] = resultState(file),
     about = element("span", new Date(1000 * file.changed).toLocaleString() + " \u00b7 ", "about");
   row.dataset.name = file.name;
   name.scope = "row";
@@ -78,7 +78,7 @@ function rowOf(file) {
     );
   for (const mode of ["check", "run"]) {
     const b = button(mode, () => begin(mode, file.name), `${mode} ${file.name}`);
-    // a button that is disabled loses the focus
+    // the attribute disabled would remove the focus
     b.setAttribute("aria-disabled", page.running);
     actions.append(b);
   }
@@ -137,7 +137,7 @@ function offerBeside(files) {
 
 // ---------------------------------------------------------------- the run
 
-function tell(text, kind) {
+function showState(text, kind) {
   byId("state").textContent = text;
   byId("state").className = "state " + (kind || "");
 }
@@ -151,10 +151,10 @@ async function begin(mode, name) {
   if (page.running) return undefined;
   const answer = await fetch(`/${mode}?name=${encodeURIComponent(name)}`, { method: "POST" });
   show("messages");
-  if (!answer.ok) return tell(await answer.text(), "bad");
+  if (!answer.ok) return showState(await answer.text(), "bad");
   return follow({ mode, name, done: false, seconds: 0 });
 }
-// Messages of the job from its first one on: of one that begins, and of one that goes on when the page is opened anew
+// Show all messages of the job, new or already running
 function follow(job) {
   if (page.stream) page.stream.close();
   byId("what").textContent = page.title = `${job.mode === "run" ? "Run" : "Check"} of ${job.name}`;
@@ -163,7 +163,7 @@ function follow(job) {
   page.begun = Date.now() - 1000 * job.seconds;
   byId("stop").disabled = job.done;
   byId("stop").textContent = job.stopping ? "stop at once" : "stop";
-  tell(job.done ? "" : "at work \u2026");
+  showState(job.done ? "" : "at work \u2026");
   progress(job);
   const stream = (page.stream = new EventSource("/messages")),
     box = byId("messages");
@@ -187,24 +187,25 @@ function ended(status) {
   byId("stop").disabled = true;
   byId("stop").textContent = "stop";
   byId("progress").hidden = true;
-  tell(status === 0 ? "finished" : status < 0 || status > 128 ? "stopped" : "finished with errors", status === 0 ? "good" : "bad");
+  const text = status === 0 ? "finished" : status < 0 || status > 128 ? "stopped" : "finished with errors";
+  showState(text, status === 0 ? "good" : "bad");
   list();
 }
-function progress(told) {
+function progress(job) {
   const bar = byId("progress"),
-    finished = Math.max(0, told.begun - 1);
-  if (!page.running || told.begun === undefined) return;
-  bar.hidden = !told.planned;
-  if (told.planned) {
-    bar.max = told.planned;
+    finished = Math.max(0, job.begun - 1);
+  if (!page.running || job.begun === undefined) return;
+  bar.hidden = !job.planned;
+  if (job.planned) {
+    bar.max = job.planned;
     bar.value = finished;
   }
-  if (!told.begun) return;
+  if (!job.begun) return;
   const seconds = (Date.now() - page.begun) / 1000,
-    left = told.planned && finished ? (seconds / finished) * (told.planned - finished) : 0;
+    left = job.planned && finished ? (seconds / finished) * (job.planned - finished) : 0;
   const time = s => (s < 90 ? `${Math.ceil(s)} s` : `${Math.round(s / 60)} min`);
-  tell(
-    `case ${told.begun}${told.planned ? " of " + told.planned : ""}` + (left >= 2 ? `, about ${time(left)} left` : "") + " \u2026",
+  showState(
+    `case ${job.begun}${job.planned ? " of " + job.planned : ""}` + (left >= 2 ? `, about ${time(left)} left` : "") + " \u2026",
   );
 }
 async function resume() {
@@ -304,7 +305,7 @@ function drawForm(kind) {
   varied.onchange();
   first.focus({ preventScroll: true });
   if (fields.some(f => f[2] === "profile") && !offer.profiles.length)
-    answer.textContent = "There are no profiles in this folder: put them into it, or into one below it.";
+    answer.textContent = "There are no profiles in this folder: put them into it, or into a subfolder.";
 }
 async function sendForm() {
   const kind = byId("new-kind").value,
@@ -334,7 +335,7 @@ async function sendForm() {
   const made = await answer.json();
   box.textContent = [
     `${made.name} is written.`,
-    ...made.told
+    ...made.messages
       .trim()
       .split("\n")
       .map(text => text.trim()),

@@ -1,4 +1,4 @@
-// A context like that of a canvas that makes an SVG picture: what the drawings of this page use, and nothing else.
+// A drawing context that produces SVG, with the subset of the canvas interface used by this page.
 const SVG = "http://www.w3.org/2000/svg";
 class SvgContext {
   constructor(width, height) {

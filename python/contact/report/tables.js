@@ -1,5 +1,5 @@
-// Tables: the cases, the totals of one of them in groups, how it was obtained, its input.
-// Groups of totals. Names and meanings are those of the results; "also" is what people call a quantity besides
+// Tables: all cases; totals of a case in groups, its solution, its input.
+// Groups of totals. Names and meanings are those of the results; "also" is an alternative name
 const GROUPS = [
   ["Forces on the rail", ["fz_tr", "fy_tr", "y_over_q", "fx_tr", "fx_ws", "fy_ws", "fz_ws"]],
   [
@@ -30,29 +30,29 @@ const ALSO = {
   cphi: "\u03c6",
   deltcp_tr: "contact angle",
 };
-// What is no result of a patch or case, or stands in "how it was obtained"
+// Columns that are not totals, or are shown in the table of the solution
 const HEADS = "case patch result_element contact_problem module line solved converged status_code missed seconds".split(" ");
 const isError = name => name.endsWith("_error");
 const isSkipped = name =>
   HEADS.includes(name) ||
   isError(name) ||
   /^(normal|tangential|friction)_(iterations|residual|tolerance)$|^(outer|coupled)_/.test(name);
-// The estimated error of a total, where errors were asked for
+// The estimated error of a total, if errors were computed
 const errorOf = (c, p, name) => {
   const found = [p && p.totals, c && c.totals].find(totals => totals && Number.isFinite(totals[`${name}_error`]));
   return found ? found[`${name}_error`] : NaN;
 };
-// Totals that follow from others: Y/Q, and the work of friction per way
+// Derived totals: Y/Q, and frictional work per distance
 const DERIVED = {
   y_over_q: { unit: "", title: "lateral over vertical force on the rail", of: t => (t.fz_tr ? t.fy_tr / t.fz_tr : NaN) },
   t_gamma: {
     unit: "J/m",
-    title: "frictional work per metre of way, T-gamma",
+    title: "frictional work per metre travelled, T-gamma",
     of: (t, p) => (p && p.grid.veloc > 0 ? (-1000 * t.friction_power) / p.grid.veloc : NaN),
   },
 };
 const about = name => columns[name] || DERIVED[name] || { unit: "", title: name };
-// Totals of a case and its patch together, with those that follow
+// Totals of a case and its patch, with derived totals
 function totalsOf(c, p) {
   const all = {};
   for (const from of [c && c.totals, p && p.totals])
@@ -64,12 +64,12 @@ function totalsOf(c, p) {
   }
   return all;
 }
-// Forces and moments that are rounding errors of the pressure are shown as zero
+// Forces and moments that are round-off of the pressures are shown as zero
 function shown(name, totals) {
   const small = { fx: 1, fy: 1, mz: 1, fx_rel: 1 / totals.fn, fy_rel: 1 / totals.fn }[name];
   return small && Math.abs(totals[name]) < 1e-9 * small * Math.abs(totals.fn) ? 0 : totals[name];
 }
-// The groups with what there is of them; what no group names comes last
+// The groups with the available totals; all other totals come last
 function grouped(totals) {
   const known = new Set(GROUPS.flatMap(g => g[1])),
     more = Object.keys(totals).filter(name => !known.has(name));
@@ -94,11 +94,11 @@ function tableOfCases() {
   const table = byId("cases"),
     first = data.cases.find(c => c.patches.length),
     all = first ? totalsOf(first, first.patches[0]) : {};
-  const wanted = CASE_COLUMNS.filter(n => n in all),
+  const present = CASE_COLUMNS.filter(n => n in all),
     sides = data.cases.some(c => c.side),
     many = data.cases.some(c => c.patches.length > 1);
   table.replaceChildren();
-  headings(table, ["case", ...(sides ? ["side"] : []), ...(many ? ["patch"] : []), ...wanted.map(label)]);
+  headings(table, ["case", ...(sides ? ["side"] : []), ...(many ? ["patch"] : []), ...present.map(label)]);
   const body = table.createTBody();
   data.cases.forEach((c, index) =>
     (c.patches.length ? c.patches : [null]).forEach((p, patch) => {
@@ -118,10 +118,10 @@ function tableOfCases() {
       if (sides) cell(row, c.side || "");
       if (many) cell(row, p ? p.number : "");
       const own = p && totalsOf(c, p);
-      if (p) for (const name of wanted) cell(row, figures(own[name]));
+      if (p) for (const name of present) cell(row, figures(own[name]));
       else {
         const td = cell(row, !c.solved ? "no result" : c.status === "solved" ? "no contact" : "no contact, " + c.status);
-        td.colSpan = wanted.length || 1;
+        td.colSpan = present.length || 1;
       }
       if (c.status !== "solved") row.className = "bad";
     }),
@@ -228,7 +228,7 @@ function howObtained() {
         `${s[problem + "_method"]}, ${s[problem + "_ended"]}` +
           (residual !== undefined && residual !== null ? `, residual ${figures(residual, 2)}` : "") +
           (iterations ? `, ${iterations} iteration${iterations > 1 ? "s" : ""}` : "") +
-          (s[problem + "_gave_up"] ? `, after ${s[problem + "_gave_up"]} was given up` : ""),
+          (s[problem + "_gave_up"] ? `, after ${s[problem + "_gave_up"]} was abandoned` : ""),
       );
     }
   }

@@ -15,12 +15,12 @@ from ..errors import ContactError
 
 Numbers = NDArray[np.float64]
 
-#: Bytes of a reason and of a text of a column
+#: Sizes of the buffers of a reason and of a text of a column [bytes]
 _REASON, _TEXT = 400, 120
-#: Columns for which there is room
+#: Maximum number of columns
 _COLUMNS = 128
 
-#: The library whose routines know the types of their arguments
+#: The library after its argument types have been declared
 _ready: ctypes.CDLL | None = None
 
 
@@ -36,16 +36,16 @@ class _Job(ctypes.Structure):
 
 @dataclass(frozen=True)
 class Column:
-    """A total.
+    """Description of a total.
 
     Attributes
     ----------
     name, unit, meaning
         As in the tables of doc/user/results.md.
     of_pair
-        Of wheel and rail together, not of a patch?
+        Whether it belongs to wheel and rail together, not to a patch.
     is_count
-        Is it an integer?
+        Whether it is an integer.
     """
 
     name: str
@@ -62,13 +62,13 @@ class Solved:
     Attributes
     ----------
     columns
-        What the columns of values are.
+        Description of each column of values.
     values
-        Totals, shape (rows, columns); NaN where a row has none.
+        Totals, shape (rows, columns); NaN where a total does not exist.
     places
-        Case from 0 and patch, 0 for wheel and rail together, of each row, shape (rows, 2).
+        Index of the case, from 0, and number of the patch of each row, shape (rows, 2); patch 0: wheel and rail together.
     states
-        How each case ended, 0 solved, 1 not converged, 2 refused, and what was missed, shape (cases, 2).
+        Status of each case, 0 solved, 1 not converged, 2 refused, and code of the missed condition, shape (cases, 2).
     reasons
         Why a case was not solved, "" for one that was.
     """
@@ -81,13 +81,13 @@ class Solved:
 
 
 def _prototypes() -> ctypes.CDLL:
-    """The library with the types of arguments"""
+    """The library with declared argument types"""
     global _ready
     loaded = library()
     if loaded is _ready:
         return loaded
     if not hasattr(loaded, "contact_batch_open"):
-        raise ContactError("The library is older than studies; build it anew, or set CONTACT_LIBRARY to a newer one")
+        raise ContactError("The library is older than studies; rebuild it, or set CONTACT_LIBRARY to a newer one")
     loaded.contact_batch_open.argtypes = [ctypes.c_int, ctypes.c_double]
     loaded.contact_batch_open.restype = ctypes.c_void_p
     loaded.contact_batch_close.argtypes = [ctypes.c_void_p]
@@ -103,14 +103,14 @@ def _prototypes() -> ctypes.CDLL:
 
 
 class Batch(Handle):
-    """What the library keeps from call to call; one thread at a time may use it.
+    """Data that the library keeps from call to call; not to be used by several threads at the same time.
 
     Parameters
     ----------
     threads
-        Threads of each calculation.
+        Number of threads of each calculation.
     seconds
-        What each case may take [s]; 0 without limit.
+        Time limit of each case [s]; 0: none.
     """
 
     _closer = "contact_batch_close"
@@ -131,14 +131,14 @@ class Batch(Handle):
         text
             Cases in the readable format.
         folder
-            To which names of files are relative.
+            Folder of relative file names.
         names, given
-            Numbers "group.key" that vary, and their values of shape (sets, numbers): the second case of the text is solved
-            for each set. Without names the cases of the text are solved one after the other.
+            Paths "group.key" of the numbers that vary, and their values of shape (sets, numbers): the second case of the text is
+            solved for each set. Without names the cases of the text are solved one after the other.
         cases
-            How many those are.
+            Number of cases of the text, without names.
         patches
-            Most rows of a case: 1 for contact problems, 1 and the most patches for wheel and rail.
+            Maximum number of rows of a case: 1 for basic contact, 1 + maximum number of patches for wheel and rail.
 
         Raises
         ------
@@ -159,17 +159,17 @@ class Batch(Handle):
         status = self._library.contact_batch_solve(self._handle, ctypes.byref(job), message, len(message))
         if status != 0:
             raise ContactError(message.value.decode("utf-8", errors="replace"), status)
-        self._learn(job.columns)
+        self._describe_columns(job.columns)
         rows = job.rows
         places = places[:rows]
         places[:, 0] -= 1
-        told = [""] * job.cases
+        sentences = [""] * job.cases
         for k in np.flatnonzero(states[:job.cases, 0]):
-            told[k] = bytes(reasons[k]).split(b"\0", 1)[0].decode("utf-8", errors="replace")
-        return Solved(self._columns[:job.columns], values[:rows, :job.columns], places, states[:job.cases], told)
+            sentences[k] = bytes(reasons[k]).split(b"\0", 1)[0].decode("utf-8", errors="replace")
+        return Solved(self._columns[:job.columns], values[:rows, :job.columns], places, states[:job.cases], sentences)
 
-    def _learn(self, count: int) -> None:
-        """Ask for columns that are new"""
+    def _describe_columns(self, count: int) -> None:
+        """Get the descriptions of new columns from the library"""
         for number in range(len(self._columns) + 1, count + 1):
             name, unit, meaning = (ctypes.create_string_buffer(_TEXT) for _ in range(3))
             kind = self._library.contact_batch_column(self._handle, number, name, unit, meaning, _TEXT)
@@ -177,11 +177,11 @@ class Batch(Handle):
             self._columns.append(Column(words[0], words[1], words[2], kind >= 2, kind % 2 == 1))
 
     def field(self, name: str, patch: int = 1) -> tuple[Numbers, tuple[float, float, float, float], str] | None:
-        """An element field of the case that was solved last.
+        """An element field of the last solved case.
 
         Returns
         -------
-        Values of shape (my, mx); x and y of the first centre and sides of an element [mm]; unit. None: there is none.
+        Values of shape (my, mx); x and y of the first centre and sides of an element [mm]; unit. None if there is no such field.
         """
         mx, my = ctypes.c_int(), ctypes.c_int()
         frame = (ctypes.c_double * 4)()

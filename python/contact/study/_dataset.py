@@ -21,15 +21,15 @@ from ._task import Done
 
 #: Values of the variable status
 STATUS = {-2: "not computed", -1: "left out", 0: "solved", 1: "not converged", 2: "refused"}
-#: What is kept of each column beyond its values
+#: Columns by name: values, attributes, and whether they have a dimension of patches
 _Table = dict[str, tuple[NDArray[Any], dict[str, str], bool]]
-#: Elements of a chunk of a file, at most
+#: Maximum number of elements of a chunk of a file
 _CHUNK = 1 << 18
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What of its points a dataset is to have.
+class Request:
+    """Requested contents of a dataset.
 
     Attributes
     ----------
@@ -48,22 +48,22 @@ class Wanted:
 
 @dataclass
 class Survey:
-    """What results of a whole study have, so that all its parts have it.
+    """Contents and sizes of the results of a whole study, so that all its parts have the same variables and shapes.
 
     Attributes
     ----------
     patches
-        Most patches of a case.
+        Maximum number of patches of a case.
     columns
-        Totals with their attributes, whether they are of wheel and rail together, and whether they have a dimension of patches.
+        Totals with their attributes, whether they belong to wheel and rail together, and whether they have a dimension of patches.
     elements
-        Most rows and columns of the grids of fields.
+        Maximum number of rows and columns of the grids of fields.
     units
-        Of fields.
+        Units of fields.
     batch
-        The batch of the store in which each point is, -1 for none.
+        Index of the batch of the store with each point, -1 for none.
     sentences
-        Why cases were not solved, and their numbers; grows with the parts.
+        Indices of the reasons why cases were not solved; extended part by part.
     """
 
     patches: int
@@ -74,8 +74,8 @@ class Survey:
     sentences: dict[str, int]
 
 
-def survey(store: Store, keys: Keys, wanted: Wanted) -> Survey:
-    """Look through a store, batch by batch."""
+def survey(store: Store, keys: Keys, requested: Request) -> Survey:
+    """Scan a store, batch by batch."""
     first, inverse = distinct(keys)
     places = Places(keys[first])
     batch = np.full(len(first), -1, dtype=np.int64)
@@ -86,28 +86,28 @@ def survey(store: Store, keys: Keys, wanted: Wanted) -> Survey:
         batch[at[at >= 0]] = number
         if not (at >= 0).any():
             continue
-        if wanted.scene.is_wheel_rail and len(done.places):
+        if requested.scene.is_wheel_rail and len(done.places):
             found.patches = max(found.patches, int(done.places[:, 2].max()))
         for column in done.columns:
-            if wanted.totals is None or column.name in wanted.totals:
+            if requested.totals is None or column.name in requested.totals:
                 found.columns.setdefault(column.name, (_attributes(column), column.of_pair, _has_patches(done)))
         for name, values in done.arrays.items():
-            if name.partition(",")[0] in wanted.fields:
+            if name.partition(",")[0] in requested.fields:
                 found.elements = (max(found.elements[0], values.shape[0]), max(found.elements[1], values.shape[1]))
         found.units.update(done.units)
     found.batch = batch[inverse]
     return found
 
 
-def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, columns: dict[str, Values], wanted: Wanted,
+def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, columns: dict[str, Values], requested: Request,
              whole: Survey | None = None) -> xarray.Dataset:
-    """The dataset of a study, from what is in its store; as a part of a whole with the variables and sizes of that."""
-    scene, totals, fields = wanted.scene, wanted.totals, wanted.fields
+    """The dataset of a study from its store; for a part of a whole, with the variables and sizes of the whole."""
+    scene, totals, fields = requested.scene, requested.totals, requested.fields
     steps = scene.steps
     first, inverse = distinct(keys)
     places = Places(keys[first])
     numbers = store.numbers() if whole is None else [int(number) for number in np.unique(whole.batch) if number >= 0]
-    most = whole.patches if whole is not None else _most_patches(store, places) if scene.is_wheel_rail else 1
+    most = whole.patches if whole is not None else _max_patches(store, places) if scene.is_wheel_rail else 1
     status = np.full((len(first), steps), -2, dtype=np.int8)
     missed = np.zeros((len(first), steps), dtype=np.int8)
     reason = np.zeros((len(first), steps), dtype=np.int32)
@@ -148,19 +148,19 @@ def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, 
     taken = {*space.short.values(), *dims}
     for name, (values, attributes, of_pair) in found.items():
         if name in taken:
-            # a total of the same name as an input: the creepage that was found, and the one that was given
+            # a total with the name of an input: the computed and the prescribed creepage
             name += "_result"
         patch_dims = ("patch",) if scene.is_wheel_rail and not of_pair else ()
         values = values[inverse]
         values[~chosen] = np.nan
         data[name] = (dims + step_dims + patch_dims, values.reshape(shape + step_shape + values.shape[2:]), attributes)
     data["status"] = (dims + step_dims, status_of.reshape(shape + step_shape), {
-        "long_name": "how the case ended", "flag_values": np.array(list(STATUS), dtype=np.int8),
+        "long_name": "status of the case", "flag_values": np.array(list(STATUS), dtype=np.int8),
         "flag_meanings": " ".join(word.replace(" ", "_") for word in STATUS.values())})
     data["missed"] = (dims + step_dims, missed[inverse].reshape(shape + step_shape), {
-        "long_name": "what did not converge", "flag_values": np.arange(6, dtype=np.int8),
+        "long_name": "missed condition", "flag_values": np.arange(6, dtype=np.int8),
         "flag_meanings": "none normal tangential outer force time"})
-    data["reason"] = (dims + step_dims, reason_of.reshape(shape + step_shape), {"long_name": "place in reasons"})
+    data["reason"] = (dims + step_dims, reason_of.reshape(shape + step_shape), {"long_name": "index in reasons"})
     data["reasons"] = (("sentence",), np.array(list(sentences), dtype=object), {"long_name": "why cases were not solved"})
     of_fields: dict[str, Any] = {}
     _add_fields(of_fields, kept, units, inverse, dims, shape, most, scene.is_wheel_rail,
@@ -170,14 +170,14 @@ def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, 
 
 
 def _known(chosen: NDArray[np.bool_], inverse: NDArray[np.intp], count: int) -> NDArray[np.bool_]:
-    """Which different points count at all"""
+    """Which distinct points are not excluded by constraints"""
     known = np.zeros(count, dtype=bool)
     known[inverse[chosen]] = True
     return known
 
 
-def _most_patches(store: Store, places: Places) -> int:
-    """Most patches of a case"""
+def _max_patches(store: Store, places: Places) -> int:
+    """Maximum number of patches of a case"""
     most = 1
     for number in store.numbers():
         done = store.batch(number)
@@ -187,7 +187,7 @@ def _most_patches(store: Store, places: Places) -> int:
 
 
 def _take_columns(done: Done, at: NDArray[np.int64], found: _Table, totals: list[str] | None, size: tuple[int, int, int]) -> None:
-    """Totals of a batch into the arrays of the dataset"""
+    """Copy the totals of a batch into the arrays of the dataset"""
     point, step, patch = (done.places[:, k] for k in range(3))
     use = at[point] >= 0
     for rows, of_pair in ((np.flatnonzero(use & (patch == 0)), True), (np.flatnonzero(use & (patch > 0)), False)):
@@ -210,17 +210,17 @@ def _attributes(column: Column) -> dict[str, str]:
 
 
 def _has_patches(done: Done) -> bool:
-    """Are these results of wheel and rail, with a dimension of patches?"""
+    """Do these results have a dimension of patches, as those of wheel and rail?"""
     return any(column.of_pair for column in done.columns)
 
 
 def _units(unit: str) -> str:
-    """The unit as other programs read it"""
+    """The unit in the notation of other programs"""
     return {"-": "1", "": "1"}.get(unit, unit)
 
 
 def coordinates_of(space: Space, columns: dict[str, Values], scene: Scene, most: int) -> xarray.Dataset:
-    """A dataset of what varies, patches and steps, without results."""
+    """A dataset of the varied inputs, patches and steps, without results."""
     found: dict[str, Any] = {}
     for axis in space.axes:
         for path, values in axis.columns.items():
@@ -242,7 +242,7 @@ def coordinates_of(space: Space, columns: dict[str, Values], scene: Scene, most:
 def _add_fields(data: dict[str, Any], kept: dict[str, dict[tuple[int, int], Any]], units: dict[str, str],
                 inverse: NDArray[np.intp], dims: tuple[str, ...], shape: tuple[int, ...], most: int, has_patches: bool,
                 elements: tuple[int, int] | None) -> None:
-    """Element fields, smaller grids with NaN behind them, and the frames of their grids"""
+    """Element fields, smaller grids padded with NaN, and position and element size of their grids"""
     arrays = [values for name in kept for values, _ in kept[name].values()]
     if elements is None:
         elements = (max((values.shape[0] for values in arrays), default=0), max((values.shape[1] for values in arrays), default=0))
@@ -299,7 +299,7 @@ def save(data: xarray.Dataset, file: str | os.PathLike[str]) -> None:
 
 
 def chunks_of(shape: tuple[int, ...]) -> tuple[int, ...]:
-    """Sides of a chunk: whole in the last dimensions, as far as it goes"""
+    """Shape of a chunk: full length in the last dimensions, as far as its size permits"""
     sides, left = [], _CHUNK
     for length in reversed(shape):
         side = max(1, min(length, left))
@@ -309,9 +309,9 @@ def chunks_of(shape: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def frames_of(data: xarray.Dataset, starts: Mapping[str, int] | None = None) -> Iterator[Any]:
-    """Totals as tables of pyarrow, a portion of the first dimension at a time; a row for each case and patch.
+    """Totals as tables of pyarrow, in portions along the first dimension; a row for each case and patch.
 
-    Dimensions without values are numbered, from 0 or from where a part of a whole starts.
+    Dimensions without coordinates are numbered, from 0 or from the start of the part.
     """
     import pyarrow
     dims = data["status"].dims

@@ -1,4 +1,4 @@
-"""Who does the tasks of a study: threads or processes of this machine, or a cluster of Dask."""
+"""Execution of the tasks of a study: by threads or processes of this machine, or by a Dask cluster."""
 from __future__ import annotations
 
 import os
@@ -10,11 +10,11 @@ from typing import Any, Callable
 from ..errors import ContactError
 from ._task import Done, Task, build, refused, solve_task
 
-#: Tasks that wait for each worker, so that none is idle
+#: Number of queued tasks per worker, so that none is idle
 _AHEAD = 2
-#: How long workers may take to tell what they are [s]
+#: Time limit for workers to report their build [s]
 _PATIENCE = 10.0
-#: How often a task may end with its worker, alone, before it is given up; how often Dask tries one that fails
+#: Number of deaths of its worker after which a task that runs alone is refused; number of retries of Dask
 _LIVES, _RETRIES = 2, 4
 
 
@@ -60,8 +60,8 @@ class Engine:
     def run(self, tasks: Callable[[], Task | None], stop: Callable[[], bool] = lambda: False) -> Iterator[Done]:
         """Execute tasks until there are none.
 
-        A task whose worker dies is done again when nothing else is under way, in halves if it dies again; a single point that ends
-        its worker again and again is refused.
+        A task whose worker dies is repeated with no other task running, and divided in halves if the worker dies again; a single
+        point that repeatedly kills its worker is refused.
 
         Parameters
         ----------
@@ -73,13 +73,13 @@ class Engine:
         self._check_builds()
         executor = self._start()
         pending: dict[Future[Done], tuple[Task, int]] = {}
-        # what ended with its worker, most often beside the task that is to blame
+        # tasks whose worker died, most of them while another task was the cause
         suspects: list[tuple[Task, int]] = []
         try:
             while True:
-                alone = bool(suspects)
-                while len(pending) < (1 if alone else self.workers * _AHEAD) and not stop():
-                    if alone:
+                one_by_one = bool(suspects)
+                while len(pending) < (1 if one_by_one else self.workers * _AHEAD) and not stop():
+                    if one_by_one:
                         task, lives = suspects.pop()
                     else:
                         following = tasks()
@@ -89,7 +89,7 @@ class Engine:
                     pending[executor.submit(solve_task, task)] = (task, lives)
                 if not pending:
                     return
-                is_sure = alone and len(pending) == 1
+                is_sure = one_by_one and len(pending) == 1
                 ready, _ = wait(pending, return_when=FIRST_COMPLETED)
                 is_broken = False
                 for future in ready:
@@ -108,9 +108,9 @@ class Engine:
                         elif lives > 1:
                             suspects.append((task, lives - 1))
                         else:
-                            yield refused(task, "the worker ended while it computed this case, several times")
+                            yield refused(task, "the worker died several times while it computed this case")
                 if is_broken and self._client is None:
-                    # a pool that lost a process is of no use, and neither is what it still had to do
+                    # a pool that lost a process is unusable, and its pending tasks are lost
                     suspects.extend(pending.values())
                     pending.clear()
                     executor.shutdown(wait=False)
@@ -121,28 +121,28 @@ class Engine:
             executor.shutdown(wait=self._client is None)
 
     def _check_builds(self) -> None:
-        """Refuse workers of a cluster that compute with something else; those that come later refuse their tasks themselves"""
+        """Refuse workers of a cluster with another build; workers that join later refuse their tasks themselves"""
         if self._client is None:
             return
         import distributed
         try:
-            # as client.run, which has no limit
-            told = self._client.sync(self._client._run, build, on_error="return", callback_timeout=_PATIENCE)
+            # as client.run, but with a time limit
+            builds = self._client.sync(self._client._run, build, on_error="return", callback_timeout=_PATIENCE)
         except distributed.TimeoutError:
-            # one of them stands still
+            # a worker does not respond
             return
-        others = [f"{address} ({found})" for address, found in sorted(told.items()) if found != build()]
+        others = [f"{address} ({found})" for address, found in sorted(builds.items()) if found != build()]
         if others:
             raise ContactError(f"workers of the cluster are of another build than the study ({build()}), install the same there: "
                                + ", ".join(others))
 
     def close(self) -> None:
-        """Leave the cluster."""
+        """Disconnect from the cluster."""
         if self._client is not None and self._own_client:
             self._client.close()
 
     def _start(self) -> Executor:
-        """Whoever takes tasks"""
+        """A new executor"""
         if self._client is not None:
             return _Cluster(self._client)
         if self._kind == "processes":
@@ -151,47 +151,47 @@ class Engine:
 
 
 class _Cluster(Executor):
-    """The workers of a client of Dask as an executor.
+    """Executor for the workers of a Dask client.
 
-    That of distributed itself fails where a result is lost between its end and its transfer, with the worker that has it: it looks
-    at the state after the result has been computed again.
+    The executor of distributed fails if a result is lost with its worker after the computation and before the transfer, because it
+    checks the state only after the result has been recomputed.
     """
 
     def __init__(self, client: Any) -> None:
         self._client = client
-        self._asked: dict[Future[Any], Any] = {}
+        self._remote: dict[Future[Any], Any] = {}
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        told: Future[Any] = Future()
-        asked = self._client.submit(fn, *args, pure=False, retries=_RETRIES, **kwargs)
-        self._asked[told] = asked
+        local: Future[Any] = Future()
+        remote = self._client.submit(fn, *args, pure=False, retries=_RETRIES, **kwargs)
+        self._remote[local] = remote
 
         async def hand_over() -> None:
             value, failure = None, None
             try:
-                value, = await self._client.gather([asked], asynchronous=True)
-            except BaseException as error:  # what cancels a task is no Exception
+                value, = await self._client.gather([remote], asynchronous=True)
+            except BaseException as error:  # a cancellation is not an Exception
                 failure = error
-            self._asked.pop(told, None)
-            if not told.set_running_or_notify_cancel():
+            self._remote.pop(local, None)
+            if not local.set_running_or_notify_cancel():
                 return
             if failure is None:
-                told.set_result(value)
+                local.set_result(value)
             else:
-                told.set_exception(failure)
+                local.set_exception(failure)
 
         self._client.loop.add_callback(hand_over)
-        return told
+        return local
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        left = list(self._asked.values())
-        self._asked.clear()
+        left = list(self._remote.values())
+        self._remote.clear()
         if left:
             self._client.cancel(left)
 
 
 def _client_of(scheduler: Any) -> Any:
-    """A client of a cluster"""
+    """A client of a Dask cluster"""
     if not isinstance(scheduler, str):
         return scheduler
     try:
@@ -200,14 +200,14 @@ def _client_of(scheduler: Any) -> Any:
         raise ContactError("studies on a cluster need Dask: pip install 'contact-mechanics[study]'") from reason
     try:
         client: Any = distributed
-        # not for everything else that this process does with Dask
+        # other uses of Dask in this process keep their client
         return client.Client(scheduler, timeout="10s", set_as_default=False)
     except ValueError as reason:
-        raise ContactError(f"{scheduler} is no address of a scheduler, such as tcp://10.0.0.1:8786: {reason}") from reason
+        raise ContactError(f"{scheduler} is not the address of a scheduler, such as tcp://10.0.0.1:8786: {reason}") from reason
     except OSError as reason:
         raise ContactError(f"no scheduler of Dask answers at {scheduler}: {reason}") from reason
 
 
 def _is_death(error: BaseException) -> bool:
-    """Did the worker end, and not the task?"""
+    """Was the error caused by the end of the worker, not by the task?"""
     return type(error).__name__ in ("BrokenProcessPool", "KilledWorker", "CancelledError", "FutureCancelledError")

@@ -1,4 +1,4 @@
-"""Formulae in text, for constraints and derived quantities: names, numbers, operators and a few functions, nothing else."""
+"""Formulae in text, for constraints and derived quantities: only names, numbers, operators and a few functions."""
 from __future__ import annotations
 
 import ast
@@ -23,7 +23,7 @@ _CONSTANTS = {"pi": float(np.pi)}
 
 
 def names_in(text: str) -> set[str]:
-    """The names that a formula asks for."""
+    """The names used in a formula."""
     return {node.id for node in ast.walk(_parsed(text)) if isinstance(node, ast.Name)} - set(FUNCTIONS) - set(_CONSTANTS)
 
 
@@ -35,12 +35,12 @@ def evaluate(text: str, names: Mapping[str, Any]) -> Any:
     text
         For instance ``"abs(fx * cksi) + abs(fy * ceta)"``; ``and``, ``or`` and ``not`` act on each element.
     names
-        What the names stand for: numbers, arrays or xarray variables.
+        Values of the names: numbers, arrays or xarray variables.
 
     Raises
     ------
     ValueError
-        If it is no formula, or has a name that stands for nothing.
+        If it is not a formula, or uses an unknown name.
     """
     return _value(_parsed(text).body, text, names)
 
@@ -53,7 +53,7 @@ def _parsed(text: str) -> ast.Expression:
 
 
 def _value(node: ast.AST, text: str, names: Mapping[str, Any]) -> Any:
-    """Value of a part of a formula"""
+    """Value of a node of the syntax tree"""
     if isinstance(node, ast.Constant) and isinstance(node.value, (int, float, bool, str)):
         return node.value
     if isinstance(node, ast.Name):

@@ -1,4 +1,4 @@
-"""Cases that were not solved, by their kinds."""
+"""Summary of the cases that were not solved, by causes."""
 from __future__ import annotations
 
 import re
@@ -9,27 +9,27 @@ import xarray
 
 
 def kind_of(reason: str) -> str:
-    """A reason without its numbers, so that the same failure of other cases reads alike."""
+    """A reason without its numbers, so that equal causes have equal texts."""
     return re.sub(r"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?", "#", reason)
 
 
 class Tally:
-    """Counts how cases ended, part by part.
+    """Counts cases by their status, part by part.
 
     Parameters
     ----------
     shape, names
-        Of the whole: lengths and names of the dimensions of its cases.
+        Lengths and names of the dimensions of all cases.
     """
 
     def __init__(self, shape: tuple[int, ...], names: list[str]) -> None:
         self._shape, self._names = shape, names
         self.counts: dict[int, int] = {}
-        #: Number and first place of each kind, and its reason
+        #: Number of cases of each kind, position of the first one, and its reason
         self._kinds: dict[tuple[int, str], list[Any]] = {}
 
     def add(self, results: xarray.Dataset, first: int) -> None:
-        """Count the cases of a part, whose first one has this number."""
+        """Count the cases of a part; first is the number of its first case."""
         status = results["status"].values.ravel()
         reasons = results["reason"].values.ravel()
         sentences = [str(text) for text in results["reasons"].values]
@@ -46,7 +46,7 @@ class Tally:
                 f"{count(-1, 0)} left out")
 
     def table(self) -> str:
-        """Kinds of cases that were not solved: how many, how they ended, why, and the first of them; "" when all were."""
+        """Kinds of cases that were not solved: number, status, reason, and the first of them; "" if all were solved."""
         if not self._kinds:
             return ""
         words = {1: "not converged", 2: "refused"}

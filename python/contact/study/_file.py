@@ -1,4 +1,4 @@
-"""A study in a file: what `contact study FILE.toml` reads."""
+"""Reader of a study in a file, for `contact study FILE.toml`."""
 from __future__ import annotations
 
 import os
@@ -19,14 +19,14 @@ _TABLE = ("file", "columns", "name")
 
 
 class StudyFile:
-    """A study and where its results go.
+    """A study and the files of its results.
 
     Parameters
     ----------
     file
-        Of the study, in TOML; names of files in it are relative to its folder.
+        Path of the study, in TOML; file names in it are relative to its folder.
     folder
-        Of what is computed, in place of the one that the file names.
+        Folder of computed cases, instead of that of the file.
     """
 
     def __init__(self, file: str | os.PathLike[str], folder: str | os.PathLike[str] | None = None) -> None:
@@ -63,14 +63,14 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _known(found: Mapping[str, Any], keys: tuple[str, ...], where: str) -> None:
-    """Refuse what has no meaning"""
+    """Refuse unknown keys"""
     for key in found:
         if key not in keys:
             raise ContactError(f"{where}: '{key}' has no meaning there; known are {', '.join(keys)}")
 
 
 def _vary(content: Mapping[str, Any], path: Path, home: Path) -> list[Any]:
-    """What varies, in the order of the file: lists and ranges, samples, tables"""
+    """The varied inputs, in the order of the file: lists and ranges, samples, tables"""
     parts: list[Any] = []
     for key, value in content.get("vary", {}).items():
         if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""Results part by part: files of netCDF, Zarr and Parquet that no memory has to hold as a whole."""
+"""Writing results part by part to netCDF, Zarr and Parquet, without holding all of them in memory."""
 from __future__ import annotations
 
 import os
@@ -13,24 +13,24 @@ import xarray
 from numpy.typing import NDArray
 
 from ..errors import ContactError
-from ._dataset import Wanted, assemble, chunks_of, coordinates_of, frames_of, survey
+from ._dataset import Request, assemble, chunks_of, coordinates_of, frames_of, survey
 from ._failures import Tally
 from ._space import Axis, Space, Values
 from ._store import Keys, Store
 
-#: Where a part lies: a slice for each axis
+#: Range of a part: a slice for each axis
 Place = tuple[slice, ...]
 
 
 def places(shape: tuple[int, ...], most: int) -> Iterator[Place]:
-    """Parts of a grid of points, one behind the other: whole last axes, of the one before a stretch, of the first ones one value.
+    """Consecutive parts of a grid of points: all of the last axes, a range of the axis before them, one value of the first axes.
 
     Parameters
     ----------
     shape
         Lengths of the axes.
     most
-        Points of a part, at most if that is 1 or more.
+        Maximum number of points of a part; less than 1 counts as 1.
     """
     whole, inner = len(shape), 1
     while whole > 0 and inner * shape[whole - 1] <= most:
@@ -47,13 +47,13 @@ def places(shape: tuple[int, ...], most: int) -> Iterator[Place]:
 
 
 def part_of(space: Space, place: Place) -> Space:
-    """The axes of a part."""
+    """The axes, restricted to a part."""
     return Space([Axis(axis.name, {path: values[stretch] for path, values in axis.columns.items()})
                   for axis, stretch in zip(space.axes, place)], space.rules, space.where)
 
 
 def numbers_of(shape: tuple[int, ...], place: Place) -> slice:
-    """The numbers of the points of a part, which follow each other."""
+    """The indices of the points of a part, which are consecutive."""
     if not shape:
         return slice(0, 1)
     first = int(np.ravel_multi_index([stretch.start for stretch in place], shape))
@@ -61,16 +61,16 @@ def numbers_of(shape: tuple[int, ...], place: Place) -> slice:
 
 
 class Writer:
-    """Writes parts into a file, which is there when all of them are.
+    """Writes parts into a file, which appears under its name only when it is complete.
 
     Parameters
     ----------
     file
         Its path: .nc, .zarr or .parquet.
     coordinates
-        Of the whole.
+        Coordinates of the whole dataset.
     sizes
-        Lengths of its axes.
+        Lengths of the axes of the whole dataset.
     """
 
     def __init__(self, file: str | os.PathLike[str], coordinates: xarray.Dataset, sizes: dict[str, int]) -> None:
@@ -88,7 +88,7 @@ class Writer:
         self._add(part.drop_vars("reasons"), place)
 
     def close(self, reasons: xarray.DataArray) -> None:
-        """Write the texts of reasons, and put the file where it belongs."""
+        """Write the texts of reasons, and rename the file to its final name."""
         suffix = self._path.suffix
         last = reasons.to_dataset(name="reasons").assign_attrs(self._coordinates.attrs)
         if suffix == ".nc":
@@ -104,7 +104,7 @@ class Writer:
         os.replace(self._beside, self._path)
 
     def abandon(self) -> None:
-        """Leave nothing behind."""
+        """Remove the incomplete file."""
         if self._target is not None and self._path.suffix != ".zarr":
             self._target.close()
         if self._beside.is_dir():
@@ -113,11 +113,11 @@ class Writer:
             self._beside.unlink()
 
     def _shape(self, values: xarray.DataArray) -> tuple[int, ...]:
-        """Shape of a variable of the whole"""
+        """Shape of a variable in the whole dataset"""
         return tuple(self._sizes.get(str(name), length) for name, length in zip(values.dims, values.shape))
 
     def _stretch(self, values: xarray.DataArray, place: Place) -> tuple[slice, ...]:
-        """Where values of a part lie"""
+        """Slices of the values of a part in the whole dataset"""
         stretches = dict(zip(self._sizes, place))
         return tuple(stretches.get(str(name), slice(None)) for name in values.dims)
 
@@ -161,28 +161,28 @@ class Writer:
 
 
 def write_parts(files: list[str | os.PathLike[str]], store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space,
-                columns: dict[str, Values], wanted: Wanted, derived: Callable[[xarray.Dataset], xarray.Dataset],
+                columns: dict[str, Values], requested: Request, derived: Callable[[xarray.Dataset], xarray.Dataset],
                 memory: int) -> Tally:
-    """Write results into files, a part at a time.
+    """Write results to files, one part at a time.
 
     Parameters
     ----------
     files
-        Their paths; none: results are counted only.
-    store, keys, chosen, space, columns, wanted
-        As for assemble.
+        Paths of the files; if empty, cases are counted only.
+    store, keys, chosen, space, columns, requested
+        As for `assemble`.
     derived
-        Adds to a part what follows from it.
+        Adds the derived quantities to a part.
     memory
-        Of a part, about [bytes].
+        Approximate memory of a part [bytes].
     """
-    whole = survey(store, keys, wanted)
-    coordinates = coordinates_of(space, columns, wanted.scene, whole.patches)
+    whole = survey(store, keys, requested)
+    coordinates = coordinates_of(space, columns, requested.scene, whole.patches)
     values = sum(whole.patches if has_patches and not of_pair else 1 for _, of_pair, has_patches in whole.columns.values())
-    values += len(wanted.fields) * whole.patches * whole.elements[0] * whole.elements[1]
-    most = max(1, memory // (8 * (values + 8) * wanted.scene.steps))
-    tally = Tally(space.shape + ((wanted.scene.steps,) if wanted.scene.steps > 1 else ()),
-                  [axis.name for axis in space.axes] + (["step"] if wanted.scene.steps > 1 else []))
+    values += len(requested.fields) * whole.patches * whole.elements[0] * whole.elements[1]
+    most = max(1, memory // (8 * (values + 8) * requested.scene.steps))
+    tally = Tally(space.shape + ((requested.scene.steps,) if requested.scene.steps > 1 else ()),
+                  [axis.name for axis in space.axes] + (["step"] if requested.scene.steps > 1 else []))
     writers = [Writer(file, coordinates, {axis.name: len(axis) for axis in space.axes}) for file in files]
     reasons = xarray.DataArray()
     try:
@@ -190,8 +190,8 @@ def write_parts(files: list[str | os.PathLike[str]], store: Store, keys: Keys, c
             points = numbers_of(space.shape, place)
             one = replace(whole, batch=whole.batch[points])
             part = derived(assemble(store, keys[points], chosen[points], part_of(space, place),
-                                    {path: all_values[points] for path, all_values in columns.items()}, wanted, one))
-            tally.add(part, points.start * wanted.scene.steps)
+                                    {path: all_values[points] for path, all_values in columns.items()}, requested, one))
+            tally.add(part, points.start * requested.scene.steps)
             for writer in writers:
                 writer.add(part, place)
             reasons = part["reasons"]

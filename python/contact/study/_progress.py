@@ -1,12 +1,12 @@
-"""How far a study is, on a terminal or in a notebook."""
+"""Progress of a study, on a terminal or in a notebook."""
 from __future__ import annotations
 
 import sys
 import time
 from typing import Any, Callable, TextIO, Union
 
-#: What callers may give: yes, no, where it can be shown (None), or a function of the words
-Wanted = Union[bool, None, Callable[[str], None]]
+#: Values of the argument `progress`: on, off, automatic (None), or a function that receives the text
+ShowProgress = Union[bool, None, Callable[[str], None]]
 
 
 def duration(seconds: float) -> str:
@@ -19,40 +19,40 @@ def duration(seconds: float) -> str:
 
 
 class Progress:
-    """Tells how far it is, four times a second at most.
+    """Reports the progress, at most four times a second.
 
     Parameters
     ----------
     total
-        Points to be computed.
+        Number of points to be computed.
     there
-        Points that were there before.
-    wanted
-        See Wanted.
+        Number of points that were computed before.
+    requested
+        Value of the argument `progress`.
     """
 
-    def __init__(self, total: int, there: int, wanted: Wanted, stream: TextIO | None = None) -> None:
+    def __init__(self, total: int, there: int, requested: ShowProgress, stream: TextIO | None = None) -> None:
         self._total, self._there = total, there
         self._stream = sys.stderr if stream is None else stream
-        self._tell: Callable[[str], None] | None = None
-        if callable(wanted):
-            self._tell = wanted
-        elif wanted or (wanted is None and (self._stream.isatty() or _in_notebook())):
-            self._tell = self._show
+        self._report: Callable[[str], None] | None = None
+        if callable(requested):
+            self._report = requested
+        elif requested or (requested is None and (self._stream.isatty() or _in_notebook())):
+            self._report = self._show
         self._begin = self._last = time.monotonic()
         self._done = self._failed = self._width = 0
 
     def add(self, points: int, failed: int) -> None:
-        """Points were computed, some without a good result."""
+        """Add computed points, some of them not solved."""
         self._done += points
         self._failed += failed
         now = time.monotonic()
-        if self._tell is not None and (now - self._last > 0.25 or self._done == self._total):
+        if self._report is not None and (now - self._last > 0.25 or self._done == self._total):
             self._last = now
-            self._tell(self.words())
+            self._report(self.words())
 
     def words(self) -> str:
-        """How far it is."""
+        """The current progress in words."""
         elapsed = time.monotonic() - self._begin
         text = f"{self._there + self._done} of {self._there + self._total} points"
         if self._failed:
@@ -63,7 +63,7 @@ class Progress:
         return text
 
     def close(self) -> None:
-        """Behind the last words."""
+        """End the line of the last report."""
         if self._width:
             print(file=self._stream)
 
@@ -73,7 +73,7 @@ class Progress:
 
 
 def _in_notebook() -> bool:
-    """Is this a kernel of a notebook?"""
+    """Is this process the kernel of a notebook?"""
     shell: Any = sys.modules.get("IPython")
     found = shell.get_ipython() if shell is not None and hasattr(shell, "get_ipython") else None
     return found is not None and "IPKernelApp" in getattr(found, "config", {})

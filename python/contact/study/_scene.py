@@ -1,4 +1,4 @@
-"""The base of a study: cases in either format, and the text of a case with other inputs."""
+"""The base of a study: cases in either format, and their text with varied inputs."""
 from __future__ import annotations
 
 import copy
@@ -14,11 +14,11 @@ from typing import Any
 from .._experiment import explain, read
 from ..errors import ContactError
 
-#: One input that stands for several
+#: Inputs that are short for several keys
 _TOGETHER = {"friction.coefficient": ("friction.fstat", "friction.fkin")}
-#: Keys of a case that a case of a study does not take over
+#: Keys of a case that are not used in a study
 _DROPPED = ("title", "renew")
-#: Groups with names of files
+#: Groups with file names
 _FILES = ("rail_profile", "wheel_profile", "influence")
 
 
@@ -30,10 +30,10 @@ class Scene:
     base
         Path of an experiment, in either format, or its cases as returned by :func:`contact.read`.
     case
-        Number of the case that is varied, from 1: with all that the cases before it gave, as a new sequence. Without it the
-        experiment is one scene: its cases are computed one after the other for each point, with the dimension ``step``.
+        Number of the case that is varied, from 1; it includes all input of the cases before it, and starts a new sequence.
+        Without it all cases of the experiment are computed in order for each point, with the dimension ``step``.
     folder
-        To which names of files are relative, when cases are given.
+        Folder of relative file names, if cases are given.
     """
 
     def __init__(self, base: str | os.PathLike[str] | Sequence[Mapping[str, Any]] | Mapping[str, Any], case: int | None = None,
@@ -55,7 +55,7 @@ class Scene:
                 raise ContactError(f"case = {case}: the base has {len(cases)} cases")
             self.cases = [_with_meaning(_merged(self.cases[:case]), self.cases[case - 1])]
         if len(self.cases) == 1:
-            # what a case gives must not depend on the case before it
+            # the input of a case must not depend on the previous case
             self.cases[0].update(sequence="initiate", estimate="fresh")
         for one in self.cases:
             for key in _DROPPED[:1]:
@@ -69,7 +69,7 @@ class Scene:
         return len(self.cases)
 
     def digest(self) -> bytes:
-        """What the results follow from: the cases, and the contents of the files that they name."""
+        """All inputs of the results: the cases, and the contents of the files that they name."""
         found = hashlib.blake2b(json.dumps(self.cases, sort_keys=True).encode(), digest_size=16)
         for one in self.cases:
             for group in _FILES:
@@ -81,7 +81,7 @@ class Scene:
         return found.digest()
 
     def keys_of(self, path: str) -> tuple[str, ...]:
-        """The keys that an input stands for: both of two bodies, both coefficients of friction"""
+        """The keys of an input: both for two bodies, or for both coefficients of friction"""
         if path in _TOGETHER:
             return _TOGETHER[path]
         group, _, key = path.rpartition(".")
@@ -91,11 +91,11 @@ class Scene:
         return (path,)
 
     def text(self, words: Mapping[str, Any]) -> str:
-        """The cases with other inputs, in the readable format."""
+        """The cases with varied inputs, in the readable format."""
         return "".join(write_case(one) for one in self._with(words))
 
     def varied_text(self, words: Mapping[str, Any], numbers: Mapping[str, float]) -> tuple[str, list[str]]:
-        """The case with other inputs, and behind it one that gives some numbers only; their keys in its order."""
+        """The case with varied inputs, followed by one with some numbers only; and the keys of these numbers in their order."""
         keys = [key for path in numbers for key in self.keys_of(path)]
         second: dict[str, Any] = {}
         for path, value in numbers.items():
@@ -104,7 +104,7 @@ class Scene:
         return self.text({**words, **numbers}) + write_case(second), keys
 
     def _with(self, words: Mapping[str, Any]) -> list[dict[str, Any]]:
-        """A copy of the cases with other inputs"""
+        """A copy of the cases with varied inputs"""
         cases = copy.deepcopy(self.cases)
         for path, value in words.items():
             step, colon, rest = path.partition(":")
@@ -123,7 +123,7 @@ class Scene:
 
 
 def _with_suffix(path: Path) -> Path:
-    """The input of an experiment whose suffix may be missing"""
+    """Path of an experiment that may be given without suffix"""
     if path.suffix in (".inp", ".toml"):
         return path
     for suffix in (".inp", ".toml"):
@@ -134,14 +134,14 @@ def _with_suffix(path: Path) -> Path:
 
 
 def _with_slices(file: Path) -> list[Path]:
-    """A profile, and for a file of slices all files of its folder of slices"""
+    """Paths of a profile: the file itself, and for a file of slices all files of its folder of slices"""
     if file.suffix.lower() not in (".slcs", ".slcw") or not file.is_file():
         return [file]
     return [file] + sorted(other for other in file.parent.rglob("*") if other.is_file() and other != file)
 
 
 def _merged(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """What the last case gives, and keeps of those before"""
+    """Complete input of the last case, including that kept from earlier cases"""
     result: dict[str, Any] = {}
     for case in cases:
         for key in _DROPPED:
@@ -192,7 +192,7 @@ def _with_meaning(case: dict[str, Any], given: Mapping[str, Any]) -> dict[str, A
 
 
 def _forget(group: dict[str, Any], name: str, other: str) -> None:
-    """An array of two values, and one of them with a figure behind its name, are the same numbers"""
+    """An array of two values, and single values whose names end with a digit, are the same numbers"""
     if other not in group:
         return
     if isinstance(group[other], list) and len(group[other]) == 2 and name[-1:] in "12":
@@ -203,14 +203,14 @@ def _forget(group: dict[str, Any], name: str, other: str) -> None:
 
 
 def _gives(case: Mapping[str, Any], key: str) -> bool:
-    """Does a case give an input itself?"""
+    """Does a case contain an input itself?"""
     group, _, name = key.rpartition(".")
     table = case.get(group) if group else case
     return isinstance(table, dict) and (name in table or (name[-1:] in "12" and name[:-1] in table))
 
 
 def _put(case: dict[str, Any], key: str, value: Any) -> None:
-    """Give an input of a case"""
+    """Set an input of a case"""
     group, _, name = key.rpartition(".")
     table = case.setdefault(group, {}) if group else case
     if not isinstance(table, dict):
@@ -247,7 +247,7 @@ def _value(value: Any) -> str:
         return str(value)
     if isinstance(value, float):
         if value != value or value in (float("inf"), float("-inf")):
-            # the readable format has none; what reads it refuses the case
+            # the readable format has no such value; its reader refuses the case
             return '"not a finite number"'
         return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
     if isinstance(value, str):

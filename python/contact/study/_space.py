@@ -1,4 +1,4 @@
-"""What varies in a study: lists, ranges, samples, tables, and what follows from them."""
+"""Varied inputs of a study: lists, ranges, samples, tables, and inputs computed from them."""
 from __future__ import annotations
 
 import os
@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from ..errors import ContactError
 from ._expression import evaluate
 
-#: Values of one input over an axis, or of all points: numbers, or objects such as words
+#: Values of one input along an axis, or at all points: numbers, or objects such as strings
 Values = NDArray[Any]
-#: Of a mapping from names to values of all points, the values of another input, or whether a point counts
+#: Function of a mapping from names to values of all points, which returns the values of another input or of a constraint
 Rule = Union[str, Callable[[Mapping[str, Values]], Any]]
 
 
@@ -26,7 +26,7 @@ class Axis:
     Attributes
     ----------
     name
-        Of the dimension.
+        Name of the dimension.
     columns
         Values by the path of the input, ``"group.key"`` of the readable format; all of one length.
     """
@@ -106,7 +106,7 @@ def table(source: str | os.PathLike[str] | Mapping[str, Sequence[Any]], columns:
     source
         A file ``.csv`` or ``.parquet``, or a mapping from names to values, such as a data frame.
     columns
-        Which column is which input: names of columns by paths. Without it the names of columns are paths.
+        Names of columns by paths of inputs. Without it the names of the columns are paths.
     name
         Of the dimension.
     """
@@ -130,7 +130,7 @@ def table(source: str | os.PathLike[str] | Mapping[str, Sequence[Any]], columns:
 
 
 def as_values(values: Any) -> Values:
-    """Values of an input as an array: of numbers where all are, otherwise of objects"""
+    """Values of an input as an array: of numbers if all values are numbers, otherwise of objects"""
     listed = np.asarray(values).tolist() if isinstance(values, np.ndarray) else list(values)
     if all(isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) for value in listed):
         return np.asarray(listed, dtype=np.float64)
@@ -149,9 +149,9 @@ class Space:
     axes
         Dimensions, the last one running fastest.
     rules
-        Inputs that follow from others, by path.
+        Inputs computed from others, by path.
     where
-        Points that count: all of these hold.
+        Constraints, which points must satisfy.
     """
 
     axes: list[Axis]
@@ -174,7 +174,7 @@ class Space:
 
     @property
     def count(self) -> int:
-        """Number of points, those that do not count included."""
+        """Number of points, including those excluded by constraints."""
         return int(np.prod(self.shape, dtype=np.int64))
 
     def columns(self) -> dict[str, Values]:
@@ -191,7 +191,7 @@ class Space:
         return found
 
     def chosen(self, columns: Mapping[str, Values]) -> NDArray[np.bool_]:
-        """Which points count."""
+        """Which points satisfy the constraints."""
         result = np.ones(self.count, dtype=bool)
         for rule in self.where:
             result &= np.broadcast_to(np.asarray(self._apply(rule, columns), dtype=bool), (self.count,))
@@ -205,14 +205,14 @@ class Space:
 
 
 def short_names(paths: Sequence[str]) -> dict[str, str]:
-    """Names of variables for paths: the last word, or all words where two paths end alike"""
+    """Names of variables for paths: the key, or group and key if two paths have the same key"""
     last = [path.rpartition(".")[2].replace(":", "_") for path in paths]
     return {path: word if last.count(word) == 1 else path.replace(".", "_").replace(":", "_")
             for path, word in zip(paths, last)}
 
 
 def make_space(vary: Mapping[str, Any] | Sequence[Any] | None, where: Sequence[Rule] | Rule | None) -> Space:
-    """Axes and rules of what a caller gave: a mapping from paths to values or functions, axes, or a list of both"""
+    """Axes and rules from the argument `vary`: a mapping from paths to values or functions, axes, or a list of both"""
     axes: list[Axis] = []
     rules: dict[str, Rule] = {}
     if vary is not None and not isinstance(vary, (Mapping, Axis, list, tuple)):

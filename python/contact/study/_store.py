@@ -1,4 +1,4 @@
-"""What a study has computed: one file that is complete after every batch, whatever happens to its process."""
+"""Storage of the computed cases of a study: one file that is consistent after every batch, even if the process crashes."""
 from __future__ import annotations
 
 import os
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ContactError
 from ._task import Done
 
-#: Name of the file, and number of its layout
+#: Name of the file, and version of its layout
 FILE = "cases.sqlite"
 _LAYOUT = 1
 
@@ -19,17 +19,17 @@ Keys = NDArray[np.uint64]
 
 
 class Store:
-    """Results by the keys of their points, in a file of SQLite: a batch is there as a whole or not at all.
+    """Results by the keys of their points, in an SQLite file: a batch is stored completely or not at all.
 
     Parameters
     ----------
     folder
-        Where the file is, made if need be; None keeps results in memory.
+        Folder of the file, created if necessary; None keeps results in memory.
 
     Raises
     ------
     ContactError
-        If another study writes into it, or if it is something else.
+        If another study writes to it, or if it is not such a file.
     """
 
     def __init__(self, folder: str | os.PathLike[str] | None) -> None:
@@ -41,7 +41,7 @@ class Store:
             except OSError as reason:
                 raise ContactError(f"{folder} cannot be the folder of a study: {reason.strerror}") from reason
             self.path = str(Path(folder) / FILE)
-        # whoever holds the file writes within moments, unless it is another study
+        # a lock is held for moments only, unless it is that of another study
         self._base = sqlite3.connect(self.path, timeout=1.0, isolation_level=None)
         try:
             self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
@@ -63,17 +63,17 @@ class Store:
         self._base.close()
 
     def add(self, done: Done) -> None:
-        """Keep results for good."""
+        """Store results permanently."""
         self._base.execute("INSERT INTO batches (keys, data) VALUES (?, ?)", (done.keys.tobytes(), done.to_bytes()))
 
     def keys(self) -> Keys:
-        """Keys of all points that are there, shape (points, 2)."""
+        """Keys of all stored points, shape (points, 2)."""
         parts = [np.frombuffer(row[0], dtype=np.uint64).reshape(-1, 2)
                  for row in self._base.execute("SELECT keys FROM batches ORDER BY number")]
         return np.concatenate(parts) if parts else np.zeros((0, 2), dtype=np.uint64)
 
     def numbers(self) -> list[int]:
-        """Numbers of all batches."""
+        """Indices of all batches."""
         return [row[0] for row in self._base.execute("SELECT number FROM batches ORDER BY number")]
 
     def batch(self, number: int) -> Done:
@@ -82,17 +82,17 @@ class Store:
         return Done.from_bytes(keys, data)
 
     def size(self) -> int:
-        """Bytes that the results take."""
+        """Size of the results [bytes]."""
         return int(self._base.execute("SELECT total(length(data) + length(keys)) FROM batches").fetchone()[0])
 
 
 def distinct(keys: Keys) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where each different key stands first, in ascending order, and for each key its number among these."""
+    """Indices of the first occurrence of each distinct key, in the order of the keys, and for each key its index among these."""
     order = np.lexsort((keys[:, 1], keys[:, 0]))
     ordered = keys[order]
     is_new = np.ones(len(keys), dtype=bool)
     is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    # equal keys keep their order when they are sorted
+    # the sort is stable, so the first of equal keys is the first occurrence
     leaders = order[is_new]
     first = np.sort(leaders)
     number = np.empty(len(keys), dtype=np.intp)
@@ -103,14 +103,14 @@ def distinct(keys: Keys) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 class Places:
-    """Places of points by their keys."""
+    """Index of points by their keys."""
 
     def __init__(self, keys: Keys) -> None:
         self._order = np.argsort(keys[:, 0], kind="stable")
         self._sorted = keys[self._order]
 
     def of(self, keys: Keys) -> NDArray[np.int64]:
-        """Place of each key, -1 where there is none."""
+        """Index of each key, -1 for unknown keys."""
         if len(self._order) == 0:
             return np.full(len(keys), -1, dtype=np.int64)
         found = np.searchsorted(self._sorted[:, 0], keys[:, 0])

@@ -22,22 +22,22 @@ from ..errors import ContactError
 from . import _dataset, _failures, _parts
 from ._engine import Engine
 from ._expression import evaluate
-from ._progress import Progress, Wanted, duration
+from ._progress import Progress, ShowProgress, duration
 from ._scene import Scene
 from ._space import Axis, Rule, Values, make_space
 from ._store import Keys, Places, Store, distinct
 from ._task import Task, solve_task
 
-#: Of a dataset, a quantity that follows from it: a formula, or a function
+#: A derived quantity of a dataset: a formula, or a function
 Derived = Union[str, Callable[[xarray.Dataset], Any]]
 
-#: What a task should take [s], and most points of one
-_TASK_SECONDS, _MOST_POINTS = 0.5, 4096
-#: Points that are solved to learn what a case costs
+#: Intended time of a task [s], and maximum number of points of one
+_TASK_SECONDS, _MAX_POINTS = 0.5, 4096
+#: Number of points that are solved to measure the cost of a case
 _TRIALS = 4
 #: Memory of a part of the results [bytes]
 _PART_BYTES = 1 << 27
-#: Points whose inputs are written as bytes at a time
+#: Number of points whose inputs are hashed at a time
 _PORTION = 1 << 16
 
 
@@ -92,7 +92,7 @@ class Study:
     base
         Path of an experiment in either format, or its cases as returned by :func:`contact.read`.
     vary
-        What varies: a mapping from inputs, ``"group.key"`` of the readable format, to values, to ``"= formula"`` or to a function
+        Varied inputs: a mapping from inputs, ``"group.key"`` of the readable format, to values, to ``"= formula"`` or to a function
         of the others; a :func:`sample` or :func:`table`; or a list of these. Each list, sample and table is a dimension.
     case
         Number of the case of the base that is varied, from 1. Without it all cases are computed for each point, one after the
@@ -137,16 +137,16 @@ class Study:
         try:
             self._columns: dict[str, Values] = self._space.columns()
         except MemoryError as reason:
-            raise ContactError(f"{self._space.count} points are more than the memory holds: divide the study") from reason
+            raise ContactError(f"{self._space.count} points do not fit into memory: divide the study") from reason
         self._chosen = self._space.chosen(self._columns)
         numeric = {path: values for path, values in self._columns.items() if values.dtype == np.float64}
-        # a word, and whatever a scene of several cases is given, is written into a text; numbers go along as such
+        # words are written into the text of a case, as are all inputs of a base with several cases; numbers are passed as arrays
         self._numbers = numeric if self._scene.steps == 1 else {}
         self._numbers = {path: values for path, values in self._numbers.items() if ":" not in path}
         self._words = {path: values for path, values in self._columns.items() if path not in self._numbers}
         self._made: Keys | None = None
 
-    # ---- what there is to do
+    # ---- planning
 
     def keys(self) -> Keys:
         """A key for each point, shape (points, 2): hashes of inputs, base with its files, version and library."""
@@ -189,7 +189,7 @@ class Study:
                 begun = time.perf_counter()
                 done = solve_task(self._task(todo[trial:trial + 1], keys))
                 times.append(time.perf_counter() - begun)
-                # a batch of many points has one head
+                # a batch of many points has one header
                 sizes.append(done.values.nbytes + done.places.nbytes + 2 * self._scene.steps + 16
                              + sum(values.nbytes for values in done.arrays.values()))
                 rows, columns = max(rows, len(done.places)), max(columns, len(done.columns))
@@ -211,9 +211,9 @@ class Study:
         finally:
             store.close()
 
-    # ---- doing it
+    # ---- computation
 
-    def run(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: Wanted = None,
+    def run(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: ShowProgress = None,
             points_per_task: int | None = None, stop: Callable[[], bool] = lambda: False) -> xarray.Dataset:
         """Compute the missing cases.
 
@@ -227,9 +227,9 @@ class Study:
             Address of a scheduler of Dask, or a ``distributed.Client``: its workers compute. They need the package, the
             library, and files of profiles under the same names.
         progress
-            True, False, None for where it can be shown, or a function that is told in words.
+            True; False; None: if it can be displayed; or a function that receives it in words.
         points_per_task
-            Points that a worker gets at once; default such that it takes half a second.
+            Number of points of a task; by default chosen for tasks of half a second.
         stop
             Called between tasks; True ends the study. Computed cases are kept.
 
@@ -240,7 +240,7 @@ class Study:
         with self._computed(workers, engine, scheduler, progress, points_per_task, stop) as store:
             return self._results(store, self.keys())
 
-    def compute(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: Wanted = None,
+    def compute(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: ShowProgress = None,
                 points_per_task: int | None = None, stop: Callable[[], bool] = lambda: False) -> None:
         """As :meth:`run`, without results in memory: they stay in the folder, for :meth:`write` and :meth:`results`."""
         if self.folder is None:
@@ -249,16 +249,16 @@ class Study:
             pass
 
     @contextlib.contextmanager
-    def _computed(self, workers: int | None, engine: str, scheduler: Any, progress: Wanted, points_per_task: int | None,
+    def _computed(self, workers: int | None, engine: str, scheduler: Any, progress: ShowProgress, points_per_task: int | None,
                   stop: Callable[[], bool]) -> Iterator[Store]:
-        """The store with what was not there yet"""
+        """Compute the missing points into the store"""
         keys = self.keys()
         store = Store(self.folder)
         doers = Engine(workers, engine, scheduler)
         try:
             there = Places(store.keys()).of(keys) >= 0
             todo = np.flatnonzero(self._chosen & ~there)
-            # the same inputs at two points are one case
+            # points with equal inputs are one case
             todo = todo[distinct(keys[todo])[0]]
             self._check(todo)
             shown = Progress(len(todo), int((there & self._chosen).sum()), progress)
@@ -307,21 +307,21 @@ class Study:
                                "give a formula, or save what results() gives")
         store = Store(self.folder)
         try:
-            return _parts.write_parts(list(files), store, self.keys(), self._chosen, self._space, self._columns, self._wanted(),
+            return _parts.write_parts(list(files), store, self.keys(), self._chosen, self._space, self._columns, self._request(),
                                       self._derived if files else lambda part: part, memory)
         finally:
             store.close()
 
-    def _wanted(self) -> _dataset.Wanted:
-        """What results are to have"""
-        return _dataset.Wanted(self._scene, self._totals, self._fields)
+    def _request(self) -> _dataset.Request:
+        """Requested contents of the results"""
+        return _dataset.Request(self._scene, self._totals, self._fields)
 
     def _results(self, store: Store, keys: Keys) -> xarray.Dataset:
-        """The dataset of what is in the store"""
-        return self._derived(_dataset.assemble(store, keys, self._chosen, self._space, self._columns, self._wanted()))
+        """The dataset of the stored results"""
+        return self._derived(_dataset.assemble(store, keys, self._chosen, self._space, self._columns, self._request()))
 
     def _derived(self, data: xarray.Dataset) -> xarray.Dataset:
-        """Results with what follows from them"""
+        """Results with derived quantities"""
         for name, rule in self._derive.items():
             names: dict[str, Any] = {str(key): data[key] for key in list(data.variables)}
             values = rule(data) if callable(rule) else evaluate(rule, names)
@@ -334,7 +334,7 @@ class Study:
         return data
 
     def _check(self, todo: NDArray[np.intp]) -> None:
-        """A mistake in the name of an input is told at once, and not as the refusal of every case"""
+        """Solve one point first, so that a wrong name of an input is reported at once and not as the refusal of every case"""
         if len(todo) == 0:
             return
         done = solve_task(self._task(todo[:1], self.keys()))
@@ -347,16 +347,16 @@ class Study:
             missing = [name for name in self._totals if name not in known]
             if missing:
                 raise ContactError(f"there is no total {', '.join(missing)}; there are {', '.join(known)}")
-        # a refused case, and a wheel beside its rail, have no fields
+        # a refused case, and a wheel without contact, have no fields
         if done.states[0, -1, 0] == 0 and (not self._scene.is_wheel_rail or (done.places[:, 2] > 0).any()):
             known = [name.partition(",")[0] for name in done.arrays]
-            # fields of temperatures, wear and yield are left out of cases that have none
+            # fields of temperatures, wear and yield exist only in cases with such results
             missing = [name for name in self._fields if name not in known and name not in FIELDS]
             if missing:
                 raise ContactError(f"there is no element field {', '.join(missing)}; doc/user/results.md has their names")
 
     def _tasks(self, todo: NDArray[np.intp], keys: Keys, pace: _Pace) -> Iterator[Task]:
-        """Tasks for points; those of one task have the same words"""
+        """Tasks for points; the points of a task have the same non-numeric inputs"""
         if not self._numbers:
             for first in _portions(len(todo), pace):
                 yield self._task(todo[first], keys)
@@ -373,7 +373,7 @@ class Study:
                 yield self._task(group[part], keys)
 
     def _task(self, points: NDArray[np.intp], keys: Keys) -> Task:
-        """A task for points with the same words, or without numbers"""
+        """A task for points with the same non-numeric inputs, or without numbers"""
         first = points[0]
         folder = str(self._scene.folder)
         if self._numbers:
@@ -397,25 +397,25 @@ class Study:
 
 
 class _Pace:
-    """How many points a task has: such that workers ask rarely, and results are kept often"""
+    """Number of points of a task: a compromise between overhead per task and frequent storage of results"""
 
     def __init__(self, given: int | None, points: int, workers: int) -> None:
         if given is not None and given < 1:
             raise ValueError(f"points_per_task = {given} is less than 1")
         self._given = given
-        # at the end all workers should be busy
+        # small enough to keep all workers busy at the end
         self._fair = max(1, points // (4 * workers))
         self.size = given or 1
 
     def learn(self, points: int, seconds: float) -> None:
-        """A task of so many points took that long"""
+        """Adapt the size to the time that a task took"""
         if self._given is None and points and seconds > 0.0:
-            wanted = int(_TASK_SECONDS * points / seconds)
-            self.size = max(1, min(wanted, 4 * self.size, self._fair, _MOST_POINTS))
+            fitting = int(_TASK_SECONDS * points / seconds)
+            self.size = max(1, min(fitting, 4 * self.size, self._fair, _MAX_POINTS))
 
 
 def _portions(count: int, pace: _Pace) -> Iterator[slice]:
-    """Slices of so many points as suits at the time"""
+    """Consecutive slices with the current number of points"""
     first = 0
     while first < count:
         last = min(count, first + pace.size)
@@ -424,16 +424,16 @@ def _portions(count: int, pace: _Pace) -> Iterator[slice]:
 
 
 def _digest(start: hashlib.blake2b, data: bytes) -> bytes:
-    """Digest of what was hashed so far, and of some bytes more"""
+    """Digest of the bytes hashed so far and some more"""
     one = start.copy()
     one.update(data)
     return one.digest()
 
 
 def _as_bytes(values: Values) -> NDArray[np.uint8]:
-    """Eight bytes for each value: of a number itself, of anything else a digest"""
+    """Eight bytes for each value: a number itself, a digest of anything else"""
     if values.dtype == np.float64:
-        # both zeros are one
+        # -0.0 equals 0.0
         return np.ascontiguousarray(values + 0.0).view(np.uint8).reshape(-1, 8)
     try:
         rows = [hashlib.blake2b(json.dumps(_plain(value), sort_keys=True).encode(), digest_size=8).digest() for value in values]
@@ -443,7 +443,7 @@ def _as_bytes(values: Values) -> NDArray[np.uint8]:
 
 
 def _plain(value: Any) -> Any:
-    """A value as JSON has it"""
+    """A value that JSON can represent"""
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, os.PathLike):

@@ -1,4 +1,4 @@
-"""What one worker does in one go: some points of a study, solved by the library. Runs in threads, processes and on clusters."""
+"""Tasks of workers: some points of a study, solved by the library in threads, processes or on clusters."""
 from __future__ import annotations
 
 import io
@@ -18,14 +18,14 @@ from .._signatures import VERSION
 from ..errors import ContactError
 from ._batch import Batch, Column, Numbers
 
-#: Most patches of wheel and rail for which there is room
-MOST_PATCHES = 12
+#: Maximum number of patches of wheel and rail
+MAX_PATCHES = 12
 
 _own = threading.local()
 
 
 def build() -> str:
-    """What this process computes with: the version, and the hash of the library."""
+    """Version of the package and hash of the library of this process."""
     return f"version {VERSION}, library {fingerprint()[:12]}"
 
 
@@ -36,23 +36,23 @@ class Task:
     Attributes
     ----------
     keys
-        Of the points, see Study.
+        Keys of the points, see Study.
     texts
-        One for each point, or one for all, whose second case is solved with the numbers `given`.
+        Inputs: one for each point, or one for all, whose second case is solved with the numbers `given`.
     names, given
-        Numbers that vary, and their values of shape (points, numbers).
+        Paths of the numbers that vary, and their values of shape (points, numbers).
     folder
-        To which names of files are relative.
+        Folder of relative file names.
     steps
-        Cases of each point.
+        Number of cases of each point.
     is_wheel_rail
-        Has a point of wheel and rail several rows?
+        Whether it is a case of wheel and rail, with several rows for each point.
     fields
         Element fields to be kept.
     seconds
-        What each case may take [s], 0 without limit.
+        Time limit of each case [s]; 0: none.
     build
-        Of the process that made the task; a worker with another one refuses it.
+        Build of the process that made the task; a worker with another one refuses it.
     """
 
     keys: NDArray[np.uint64]
@@ -70,12 +70,12 @@ class Task:
         return len(self.keys)
 
     def halves(self) -> tuple[Task, Task]:
-        """The same in two tasks."""
+        """The task, split into two."""
         middle = len(self) // 2
         return self.part(slice(0, middle)), self.part(slice(middle, None))
 
     def part(self, points: slice) -> Task:
-        """Some of the points."""
+        """A task with some of the points."""
         texts = self.texts if self.names else self.texts[points]
         given = self.given[points] if self.names else self.given
         return Task(self.keys[points], texts, self.names, given, self.folder, self.steps, self.is_wheel_rail, self.fields,
@@ -89,19 +89,19 @@ class Done:
     Attributes
     ----------
     keys
-        Of the points, shape (points, 2).
+        Keys of the points, shape (points, 2).
     columns
-        What the columns of values are.
+        Description of each column of values.
     values, places
         Totals of shape (rows, columns), and point, step and patch of each row.
     states
-        How each case ended and what was missed, shape (points, steps, 2).
+        Status of each case and code of the missed condition, shape (points, steps, 2).
     reasons
         Why a case was not solved, by "point,step".
     frames, arrays
         Fields by "name,point,step,patch": first centre and sides of an element, and values of shape (my, mx); units of fields.
     worked
-        Time of the work [s].
+        Computing time [s].
     """
 
     keys: NDArray[np.uint64]
@@ -116,7 +116,7 @@ class Done:
     worked: float = 0.0
 
     def to_bytes(self) -> bytes:
-        """All of it but the keys, as a file of numpy."""
+        """All data except the keys, in the format of numpy.savez."""
         head = {"columns": [vars(column) for column in self.columns], "reasons": self.reasons, "frames": self.frames,
                 "units": self.units, "worked": self.worked}
         file = io.BytesIO()
@@ -127,7 +127,7 @@ class Done:
 
     @classmethod
     def from_bytes(cls, keys: bytes, data: bytes) -> Done:
-        """What `to_bytes` made."""
+        """The inverse of `to_bytes`."""
         with np.load(io.BytesIO(data), allow_pickle=False) as file:
             head = json.loads(file["head"].tobytes())
             arrays = {name[len("field "):]: file[name] for name in file.files if name.startswith("field ")}
@@ -137,7 +137,7 @@ class Done:
 
 
 def refused(task: Task, reason: str) -> Done:
-    """Results of a task that cannot be done."""
+    """Results of a task whose cases are all refused."""
     states = np.zeros((len(task), task.steps, 2), dtype=np.int8)
     states[:, :, 0] = 2
     reasons = {f"{point},{step}": reason for point in range(len(task)) for step in range(task.steps)}
@@ -145,7 +145,7 @@ def refused(task: Task, reason: str) -> Done:
 
 
 def solve_task(task: Task) -> Done:
-    """Do a task. The library keeps what it can between the tasks of a thread."""
+    """Execute a task. The library reuses data between the tasks of a thread."""
     if task.build != build():
         raise ContactError(f"the worker {platform.node()}, process {os.getpid()}, is of another build ({build()}) than the study "
                            f"({task.build}): install the same there")
@@ -159,11 +159,11 @@ def solve_task(task: Task) -> Done:
 
 
 def _solve(task: Task, batch: Batch) -> Done:
-    """Do a task with a batch of this thread"""
-    room = MOST_PATCHES + 1 if task.is_wheel_rail else 1
+    """Execute a task with the batch of this thread"""
+    rows_per_case = MAX_PATCHES + 1 if task.is_wheel_rail else 1
     if task.names and not task.fields:
         try:
-            solved = batch.solve(task.texts[0], task.folder, task.names, task.given, patches=room)
+            solved = batch.solve(task.texts[0], task.folder, task.names, task.given, patches=rows_per_case)
         except ContactError as error:
             return refused(task, str(error))
         places = np.insert(solved.places.astype(np.int32), 1, 0, axis=1)
@@ -175,9 +175,9 @@ def _solve(task: Task, batch: Batch) -> Done:
     for point in range(len(task)):
         try:
             if task.names:
-                solved = batch.solve(task.texts[0], task.folder, task.names, task.given[point:point + 1], patches=room)
+                solved = batch.solve(task.texts[0], task.folder, task.names, task.given[point:point + 1], patches=rows_per_case)
             else:
-                solved = batch.solve(task.texts[point], task.folder, cases=task.steps, patches=room)
+                solved = batch.solve(task.texts[point], task.folder, cases=task.steps, patches=rows_per_case)
         except ContactError as error:
             done.states[point, :, 0] = 2
             done.reasons.update({f"{point},{step}": str(error) for step in range(task.steps)})
@@ -204,7 +204,7 @@ def _solve(task: Task, batch: Batch) -> Done:
 
 
 def _keep_field(batch: Batch, done: Done, name: str, key: str, patch: int) -> None:
-    """Keep a field of the case that was solved last"""
+    """Store a field of the last solved case"""
     found = batch.field(name, patch)
     if found is not None:
         done.arrays[key], done.frames[key], done.units[name] = found

@@ -1,4 +1,4 @@
-"""Creep forces from tables: a microsecond in place of a solution; see doc/user/tables.md."""
+"""Creep forces by interpolation in tables, in about a microsecond; see doc/user/tables.md."""
 from typing import TYPE_CHECKING, Any
 
 from ._look_up import Facts, Table
@@ -10,7 +10,7 @@ __all__ = ["Facts", "Plan", "Table", "build"]
 
 
 def __getattr__(name: str) -> Any:
-    """Import on demand: who looks up needs no scipy"""
+    """Import on demand: look-ups do not need scipy"""
     if name in ("Plan", "build"):
         from . import _build
         return getattr(_build, name)

@@ -1,4 +1,4 @@
-"""contact table: makes a table of creep forces, or tells what one is."""
+"""contact table: makes a table of creep forces, or describes one."""
 from __future__ import annotations
 
 import argparse
@@ -8,12 +8,12 @@ from ..errors import ContactError
 
 
 def main() -> int:
-    """Do what the command line says; the result is the exit status: 0, or 1 after an error."""
+    """Run the command line. Returns the exit status: 0, or 1 after an error."""
     parser = argparse.ArgumentParser(prog="contact table", description="Makes a table of creep forces for elliptic contacts, or "
-                                     "for two half ellipses, which programs look into in less than a microsecond; see "
+                                     "for two half ellipses, from which programs interpolate in less than a microsecond; see "
                                      "doc/user/tables.md.")
     parser.add_argument("file", help="the table")
-    parser.add_argument("--about", action="store_true", help="tell what the table is, and make none")
+    parser.add_argument("--about", action="store_true", help="describe an existing table")
     parser.add_argument("--tolerance", type=float, default=0.01, help="largest error relative to mu Fn; default %(default)s")
     parser.add_argument("--ratio", type=float, nargs=2, default=[0.2, 5.0], metavar=("LOW", "HIGH"),
                         help="smallest and largest a/b; default 0.2 5")
@@ -22,24 +22,24 @@ def main() -> int:
     parser.add_argument("--spin", type=float, default=float("inf"), help="largest spin as G a b c KP |phi|/(mu Fn), "
                         "c = sqrt(a b), KP about Kalker's C23; default: all")
     parser.add_argument("--poisson", type=float, default=0.28, help="Poisson ratio of both bodies; default %(default)s")
-    parser.add_argument("--elements", type=int, default=0, help="elements a side of the contacts; default: as the tolerance needs")
-    parser.add_argument("--points", type=int, default=10000, help="random points of the check; default %(default)s")
-    parser.add_argument("--most-cases", type=int, default=3_000_000, help="solutions after which it is given up; "
-                        "default %(default)s")
-    parser.add_argument("--workers", type=int, help="threads that compute; default: all processors")
-    parser.add_argument("--quiet", action="store_true", help="tell errors only")
-    asked = parser.parse_args()
+    parser.add_argument("--elements", type=int, default=0, help="elements along each side of a contact; default: by the tolerance")
+    parser.add_argument("--points", type=int, default=10000, help="number of random points of the check; default %(default)s")
+    parser.add_argument("--most-cases", type=int, default=3_000_000, help="number of solutions after which the search is "
+                        "abandoned; default %(default)s")
+    parser.add_argument("--workers", type=int, help="number of threads; default: number of processors")
+    parser.add_argument("--quiet", action="store_true", help="report errors only")
+    options = parser.parse_args()
     try:
-        if asked.about:
+        if options.about:
             from ._look_up import Table
-            with Table(asked.file) as table:
+            with Table(options.file) as table:
                 print(table.facts)
             return 0
         from ._build import Plan, build
-        plan = Plan(asked.tolerance, (asked.ratio[0], asked.ratio[1]), asked.offset, asked.poisson, asked.spin, asked.elements,
-                    asked.points, asked.most_cases)
-        facts = build(asked.file, plan, workers=asked.workers,
-                      tell=lambda text: None if asked.quiet else print(text, file=sys.stderr))
+        plan = Plan(options.tolerance, (options.ratio[0], options.ratio[1]), options.offset, options.poisson, options.spin,
+                    options.elements, options.points, options.most_cases)
+        facts = build(options.file, plan, workers=options.workers,
+                      tell=lambda text: None if options.quiet else print(text, file=sys.stderr))
     except (ContactError, OSError) as error:
         print(f"contact table: {error}", file=sys.stderr)
         return 1
@@ -47,8 +47,8 @@ def main() -> int:
         print(f"contact table: the Python package {missing.name} is not found; it comes with: python3 -m pip install "
               "'SOURCES/python[table]'", file=sys.stderr)
         return 1
-    if not asked.quiet:
-        print(f"{asked.file} is written: {facts}")
+    if not options.quiet:
+        print(f"{options.file} is written: {facts}")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Making a table of creep forces: nodes are added where the interpolation errs, until it does not."""
+"""Construction of a table of creep forces: nodes are added where the interpolation error exceeds the tolerance."""
 from __future__ import annotations
 
 import os
@@ -16,30 +16,30 @@ from ._file import bend, interpolated, write
 from ._look_up import Facts, Numbers, Table
 from ._results import Results, arms, creepages
 
-# Numbers below are chosen where nothing else is said: they decide how many solutions a table takes. How well it is does not depend
-# on them, as it is checked at points of which it was not made.
+# The numbers below are chosen unless stated otherwise. They affect the number of solutions that a table takes, not its accuracy,
+# which is checked at independent points.
 
-#: Axes of a table and of its points, in their order
+#: Names of the axes of a table and of its points, in their order
 AXES = ("shape", "offset", "x", "y", "z")
-#: Points at which the table learns where it errs, at first and each time that it has passed; the worst of them that are looked at
+#: Number of training points at first, and added each time the table passes; number of the worst ones that are refined
 _LEARN, _WORST = 1500, 150
-#: Of these, points through which lines are looked at, and nodes of a line
+#: Number of these points through which lines are examined, and number of nodes of a line
 _LINES, _ALONG = 50, 6
-#: Part of the tolerance that points of learning are held to, because others will err more
+#: Fraction of the tolerance required at training points, because the errors at other points are larger
 _AIM = 0.85
-#: An interval is divided when it alone errs by more than this part of the tolerance
+#: An interval is divided if its own error exceeds this fraction of the tolerance
 _SHARE = 0.5
-#: Of new nodes every third along each axis is solved, and those near nodes that had been wrong by this part of the tolerance
+#: Every third new node along each axis is solved, and the nodes near those whose error exceeded this fraction of the tolerance
 _STRIDE, _SPREAD = 3, 0.25
-#: New nodes are solved where third differences of those that are there exceed this part of the tolerance
+#: New nodes are solved where third differences of existing nodes exceed this fraction of the tolerance
 _BEND = 0.8
-#: Largest ratio of the lengths of neighbouring intervals, with room for rounding
+#: Largest ratio of the lengths of neighbouring intervals, with a margin for round-off
 _GRADE = 2.01
-#: Points at which results are compared with those of three times as many elements
+#: Number of points at which results are compared with those of three times as many elements along each side
 _COMPARED = 150
-#: Elements a side for a tolerance of 1 %, where narrow contacts need more than round ones do, and of 0.1 %
+#: Elements along each side for a tolerance of 1 %, which narrow contacts determine, and of 0.1 %
 _ELEMENTS, _FINER = 21, 37
-#: Nodes along z at first, closer where strips leave adhesion
+#: Initial nodes along z, closer where strips lose adhesion
 _FIRST_Z = (0.0, 0.15, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0)
 
 
@@ -60,14 +60,14 @@ class Plan:
     spin
         Largest spin, as ``G a b c KP abs(phi) / (mu Fn)`` with ``c = sqrt(a b)`` and KP of about Kalker's C23 [-]; infinite: all.
     elements
-        Elements a side of the contacts that are solved, where they are round and have little spin; more along the longer side, and
-        with much spin. 0: as many as the tolerance needs.
+        Elements along each side of round contacts with little spin; there are more along the longer side, and with large
+        spin. 0: by the tolerance.
     points
         Number of random points of the final check.
     most_cases
         Number of solutions at which to give up.
     seed
-        Of random numbers.
+        Seed of the random numbers.
     """
 
     tolerance: float = 0.01
@@ -81,7 +81,7 @@ class Plan:
     seed: int = 1
 
     @property
-    def most_z(self) -> float:
+    def max_z(self) -> float:
         """Largest z [-]."""
         return self.spin / (1.0 + self.spin) if np.isfinite(self.spin) else 1.0
 
@@ -112,7 +112,7 @@ def build(file: str | os.PathLike[str], plan: Plan | None = None, *, workers: in
     workers
         Number of threads; default: the number of processors of this machine.
     tell
-        Called with messages on the progress.
+        Function that receives messages on the progress.
 
     Returns
     -------
@@ -123,18 +123,18 @@ def build(file: str | os.PathLike[str], plan: Plan | None = None, *, workers: in
     ContactError
         If the plan is invalid, a contact was not solved, or the tolerance was not reached within the cases of the plan.
     """
-    asked = plan or Plan()
-    asked.check()
-    return _Builder(asked, workers or os.cpu_count() or 1, tell).build(Path(file))
+    requirements = plan or Plan()
+    requirements.check()
+    return _Builder(requirements, workers or os.cpu_count() or 1, tell).build(Path(file))
 
 
 def enough_elements(tolerance: float) -> int:
-    """Elements a side whose own error is within the tolerance: it falls with their size squared."""
+    """Elements along each side with a discretisation error within the tolerance; it is proportional to the square of their size."""
     return int(np.clip(round(max(_ELEMENTS * (0.01 / tolerance)**0.25, _FINER * (0.001 / tolerance)**0.5)), 9, 99))
 
 
 class _Builder:
-    """Nodes and what is known at them"""
+    """Nodes and the values at them"""
 
     def __init__(self, plan: Plan, workers: int, tell: Callable[[str], None]) -> None:
         self._plan, self._tell = plan, tell
@@ -145,9 +145,9 @@ class _Builder:
         self._nodes: list[Numbers] = [
             np.linspace(np.log(plan.ratio[0]), np.log(plan.ratio[1]), count),
             np.linspace(-plan.offset, plan.offset, 5) if plan.offset > 0.0 else np.zeros(1),
-            np.linspace(0.0, 1.0, 5), np.linspace(-1.0, 1.0, 9), np.linspace(0.0, plan.most_z, 5) if plan.most_z < _FIRST_Z[-2]
-            else np.array([*_FIRST_Z[:-1], plan.most_z])]
-        #: Values at all nodes, shape (shape, offset, x, y, z, 3), and which of them are results
+            np.linspace(0.0, 1.0, 5), np.linspace(-1.0, 1.0, 9), np.linspace(0.0, plan.max_z, 5) if plan.max_z < _FIRST_Z[-2]
+            else np.array([*_FIRST_Z[:-1], plan.max_z])]
+        #: Values at all nodes, shape (shape, offset, x, y, z, 3), and which of them are computed results
         self._values = np.zeros((*(len(nodes) for nodes in self._nodes), 3))
         self._is_solved = np.zeros(self._values.shape[:-1], dtype=bool)
         self._solve(~self._is_solved)
@@ -155,18 +155,18 @@ class _Builder:
     # ---- values at nodes
 
     def _at(self, points: Numbers) -> Numbers:
-        """Results, as long as there may be more of them"""
+        """Results at points; raises ContactError beyond the allowed number of solutions"""
         if self._results.cases + len(points) > self._plan.most_cases:
             raise ContactError(f"the tolerance of {self._plan.tolerance:g} needs more than {self._plan.most_cases} solutions; "
                                "allow a larger error or more solutions, or narrow a/b and the offset")
         return self._results.at(points)
 
     def _insert(self, axis: int, new: Numbers) -> None:
-        """More nodes along an axis. They have what the spline has so far, but where it errs"""
+        """Add nodes along an axis, with values of the current spline, or solved where its error is large"""
         whole = np.concatenate([self._nodes[axis], new])
         order = np.argsort(whole)
         added = interpolated(self._nodes[axis], self._values, axis, new)
-        # those where forces may bend, and some everywhere; where they err they lead to others
+        # nodes where forces may have a bend, and some everywhere; large errors there lead to further nodes
         chosen = _sizes(bend(self._nodes[axis], self._values, axis, new)) > _BEND * self._plan.tolerance
         chosen[tuple(slice(None) if k == axis else slice(None, None, _STRIDE) for k in range(len(AXES)))] = True
         before = np.zeros_like(self._is_solved)
@@ -180,7 +180,7 @@ class _Builder:
         self._solve(merged(before, chosen))
 
     def _solve(self, chosen: NDArray[np.bool_]) -> int:
-        """Solve the chosen nodes, and others around those that had been wrong; returns how many"""
+        """Solve the chosen nodes, and others around those with large errors; returns their number"""
         begun = self._results.cases
         while True:
             chosen = chosen & ~self._is_solved
@@ -197,7 +197,7 @@ class _Builder:
             chosen = _widened(chosen)
 
     def _around(self, points: Numbers, wider: int) -> NDArray[np.bool_]:
-        """Nodes at the corners of the cells that have these points, and so many further ones along each axis"""
+        """Nodes at the corners of the cells with these points, and the given number of further ones along each axis"""
         chosen = np.zeros(self._is_solved.shape, dtype=bool)
         first = [np.searchsorted(nodes[1:-1], points[:, axis], side="right") for axis, nodes in enumerate(self._nodes)]
         for steps in product(*(range(-wider, 2 + wider) if len(nodes) > 1 else (0,) for nodes in self._nodes)):
@@ -209,7 +209,7 @@ class _Builder:
     def _points(self, count: int) -> Numbers:
         """Random points of the table: uniform in log(a/b), offset, x, y, z"""
         low = [np.log(self._plan.ratio[0]), -self._plan.offset, 0.0, -1.0, 0.0]
-        high = [np.log(self._plan.ratio[1]), self._plan.offset, 1.0, 1.0, self._plan.most_z]
+        high = [np.log(self._plan.ratio[1]), self._plan.offset, 1.0, 1.0, self._plan.max_z]
         found = np.zeros((0, len(AXES)))
         while len(found) < count:
             points = self._random.uniform(low, high, size=(count, len(AXES)))
@@ -219,7 +219,7 @@ class _Builder:
     # ---- the search
 
     def build(self, path: Path) -> Facts:
-        """Divide intervals until the table is good, and write it"""
+        """Divide intervals until the table has the required accuracy, and write it"""
         plan = self._plan
         known = np.zeros((0, len(AXES)))
         true = np.zeros((0, 3))
@@ -263,11 +263,11 @@ class _Builder:
             return table.facts
 
     def _write(self, path: Path, facts: Facts) -> None:
-        """A table of what is known"""
+        """A table of the current values"""
         write(path, self._nodes, self._values, facts)
 
     def _look_up(self, trial: Path, points: Numbers) -> Numbers:
-        """What the table gives, in the units of the results"""
+        """Interpolated values, in the units of the results"""
         ratio = np.exp(points[:, 0])
         creepage = creepages(points, 1e-9)
         with Table(trial) as table:
@@ -283,20 +283,20 @@ class _Builder:
         return _largest(self._gap(trial, points, true))
 
     def _gap(self, trial: Path, points: Numbers, true: Numbers) -> Numbers:
-        """What the table gives, less what is true; the moment about the middle of both extents, as callers see it"""
+        """Interpolated minus computed values; the moment is about the middle of both extents, as for callers"""
         gap = self._look_up(trial, points) - true
         gap[:, 2] += arms(points) * true[:, 0]
         return gap
 
     def _improve(self, known: Numbers, true: Numbers, errors: Numbers) -> None:
-        """Solve nodes around the worst points; where all of them are results, divide intervals"""
+        """Solve nodes around the points with the largest errors; if all of them are computed, divide intervals"""
         worst = np.argsort(errors)[:-_WORST - 1:-1]
         worst = worst[errors[worst] > _AIM * self._plan.tolerance]
         if not any(self._solve(self._around(known[worst], wider)) for wider in (0, 1)):
             self._refine(known[worst[:_LINES]], true[worst[:_LINES]])
 
     def _refine(self, bad: Numbers, true: Numbers) -> None:
-        """Divide the intervals that err most: what splines along a single axis miss on lines through the worst points"""
+        """Divide the intervals with the largest errors of one-dimensional splines on lines through the worst points"""
         scores: list[Numbers] = []
         for axis, nodes in enumerate(self._nodes):
             score = np.zeros(max(1, len(nodes) - 1))
@@ -311,7 +311,7 @@ class _Builder:
                                 for at, values, point in zip(near, found, bad)]) - true
                 np.maximum.at(score, place, _sizes(gap))
             scores.append(score)
-        # never far from the worst one at once: the next round may find less
+        # only those with errors near the largest one: others may become smaller in the next iteration
         largest = max(float(score.max()) for score in scores)
         limit = max(min(_SHARE * self._plan.tolerance, largest), 0.25 * largest)
         for axis, (nodes, score) in enumerate(zip(list(self._nodes), scores)):
@@ -332,8 +332,8 @@ def _widened(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _divided(nodes: Numbers, chosen: NDArray[np.intp], is_even: bool) -> Numbers:
-    """Middles of intervals that are divided: the chosen ones, their mirror images on an axis that has them, and others beside which
-    intervals would become too short: splines over nodes at such distances overshoot"""
+    """Midpoints of the intervals to be divided: the chosen ones, their mirror images on a symmetric axis, and neighbours that would
+    otherwise be too long beside the divided ones, as splines over such nodes overshoot"""
     whole = nodes
     new: Numbers = np.zeros(0)
     while len(chosen):

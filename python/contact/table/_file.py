@@ -12,7 +12,7 @@ from ._look_up import Facts, Numbers
 
 #: First bytes of a file, and bytes before the knots
 _MAGIC, _HEAD = b"CONTACT table 2\n", 128
-#: Signs of Fx, Fy, Mz at the mirror image of x, and of y, z and all signs; the offset turns over with both
+#: Signs of Fx, Fy, Mz under reflection of x, and of y, z and all signs; the offset changes its sign with both
 _X_SIGNS, _Z_SIGNS = np.array([-1.0, 1.0, 1.0]), np.array([1.0, -1.0, -1.0])
 
 
@@ -28,9 +28,9 @@ def write(path: Path, nodes: list[Numbers], values: Numbers, facts: Facts) -> No
     values
         Forces and moment at the nodes, relative to mu Fn and mu Fn sqrt(a b), shape (shape, offset, x, y, z, 3).
     facts
-        What is told about it.
+        Properties of the table.
     """
-    # a mirror image that is the node itself has the same values, to the last bit
+    # nodes that are their own mirror images must have exactly symmetric values
     values = values.copy()
     values[:, :, 0] = 0.5 * (values[:, :, 0] + _X_SIGNS * values[:, ::-1, 0])
     values[..., 0, :] = 0.5 * (values[..., 0, :] + _Z_SIGNS * values[:, ::-1, :, ::-1, 0, :])
@@ -45,7 +45,7 @@ def write(path: Path, nodes: list[Numbers], values: Numbers, facts: Facts) -> No
             continue
         made, whole = _spline(places, whole, number)
         if number in (2, 4):
-            # the half that is not its mirror image
+            # only one half is stored; the other is its mirror image
             first = int(np.argmin(np.abs(made))) - 3
             made = made[first:]
             whole = np.take(whole, range(first, whole.shape[number]), axis=number)
@@ -53,7 +53,7 @@ def write(path: Path, nodes: list[Numbers], values: Numbers, facts: Facts) -> No
     body = b"".join(part.astype("<f8").tobytes() for part in knots) + whole.astype("<f4").tobytes()
     size = _HEAD + len(body) + 64
     head = _MAGIC + struct.pack("<8i", 2 if facts.has_offset else 1, *whole.shape[:5], facts.elements, facts.order)
-    # forces near the bound are led to it within the tolerance
+    # forces near the bound are blended into it within the tolerance
     head += struct.pack("<q9d", size, facts.poisson, facts.asked, *facts.error, facts.points, min(0.5, facts.asked),
                         *facts.grid_error, 0.0)
     content = head + body
@@ -73,15 +73,15 @@ def _spline(places: Numbers, values: Numbers, axis: int) -> tuple[Numbers, Numbe
 
 
 def interpolated(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
-    """What the cubic spline through values along an axis has at other places"""
+    """The cubic spline through values along an axis at other abscissas"""
     return np.asarray(_through(places, values, axis)(new))
 
 
 def bend(places: Numbers, values: Numbers, axis: int, new: Numbers) -> Numbers:
-    """Third differences of values along an axis near other places, for the intervals that these divide.
+    """Third differences of values along an axis near new abscissas, for the intervals that these divide.
 
-    Where forces bend they are about the change of the slope times the interval, and a spline errs by up to a third of that; where
-    forces are smooth it errs by much less.
+    At a bend of the forces they are about the change of the slope times the interval, and the error of a spline is up to a third of
+    that; where forces are smooth it is much smaller.
     """
     divided = np.moveaxis(values, axis, 0)
     for k in (1, 2, 3):

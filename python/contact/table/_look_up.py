@@ -14,7 +14,7 @@ from ..errors import ContactError
 
 Numbers = NDArray[np.float64]
 
-#: Outside of the shapes of the table, of contact_table_forces
+#: Code of contact_table_forces for a contact outside of the table
 _OUTSIDE, _WRONG = 1, 2
 
 
@@ -33,9 +33,9 @@ class Facts:
     Attributes
     ----------
     has_offset
-        Of two half ellipses, and not of ellipses?
+        Whether the contacts are two half ellipses, not ellipses.
     elements, order
-        Elements a side of the results that it is made of, and the order of their discretisation.
+        Elements along each side of the contacts from which it was computed, and the order of their discretisation.
     poisson
         Poisson ratio of the bodies [-].
     ratio
@@ -51,9 +51,9 @@ class Facts:
     points
         Number of independent random points of the check.
     grid_error
-        Largest differences of results with this many elements to those with three times as many a side, as `error`.
+        Largest differences between results with this number of elements and with three times as many along each side, as `error`.
     bytes
-        Memory of the table.
+        Memory of the table [bytes].
     """
 
     has_offset: bool
@@ -74,17 +74,17 @@ class Facts:
         spin = "all spins" if np.isinf(self.spin) else f"spins up to {self.spin:.3g} mu Fn/(G a b c KP)"
         return (f"{kind}, a/b from {self.ratio[0]:.3g} to {self.ratio[1]:.3g}, {spin}, Poisson ratio {self.poisson:.3g}\n"
                 f"largest error at {self.points} random points: forces {100 * self.error[0]:.3g} % of mu Fn, "
-                f"moment {100 * self.error[1]:.3g} % of mu Fn sqrt(a b); asked for {100 * self.asked:.3g} %\n"
+                f"moment {100 * self.error[1]:.3g} % of mu Fn sqrt(a b); required {100 * self.asked:.3g} %\n"
                 f"made of results with {self.elements} x {self.elements} elements of order {self.order}; against three times "
                 f"as many: {100 * self.grid_error[0]:.3g} and {100 * self.grid_error[1]:.3g} %\n"
                 f"{self.bytes / 1e6:.3g} MB of memory")
 
 
 def _prototypes() -> ctypes.CDLL:
-    """The library with the types of arguments"""
+    """The library with declared argument types"""
     loaded = library()
     if not hasattr(loaded, "contact_table_open"):
-        raise ContactError("The library is older than tables; build it anew, or set CONTACT_LIBRARY to a newer one")
+        raise ContactError("The library is older than tables; rebuild it, or set CONTACT_LIBRARY to a newer one")
     loaded.contact_table_open.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int]
     loaded.contact_table_open.restype = ctypes.c_void_p
     loaded.contact_table_close.argtypes = [ctypes.c_void_p]
@@ -125,12 +125,12 @@ class Table(Handle):
     @property
     def facts(self) -> Facts:
         """Properties of the table."""
-        told = _Facts()
-        if self._library.contact_table_about(self._handle, ctypes.byref(told)) != 0:
+        facts = _Facts()
+        if self._library.contact_table_about(self._handle, ctypes.byref(facts)) != 0:
             raise ContactError("the table is closed")
-        return Facts(bool(told.has_offset), told.elements, told.order, told.poisson, (told.ratio[0], told.ratio[1]), told.offset,
-                     told.spin, told.asked, (told.error[0], told.error[1]), int(told.points),
-                     (told.grid_error[0], told.grid_error[1]), int(told.bytes))
+        return Facts(bool(facts.has_offset), facts.elements, facts.order, facts.poisson, (facts.ratio[0], facts.ratio[1]),
+                     facts.offset, facts.spin, facts.asked, (facts.error[0], facts.error[1]), int(facts.points),
+                     (facts.grid_error[0], facts.grid_error[1]), int(facts.bytes))
 
     def force(self, fn: ArrayLike, mu: ArrayLike, gg: ArrayLike, aa: ArrayLike, bb: ArrayLike, cksi: ArrayLike = 0.0,
               ceta: ArrayLike = 0.0, cphi: ArrayLike = 0.0, offset: ArrayLike = 0.0, *, outside: bool = False) -> Numbers:
@@ -151,7 +151,7 @@ class Table(Handle):
 
         Returns
         -------
-        Fx, Fy [N] and Mz [N mm] in the last dimension; those before are of the arguments, which fit each other.
+        Fx, Fy [N] and Mz [N mm] in the last dimension; the dimensions before are those of the arguments, which are broadcast.
 
         Raises
         ------
@@ -167,7 +167,7 @@ class Table(Handle):
         return self._ask((fn, mu, gg, aa, bb, cksi, ceta, cphi, offset), outside, True)
 
     def _ask(self, given: tuple[ArrayLike, ...], outside: bool, slopes: bool) -> tuple[Numbers, Numbers]:
-        """Look up many at once"""
+        """Look up arrays of values in one call"""
         if not self._handle:
             raise ContactError("the table is closed")
         fn, mu, gg, aa, bb, cksi, ceta, cphi, offset = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))

@@ -1,4 +1,4 @@
-"""What tables are made of: creep forces of contacts by the full theory, in scaled creepages."""
+"""Results for tables: creep forces of contacts by the full theory, in scaled creepages."""
 from __future__ import annotations
 
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -12,18 +12,18 @@ from ..study._scene import Scene
 
 Numbers = NDArray[np.float64]
 
-#: Size of the contact, force and material that results are computed for. Forces depend on ratios only; creepages stay small
+#: Size of the contact, force and material of the computed cases. Scaled forces do not depend on them; chosen for small creepages
 _SIZE, _FORCE, _MU, _RIGIDITY = 5.0, 10.0, 0.3, 82000.0
-#: Cases of a task
+#: Number of cases of a task
 _PORTION = 1000
 #: Size of the grid relative to the contact
 _WINDOW = 1.05
-#: Distances from infinite creepage and spin: 1 - (x**4 + y**4)**(1/4) and 1 - z are not less
+#: Minimum distances from infinite creepage and spin, 1 - (x**4 + y**4)**(1/4) and 1 - z
 _NEAREST = 1e-4
-#: From this z on there are more elements a side, by this factor; chosen by comparison with finer grids
+#: Above this z the number of elements along each side is increased by this factor; chosen by comparison with finer grids
 _MUCH_SPIN, _MORE = 0.85, 1.5
-#: Where most of the contact slides, the grid matters less: from this (x**4 + y**4)**(1/4) on there are fewer elements a side,
-#: down to this part of them in full sliding, but not less than so many; chosen by comparison with finer grids
+#: Where most of the contact slides, fewer elements suffice: above this (x**4 + y**4)**(1/4) the number along each side decreases
+#: to this fraction in full sliding, but not below this minimum; chosen by comparison with finer grids
 _MUCH_SLIP, _FEWER, _FEW = 0.4, 0.35, 9
 #: KX, KY, KP by powers of a/b, as in src/tables/creep_table.f90
 _SCALES = ([1.0964, 0.325, -0.004], [0.8005, 0.4393, -0.0067], [0.4147, 1.0184, 0.0565, -0.0013])
@@ -42,8 +42,8 @@ def arms(points: Numbers) -> Numbers:
 def creepages(points: Numbers, nearest: float = _NEAREST) -> Numbers:
     """Creepages of points (log(a/b), offset, x, y, z), in units of mu Fn / (G a b), spin times sqrt(a b).
 
-    Points are about the middle of the pressures, creepages about that of both extents. The sides at infinity are replaced by what
-    is so near them.
+    Points refer to the middle of the pressures, creepages to that of both extents. Infinite creepage and spin are replaced by large
+    finite values.
     """
     ratio = np.exp(points[:, 0])
     scale = scales(ratio)
@@ -62,8 +62,8 @@ def creepages(points: Numbers, nearest: float = _NEAREST) -> Numbers:
 def sides(points: Numbers, elements: int) -> NDArray[np.int_]:
     """Elements along and across for points, shape (n, 2).
 
-    A contact has more along its longer side. With large spin, sliding turns round within a few elements: there are more of them.
-    There are fewer where most of the contact slides.
+    There are more along the longer side of a contact, more with large spin, where the direction of slip changes within a few
+    elements, and fewer where most of the contact slides.
     """
     wide = np.exp(0.5 * np.abs(points[:, 0]))
     radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
@@ -81,11 +81,11 @@ class Results:
     poisson
         Poisson ratio of both bodies [-].
     elements
-        Elements a side of a round contact with little spin, see :func:`sides`.
+        Elements along each side of a round contact with little spin, see :func:`sides`.
     has_offset
-        Two half ellipses with elliptical pressures, and not ellipses, whose pressures are solved for?
+        Whether contacts are two half ellipses with elliptical pressures, instead of ellipses with computed pressures.
     workers
-        Threads.
+        Number of threads.
     """
 
     def __init__(self, poisson: float, elements: int, has_offset: bool, workers: int) -> None:
@@ -97,8 +97,8 @@ class Results:
 
         The moment is about the middle of the pressures.
 
-        Points beyond x**4 + y**4 = 1 have values that continue those within it: there sliding is of one direction, forces are even
-        functions of the distance to it, and the moment an odd one.
+        Values beyond x**4 + y**4 = 1 continue those within it: near it sliding has a single direction, so that forces are even
+        functions of the distance to it, and the moment is an odd one.
         """
         radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
         beyond = radius > 1.0
@@ -109,7 +109,7 @@ class Results:
         return values
 
     def _solve(self, points: Numbers, elements: int) -> Numbers:
-        """Solve, one shape after the other"""
+        """Solve the points, one shape after the other"""
         order = np.lexsort((points[:, 3], points[:, 2], points[:, 4], points[:, 1], points[:, 0]))
         ratio, offset = np.exp(points[:, 0]), points[:, 1]
         given = creepages(points) * (_MU * _FORCE / (_RIGIDITY * _SIZE**2)) * [1.0, 1.0, 1.0 / _SIZE]
@@ -123,7 +123,7 @@ class Results:
         parts = [order[which.ravel() == k] for k in range(len(grids))]
         tasks = [(grid, part[first:first + _PORTION]) for grid, part in zip(grids, parts)
                  for first in range(0, len(part), _PORTION)]
-        # the longest ones first, so that all threads are busy to the end
+        # the longest tasks first, so that all threads are busy until the end
         tasks.sort(key=lambda one: -float(np.prod(one[0])) * len(one[1]))
         with ThreadPoolExecutor(self.workers) as pool:
             waiting: list[Future[Numbers]] = [pool.submit(_portion, *self._text(grid), given[part]) for grid, part in tasks]
@@ -133,7 +133,7 @@ class Results:
         return solved
 
     def _text(self, grid: NDArray[np.int_]) -> tuple[str, list[str]]:
-        """The case that is solved, and what varies"""
+        """The base case, and the inputs that vary"""
         keys = ["aa", "bneg", "bpos"] if self.has_offset else ["aa", "bb"]
         case = {"module": "contact", "motion": "steady_rolling", "normal": "force",
                 "kinematics": {"fn": _FORCE, "cksi": 0.0, "ceta": 0.0, "cphi": 0.0}, "friction": {"fstat": _MU, "fkin": _MU},
@@ -147,7 +147,7 @@ class Results:
 
 
 def _portion(text: str, names: list[str], given: Numbers) -> Numbers:
-    """Some cases, one after the other"""
+    """Solve some cases, one after the other"""
     with Batch() as batch:
         solved = batch.solve(text, "", names, given)
     failed = np.flatnonzero(solved.states[:, 0] != 0)
