@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Crossing noses in slices: first touch and its place against the vertical gap at all points of the wheel.
+"""Crossing noses in slices: first contact and its position against the vertical gap at all points of the wheel.
 
     crossings.py PROGRAM [NUMBER] [--seed S]
 
@@ -48,7 +48,7 @@ INPUT = """ 1 MODULE
 
 
 def smooth(t):
-    """0 before 0, 1 behind 1"""
+    """Smooth step: 0 below 0, 1 above 1"""
     t = np.clip(t, 0.0, 1.0)
     return t*t*(3.0 - 2.0*t)
 
@@ -76,7 +76,7 @@ def axes(roll, yaw):
 
 
 def first_touch(z, wheel, case):
-    """Height of the wheelset at which the wheel touches, and where"""
+    """Height of the wheelset at first contact, and its position"""
     length = profiles.arc_length(wheel)
     places = np.arange(0.0, length[-1], 0.1)
     across, radius = (profiles.Spline(length, wheel[:, k])(places) for k in (0, 1))
@@ -100,7 +100,7 @@ def write(folder, name, text):
 
 
 def judge(program, number, seed):
-    """What disagrees in one scene"""
+    """Disagreements in one scene"""
     rng = random.Random(f"{seed}:{number}")
     z, length = crossing(rng)
     case = {"s": rng.uniform(-length, length), "y": rng.uniform(-6.0, 8.0), "yaw": rng.choice([0.0, rng.uniform(-0.02, 0.02)]),

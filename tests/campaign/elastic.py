@@ -73,7 +73,7 @@ def _hat_kernels():
 
 
 class HalfSpaces:
-    """Influence of each element on each place of a lattice; hats: tractions bilinear between centres (C = 3)"""
+    """Influence of each element on each point of a lattice; hats: tractions bilinear between centres (C = 3)"""
 
     def __init__(self, g, nu, mx, my, dx, dy, hats=False):
         self.g, self.nu, self.k = combined(g, nu)
@@ -88,7 +88,7 @@ class HalfSpaces:
 
     def table(self, name, ahead=(0.0, 0.0)):
         """Coefficient of displacement i by traction j (name ij of x, y, n) for all offsets, times 1: array
-        (2 my - 1, 2 mx - 1), offset zero in the middle; the place is moved ahead by a vector"""
+        (2 my - 1, 2 mx - 1), offset zero in the middle; the point is shifted by a vector"""
         key = (name, tuple(ahead))
         if key not in self._tables:
             # rectangles: antiderivatives at the corners; hats: fourth antiderivatives at the centres and their neighbours
@@ -96,7 +96,7 @@ class HalfSpaces:
             x = (np.arange(-(self.mx - 1) - more, self.mx + more)*number(self.dx) + number(ahead[0]))[np.newaxis, :]
             y = (np.arange(-(self.my - 1) - more, self.my + more)*number(self.dy) + number(ahead[1]))[:, np.newaxis]
             x, y = np.broadcast_arrays(x, y)
-            # shares of the point kernels 1/r, x2/r3, ...
+            # weights of the point kernels 1/r, x2/r3, ...
             shares = {"xx": {"1": 1 - self.nu, "xx": self.nu}, "yy": {"1": 1 - self.nu, "yy": self.nu},
                       "xy": {"xy": self.nu}, "yx": {"xy": self.nu}, "nn": {"1": 1 - self.nu},
                       "xn": {"x": -self.k}, "nx": {"x": self.k}, "yn": {"y": -self.k}, "ny": {"y": self.k}}[name]
@@ -109,7 +109,7 @@ class HalfSpaces:
         return self._tables[key]
 
     def sum(self, name, field, ahead=(0.0, 0.0)):
-        """Displacement at all places by one component of traction, a plain sum over the loaded elements"""
+        """Displacement at all points due to one component of traction, a plain sum over the loaded elements"""
         table = self.table(name, ahead)
         total = np.zeros((self.my, self.mx))
         for jy, jx in zip(*np.nonzero(field)):
@@ -175,8 +175,8 @@ def hertz_from_axes(a, b, modulus):
 
 
 class ViscoelasticHalfSpaces(HalfSpaces):
-    """Standard linear solids in steady rolling (M = 1): each body adds f times the mean of what it did at the places where the
-    particle was before, weighted with exp(-s) over s relaxation times"""
+    """Standard linear solids in steady rolling (M = 1): each body adds f times the mean of its displacements at the previous
+    positions of the particle, weighted with exp(-s) over s relaxation times"""
 
     def __init__(self, g, nu, mx, my, dx, dy, memory, veloc, sign):
         super().__init__(g, nu, mx, my, dx, dy)
@@ -184,7 +184,7 @@ class ViscoelasticHalfSpaces(HalfSpaces):
         rigid = 1e30
         self.bodies = [(fg1, sign*veloc*tc1, HalfSpaces((g[0], rigid), (nu[0], 0.0), mx, my, dx, dy)),
                        (fg2, sign*veloc*tc2, HalfSpaces((rigid, g[1]), (0.0, nu[1]), mx, my, dx, dy))]
-        # the kernels of both bodies cancel in coupling only if all is equal
+        # the coupling of both bodies cancels only if all properties are equal
         self.coupled = abs(self.k) >= 1e-6 or abs(fg1 - fg2) + abs(tc1 - tc2) > 0
 
     def table(self, name, ahead=(0.0, 0.0)):
@@ -200,7 +200,7 @@ class ViscoelasticHalfSpaces(HalfSpaces):
     def _memory(self, name, ahead, length, body):
         if length == 0:
             return body.table(name, ahead)
-        # ends of panels: where the place crosses the side of an element, and steps of the decay
+        # ends of panels: where the point crosses the side of an element, and steps of the decay
         step = abs(self.dx/length)
         ends = np.concatenate([np.arange(0, min(30, 2 * self.mx * step), step / 2), np.linspace(0, 30, 31),
                                np.geomspace(0.1 * min(step, 1.0), 30, 40)])
@@ -212,7 +212,7 @@ class ViscoelasticHalfSpaces(HalfSpaces):
                 continue
             for x, w in zip(place, weight):
                 s = 0.5*(low + high) + 0.5*(high - low)*x
-                # not kept: each place is needed once
+                # not stored: each point is needed once
                 body._tables.clear()
                 total = total + 0.5*(high - low)*w*np.exp(-s)*body.table(name, (ahead[0] + length*s, ahead[1]))
         return total
@@ -261,7 +261,7 @@ class ConformalHalfSpaces(HalfSpaces):
     def displacement(self, component, px, py, pn, ahead=(0.0, 0.0), coupled=True):
         tractions = [np.zeros((self.my, self.mx)) if field is None else field for field in (px, py, pn)]
         if not coupled:
-            # what the kinds of traction do alone
+            # effects of the components of traction without coupling
             tractions = [0*field if (component == "n") != (name == "n") else field for name, field in zip("xyn", tractions)]
         total = np.zeros((self.my, self.mx))
         row = "xyn".index(component)

@@ -4,7 +4,7 @@
     force_search.py PROGRAM [NUMBER] [--seed S] [--folder F] [--jobs J] [--only K] [--also K ...] [--keep] [--check] [--fresh]
 
 Pairs 0 ... NUMBER-1 of seed S are run by PROGRAM. Every pair has its own random numbers, made of S and its own number, so that
-`--only K` repeats it alone. Results are appended to F/results.jsonl; pairs that stand there are not run again: a round that
+`--only K` repeats it alone. Results are appended to F/results.jsonl; pairs that are listed there are not run again: a round that
 was interrupted goes on where it ended. Inputs of pairs with a finding stay in F/pair_K, with --keep those of all.
 
 What is judged, per pair:
@@ -13,7 +13,7 @@ What is judged, per pair:
             that of this script, looks for the force: when it is found within 1e-4, the miss is a finding ("missed, but there");
             when it jumps over the force within 1e-6 mm, or friction carries the wheel, the reason is physical
   silent    the force is not met although the case counts as converged: a finding
-  trials    heights tried in one search, as the program tells them ("force_trials"): never more than MAXNR = 30
+  trials    number of heights in one search, reported by the program ("force_trials"): never more than MAXNR = 30
   F = 1, 3  the longitudinal force is met, or friction cannot give it; the deflected rail is in balance
 
 With --check the exit status is 1 when there is a finding; --fresh forgets the results of the folder. Needs nothing but Python
@@ -45,7 +45,7 @@ TIMEOUT = 120
 
 
 def roughen(rng, recipe):
-    """What makes several patches: a narrow groove or ridge, ripples, points far apart, noise that is not smoothed away"""
+    """Causes of several patches: a narrow groove or ridge, ripples, sparse points, noise that is not smoothed away"""
     what = rng.choice(["groove", "groove", "ridge", "ripples", "facets", "noise", "worn"])
     size = recipe.get("scale", 1.0)
     if what in ("groove", "ridge"):
@@ -66,7 +66,7 @@ def roughen(rng, recipe):
 
 # ---- Pairs -----------------------------------------------------------------------------------------
 def make_pair(seed, number, folder):
-    """Everything that is random of a pair; its profiles are written to the folder"""
+    """Random data of a pair; its profiles are written to the folder"""
     rng = random.Random(f"force search {seed} {number}")
     os.makedirs(folder, exist_ok=True)
     pair = profiles.pair(rng)
@@ -186,7 +186,7 @@ def totals(case):
 
 
 def find_force(program, folder, d, found):
-    """Another search for the force, with prescribed heights: how it ended, and where"""
+    """Another search for the force, with prescribed heights: its outcome and height"""
     touch = found["z_ws"] + found["smallest_gap"]
     vpitch = found["vpitch_ws"] if d["F"] == 1 else None
 
@@ -218,7 +218,7 @@ def find_force(program, folder, d, found):
                 here = inner[np.abs(g).argmin()]
                 if STEPS*normal[here] <= d["fz"]:
                     return "there", here, best
-                # wedged between flanks: what is left of the normal forces is less than what their steps can tell
+                # wedged between flanks: the sum of the normal forces is smaller than the resolution of their steps
                 carried, best, wedged = here, math.nan, True
                 break
             k = next(j for j in range(11) if g[j]*g[j + 1] <= 0)
@@ -355,18 +355,18 @@ def main():
     if os.path.exists(name):
         with open(name) as file:
             known = {r["number"]: r for r in map(json.loads, file) if r["seed"] == a.seed}
-    wanted = sorted(set(range(a.number)) | set(a.also))
+    numbers = sorted(set(range(a.number)) | set(a.also))
     if a.within_eps:
         global WITHIN_STEPS
         WITHIN_STEPS = "met within GRID STEPS"
-    todo = [k for k in wanted if k not in known]
+    todo = [k for k in numbers if k not in known]
     with open(name, "a") as file, concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         for result in pool.map(lambda k: judge(program, a.seed, k, root, a.keep), todo):
             result["seed"] = a.seed
             file.write(json.dumps(result, default=float) + "\n")
             file.flush()
             known[result["number"]] = result
-    results = [known[k] for k in wanted]
+    results = [known[k] for k in numbers]
     print("seed %d, %s" % (a.seed, program))
     table(results)
     return 1 if a.check and any(r["finding"] for r in results) else 0

@@ -1,4 +1,4 @@
-"""Where wheel and rail of module 1 touch and how they move there, by points on both surfaces.
+"""Contact positions and motions of wheel and rail of module 1, by points on both surfaces.
 
 Everything is for the right-hand picture: x along the track, y to the right, z down, in mm and rad. The surfaces are sampled;
 nothing is taken from a formula for the contact locus.
@@ -15,7 +15,7 @@ SLICED, SLICED_PLACE = 2e-4, 0.02
 
 
 def turn(axis, angle):
-    """Matrix of a turn about one axis, 0, 1, 2 for x, y, z"""
+    """Rotation matrix about one axis, 0, 1, 2 for x, y, z"""
     c, s = math.cos(angle), math.sin(angle)
     a, b = [(1, 2), (2, 0), (0, 1)][axis]
     matrix = np.eye(3)
@@ -25,20 +25,20 @@ def turn(axis, angle):
 
 
 def turn_about(vector, angle):
-    """Matrix of a turn about a vector of length 1"""
+    """Rotation matrix about a unit vector"""
     k = np.array([[0.0, -vector[2], vector[1]], [vector[2], 0.0, -vector[0]], [-vector[1], vector[0], 0.0]])
     return np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k
 
 
-def along(places, values, wanted):
+def along(places, values, s_of_points):
     """Cubic spline through slices, no corner at the second and the last but one; constant beyond the ends"""
     places, values = np.asarray(places, float), np.asarray(values, float)
     n = len(places)
-    wanted = np.clip(wanted, places[0], places[-1])
+    s_of_points = np.clip(s_of_points, places[0], places[-1])
     if not values.any():
-        return np.zeros_like(wanted)
+        return np.zeros_like(s_of_points)
     if n < 4:
-        return np.interp(wanted, places, values)
+        return np.interp(s_of_points, places, values)
     # second derivatives m: continuous slopes inside, continuous third derivatives at the second and the last but one place
     h = np.diff(places)
     matrix, right = np.zeros((n, n)), np.zeros(n)
@@ -48,14 +48,14 @@ def along(places, values, wanted):
     matrix[0, :3] = -h[1], h[0] + h[1], -h[0]
     matrix[-1, -3:] = -h[-1], h[-2] + h[-1], -h[-2]
     m = np.linalg.solve(matrix, right)
-    k = np.clip(np.searchsorted(places, wanted, side="right") - 1, 0, n - 2)
-    t, u = wanted - places[k], places[k + 1] - wanted
+    k = np.clip(np.searchsorted(places, s_of_points, side="right") - 1, 0, n - 2)
+    t, u = s_of_points - places[k], places[k + 1] - s_of_points
     return ((m[k] * u**3 + m[k + 1] * t**3) / (6.0 * h[k]) + (values[k] / h[k] - m[k] * h[k] / 6.0) * u
             + (values[k + 1] / h[k] - m[k + 1] * h[k] / 6.0) * t)
 
 
 class Curve:
-    """A profile sampled finely: coordinates y, z over the arc length, with what the slices add at a place along the rail"""
+    """A finely sampled profile: coordinates y, z over the arc length, plus the deviation of the slices along the rail"""
 
     def __init__(self, recipe, step):
         self.y_of, self.z_of = profiles.prepared(recipe)
@@ -69,7 +69,7 @@ class Curve:
         return s, self.y_of(s), self.z_of(s)
 
     def added(self, place):
-        """Displacements dy, dz of the slices at these places"""
+        """Displacements dy, dz of the slices at these positions"""
         if not self.slices:
             return np.zeros_like(place), np.zeros_like(place)
         table = np.array(self.slices)
@@ -85,7 +85,7 @@ def gauge_point(curve, cant, height):
         return y * c + z * s, z * c - y * s
 
     def around(index):
-        """Places on both sides of a point of the sampled curve"""
+        """Positions on both sides of a point of the sampled curve"""
         return np.linspace(curve.s[max(index - 1, 0)], curve.s[min(index + 1, len(curve.s) - 1)], 2001)
 
     y, z = canted(curve.s)
@@ -144,7 +144,7 @@ class Placed:
         self._upper()
 
     def _upper(self):
-        """The part of the rail that is seen from above, as a function of y"""
+        """The part of the rail that is visible from above, as a function of y"""
         order = np.argsort(self.rail_y)
         y, z = self.rail_y[order], self.rail_z[order]
         steps = np.diff(self.rail_y)
@@ -165,7 +165,7 @@ class Placed:
         self.seen_y, self.seen_z = y, z
 
     def rail_height(self, x, y):
-        """z of the rail seen from above at these places of the track; infinite beside it"""
+        """z of the rail seen from above at these positions in the track; infinite outside of it"""
         u = self.place + x
         dy, dz = self.rail.added(u)
         shift = self.rail_axes @ np.vstack([np.zeros(np.size(dy)), dy.ravel(), dz.ravel()])
@@ -206,7 +206,7 @@ class Placed:
                    key=lambda found: found[0])
 
     def _around(self, place, angle, ds, da):
-        """The smallest gap near a place, by windows that become smaller
+        """The smallest gap near a position, by successively smaller windows
 
         The valley of gaps below a steep flank runs obliquely: a window shrinks by less than it has points, and not
         where the smallest gap is at its edge.
@@ -226,9 +226,9 @@ class Placed:
         return best
 
     def regions(self, depth, by_rows=True):
-        """Regions with a gap below zero: mean place and angle with the weights of the contact reference, bounds
+        """Regions with a gap below zero: mean position and angle with the weights of the contact reference, bounds
 
-        depth     -smallest gap, which tells how finely to sample
+        depth     -smallest gap, which determines the sampling
         by_rows   weights by the smallest gap of each row, the overlap of a round wheel; else the square of all gaps
         """
         s = self.wheel.s[::2]
@@ -236,7 +236,7 @@ class Placed:
         half = math.sqrt(max(depth, 1e-9) / kappa)
         angles = np.linspace(-0.3, 0.3, 241)
         _points, gap = self.gaps(s, angles)
-        # between these points the gap may be smaller by what the curvatures make of half a step
+        # between these points the gap may be smaller, due to the curvatures over half a step
         below = np.isfinite(gap) & (gap < 0.25 * depth + 1.5 * kappa * (0.5 * (angles[1] - angles[0]) * self.radius)**2 + 2e-4)
         if not below.any():
             return []
@@ -307,7 +307,7 @@ class Placed:
     # ---- Distance along a normal -------------------------------------------------------------------------
 
     def distances(self, where, angle, x, s):
-        """Distance of the bodies along the normal of a plane at the places x, s in it, array (s, x); infinite without a surface
+        """Distance of the bodies along the normal of a plane at the positions x, s in it, array (s, x); infinite without a surface
 
         where      origin of the plane in the track, on the rail
         angle      its roll
@@ -351,7 +351,7 @@ class Placed:
     # ---- Motion ------------------------------------------------------------------------------------------
 
     def velocities(self, case, at_rail, at_wheel, curvature=0.0):
-        """Velocities of the material points of rail and wheel that are now at these places, and their turning
+        """Velocities of the material points of rail and wheel that are now at these positions, and their angular velocity
 
         The bodies are moved to where they are a little earlier and later. Along the track the wheelset moves past the
         rail; a roller turns about its axle.
@@ -364,7 +364,7 @@ class Placed:
         inverse = self.wheel_axes.T @ (at_wheel - self.wheel_origin)
         result = []
         for t in (-dt, dt):
-            # wheelset: its axes turn about themselves, VROLL, VPITCH, VYAW being the components in them
+            # wheelset: it rotates about its own axes, VROLL, VPITCH, VYAW being the components in them
             rate = self.set_axes @ np.array([speed[3], speed[5], speed[4]])
             size = np.linalg.norm(rate)
             turned = turn_about(rate / size, size * t) if size > 0.0 else np.eye(3)
@@ -390,7 +390,7 @@ class Placed:
 
 
 def _run(values, start):
-    """First and last but one index of the stretch around a place in which values keep rising, or keep falling"""
+    """First and last but one index of the monotonic interval of values around a position"""
     steps = np.diff(values)
     sign = np.sign(steps[min(start, len(steps) - 1)])
     turns = np.flatnonzero(np.sign(steps) != sign)
@@ -399,11 +399,11 @@ def _run(values, start):
 
 
 def _turning(before, after, dt):
-    """Angular velocity from two turned axes"""
+    """Angular velocity from two rotated axes"""
     skew = (after @ before.T - before @ after.T) / (4.0 * dt)
     return np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
 
 
 def _wrapped(angle):
-    """Angle within one turn about 0"""
+    """Angle reduced to the interval around 0"""
     return (angle + math.pi) % (2.0 * math.pi) - math.pi

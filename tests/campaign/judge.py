@@ -1,4 +1,4 @@
-"""What the judges of all kinds of cases share: running the program, reading its results, findings and tolerances.
+"""Common part of all judges: running the program, reading its results, findings and tolerances.
 
 Nothing here looks at the sources of the program; results are read from the files that users read.
 """
@@ -27,7 +27,7 @@ MAT_COLUMNS = ["element", "eldiv", "h", "mu", "pn", "px", "py", "un", "ux", "uy"
 
 
 def finding(judge, what, size=None, limit=None, status="disagreement"):
-    """One thing that a judge noticed.
+    """One finding of a judge.
 
     status is "refused" (what: the reason), "not converged" (what: which iteration), "open" (what: a known reason) or
     "disagreement". A size above its
@@ -54,7 +54,7 @@ def without_numbers(text):
 
 
 class Unreadable(Exception):
-    """A file of results that is not what the documents say"""
+    """A file of results that contradicts the documentation"""
 
 
 class Run:
@@ -80,7 +80,7 @@ class Run:
         for line in self.text(".jsonl").splitlines():
             try:
                 case = json.loads(line, parse_constant=_refuse_constant)
-                if case["case"]:  # the last line tells how far the run has come
+                if case["case"]:  # the last line has the progress of the run
                     self.cases.append(case)
             except ValueError as error:
                 raise Unreadable(f"{self.name}.jsonl: {error}: {line[:200]}") from error
@@ -106,7 +106,7 @@ class Run:
         return self.printed_fields(case)
 
     def printed_fields(self, case, letter=""):
-        """Fields as the .mat file has them"""
+        """Fields of the .mat file"""
         path = self.path(f".{case:04d}{letter}.mat")
         try:
             with open(path, encoding="utf-8") as file:
@@ -149,7 +149,7 @@ def _refuse_constant(word):
 
 
 class Tools:
-    """What a judge needs: the program, the library, a scratch folder and limits"""
+    """Environment of a judge: the program, the library, a scratch folder and limits"""
 
     def __init__(self, exe, library, python_path, folder, seconds=60, gigabytes=4):
         self.exe, self.library, self.python_path, self.folder = exe, library, python_path, folder
@@ -169,7 +169,7 @@ class Tools:
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", CONTACT_LIBRARY=self.library or "",
                            PYTHONPATH=self.python_path or "")
         if arguments[0] == sys.executable and "CONTACT_INSTRUMENTS" in os.environ:
-            # a library with the sanitizers wants theirs first; what Python keeps is no leak
+            # a library with the sanitizers needs theirs loaded first; memory held by Python is not a leak
             environment.update(LD_PRELOAD=os.environ["CONTACT_INSTRUMENTS"],
                                ASAN_OPTIONS="detect_leaks=0:allocator_may_return_null=1")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -198,7 +198,7 @@ class Tools:
 
 
 def how_it_ended(run, expected_cases, findings):
-    """The exit code, refusals and texts of a run: findings that need no fields.
+    """Exit code, refusals and messages of a run: findings that need no fields.
 
     Returns the numbers of the cases that have results.
     """
@@ -225,7 +225,7 @@ def how_it_ended(run, expected_cases, findings):
 
 
 def relative(difference, scale):
-    """Size of a difference, safe for scales of zero"""
+    """Relative size of a difference, also for a scale of zero"""
     size = float(np.max(np.abs(difference))) if np.size(difference) else 0.0
     if size == 0.0:
         return 0.0

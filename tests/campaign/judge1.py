@@ -15,12 +15,12 @@ import numpy as np
 import profiles
 import scene1
 
-SAME = 1e-7  # the same case through another door, relative: inputs are written with 12 digits
+SAME = 1e-7  # the same case by another interface, relative: inputs are written with 12 digits
 
-# What is known and not mended: judge, what the scene or the finding has, the reason
+# Known, open disagreements: judge, property of the scene or the finding, reason
 OPEN = (
     ("scale", lambda scene, item: scene["digits"]["B"] == 6,
-     "B = 6: the least curvature of ANALYN is 1e-4 per mm whatever the size"),
+     "B = 6: the least curvature of ANALYN is 1e-4 per mm for all sizes"),
     ("force", lambda scene, item: item.get("size", 1.0) <= 1e-4,
      "grids follow the contact in whole elements: the force has steps, and a miss of up to 1e-4 counts as met"),
 )
@@ -33,7 +33,7 @@ ODD_PATCH = {"fy", "bar_fs", "bar_mn", "mz", "fy_rel", "ceta", "cphi", "shift_y"
 
 
 def plain(record, odd, sign):
-    """Values of a record in the right-hand picture"""
+    """Values of a record, converted to the right side of the track"""
     result = {}
     for name, value in record.items():
         value = value["value"] if isinstance(value, dict) else value
@@ -43,7 +43,7 @@ def plain(record, odd, sign):
 
 
 def results(run, side):
-    """Cases of a run in the right-hand picture: (record, totals, totals of patches)"""
+    """Cases of a run, converted to the right side of the track: (record, totals, totals of patches)"""
     sign = -1.0 if side == "left" else 1.0
     return [(record, plain(record.get("totals", {}), ODD_TOTALS, sign),
              [plain(patch["totals"], ODD_PATCH, sign) for patch in record.get("patches", [])]) for record in run.cases]
@@ -97,13 +97,13 @@ def judged(scene, tools):
 
 
 def state_of(scene, case, run, record, totals, patches, findings):
-    """Whether the state of the case is honest"""
+    """Check that the status of the case is correct"""
     if not settled(record):
         reason = "%s: %s" % (record.get("iteration", "?"), judge.without_numbers(str(record.get("reason", "no reason"))))
         findings.append(judge.finding("state", reason, status="not converged" if record.get("solved") else "refused"))
         return
     if scene["digits"]["N"] and patches:
-        judge.exceeds(findings, "force", "FZ(TR) is not the force that was asked for",
+        judge.exceeds(findings, "force", "FZ(TR) is not the prescribed force",
                       abs(totals["fz_tr"] - case["fz"]) / case["fz"], 1.01 * scene1.EPS)
     if scene["digits"]["N"] and not patches:
         findings.append(judge.finding("force", "no contact: " + judge.without_numbers(_warning(run)),
@@ -126,7 +126,7 @@ def trials(scene, run, findings):
 
 
 def sums(scene, case, run, number, totals, patches, findings):
-    """Totals are the sums of the tractions and of the patches; moments are about the points that the documents tell"""
+    """Totals are the sums of the tractions and of the patches; moments are about the documented points"""
     sign = -1.0 if scene["side"] == "left" else 1.0
     whole, conformal = np.zeros(3), scene["digits"]["D"] == 4
     moment = np.zeros(3)
@@ -135,7 +135,7 @@ def sums(scene, case, run, number, totals, patches, findings):
     for k, patch in enumerate(patches):
         size = abs(patch["fn"]) + 1e-12
         axes = geometry1.turn(0, patch["deltcp_tr"])
-        # rows of a curved patch have axes of their own; their resultants have other names
+        # rows of a curved patch have different axes; their resultants have other names
         force = axes @ np.array([patch[name] for name in (("bar_fx", "bar_fs", "bar_fn") if conformal else ("fx", "fy", "fn"))])
         whole += force
         if conformal:
@@ -192,10 +192,10 @@ def places(scene, case, placed, record, totals, patches, findings):
         findings.append(judge.finding("gap", "a patch, but the bodies do not overlap", touch[0], 0.0))
         return
     if not 1e-6 < touch[1] < placed.wheel.length - 1e-6:
-        # an edge touches where no tangent plane is shared; the program has no patch there, or one that is cut off, and says so
+        # an edge touches without a common tangent plane; the program has no patch there, or a truncated one, with a warning
         if not ("buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "")
                                           for patch in record["patches"])):
-            findings.append(judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth,
+            findings.append(judge.finding("gap", "an end of the wheel profile is inside the rail, without a warning", depth,
                                           0.0))
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
@@ -217,7 +217,7 @@ def places(scene, case, placed, record, totals, patches, findings):
     d_sep, d_comb = scene["grid"][4], scene["grid"][5]
     if len(regions) == len(patches) == 1 and not deepest["edge"]:
         region, patch = deepest, patches[0]
-        if width < 1.2 * ds:  # fewer points of the table than make a mean
+        if width < 1.2 * ds:  # too few points of the table for a mean
             return
         if (placed.rail.slices or placed.wheel.slices) and depth < 1e-4:  # see SLICED
             return
@@ -256,7 +256,7 @@ def distance(scene, run, number, placed, patches, findings):
         if scene["side"] == "left":
             found = found[::-1]
         touching = field["pn"] > 0.0
-        mine = found[touching] + patch["pen"]  # the program tells the distance from its smallest
+        mine = found[touching] + patch["pen"]  # the program gives the distance relative to its minimum
         slack = 1e-4 * scene["pair"]["wheelset"][2] / profiles.RADIUS
         judge.exceeds(findings, "distance", "undeformed distance where the bodies touch", np.abs(mine - field["h"][touching]).max(),
                       2e-3 * patch["pen"] + 0.04 * slack)
@@ -268,7 +268,7 @@ def distance(scene, run, number, placed, patches, findings):
 
 
 def motion(scene, case, placed, totals, patches, findings):
-    """Creepages, from where the material points are a little earlier and later"""
+    """Creepages, by finite differences of the positions of material points in time"""
     if scene["digits"]["D"] not in (2, 5, 6, 7) or scene["digits"]["T"] == 0:
         return
     moved = copy.deepcopy(case)
@@ -330,7 +330,7 @@ def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, posit
                       10 * tolerance)
         for a, b in zip(mine, yours):
             for name, scale in (("pmax", 1.0), ("pen", lengths), ("fn", forces)):
-                # where curvatures of the profile jump, pressures follow the curve more than forces do
+                # where curvatures of the profile jump, pressures are more sensitive to the curve than forces
                 judge.exceeds(findings, what, name.upper(), abs(b[name] / scale - a[name]) / max(abs(a[name]), 1e-12),
                               (5 if name == "pmax" and height > 0.0 else 3) * tolerance)
             if position is not None:
@@ -345,7 +345,7 @@ def mirror(scene, tools, run, cases, findings):
 
 
 def translate(scene, tools, run, cases, findings):
-    """The same place farther along the track"""
+    """The same scene at another position along the track"""
     moved, step = copy.deepcopy(scene), 4096.0 * scene["grid"][0]
     if scene["roller"] or scene["digits"]["V"] == 2:
         return
@@ -439,7 +439,7 @@ def cut(scene, tools, run, cases, findings):
     found = []
     compared(found, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, height=2e-6, elements=30)
     if found and max(patch["ncon"] for patch in patches) < 500:
-        # the table of gaps begins at the end of the rail: elements stand at other places of the contact. What is due to that goes
+        # the table of gaps begins at the end of the rail: elements have other positions in the contact. The effect vanishes
         # with elements of a quarter of the size
         found, fine = [], []
         for one in (scene, part):
@@ -487,7 +487,7 @@ def refined_grid(scene, tools, run, cases, findings):
 
 
 def library(scene, tools, run, cases, findings):
-    """The same case through the library, and through the input file that the library writes"""
+    """The same case by the library, and by the input file that the library writes"""
     digits = scene["digits"]
     if digits["F"] == 3 or digits["V"] or digits["C"] == 4 or any(scene["pair"][body].get("metres") for body in ("rail", "wheel")):
         return

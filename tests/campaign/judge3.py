@@ -1,6 +1,6 @@
-"""Judges of contact problems of their own (module 3).
+"""Judges of contact problems of module 3.
 
-Tolerances. A program that says "converged" promises relative residuals of at most EPS: of the contact conditions relative to
+Tolerances. A program that reports "converged" guarantees relative residuals of at most EPS: of the contact conditions relative to
 the approach, of the tangential problem relative to the bound of friction. Judges recompute these residuals from the printed
 fields by plain sums, hence their limit is EPS itself with a small allowance for round-off and printed figures. Two solutions
 of equivalent problems may differ by what residuals of that size can do: AMPLIFICATION times EPS.
@@ -17,9 +17,9 @@ from judge import exceeds, finding
 
 import elastic
 
-# What a residual may be above EPS: it is measured at another stage, or in another norm
+# Allowed ratio of a residual to EPS: it is measured at another stage, or in another norm
 ALLOWANCE = 2.0
-# By how much solutions of two equivalent problems may differ, in units of EPS and of the size of the field
+# Allowed difference between solutions of two equivalent problems, in units of EPS and of the size of the field
 AMPLIFICATION = 200.0
 # The judge's own integrals over the memory of viscoelastic bodies
 QUADRATURE = 1e-5
@@ -29,7 +29,7 @@ LIBRARY = 1.0
 WRITTEN = 20.0
 
 
-# What is known and not mended: judge, what the scene or the finding has, the reason
+# Known, open disagreements: judge, property of the scene or the finding, reason
 OPEN = (
     ("mirror", lambda scene, item: scene["digits"]["B"] == 6,
      "B = 6: ANALYN takes local differences of the gap, which coarse and rough grids make uneven"),
@@ -85,7 +85,7 @@ def judged(scene, tools):
             break
         judge_grid(scene, k, fields[k], findings, state)
         if scene["digits"]["B"] not in (2, 3, 4):
-            # pressures by formula end where the formula does
+            # pressures by formula vanish where those of the formula do
             judge_border(k, fields[k], run.cases[k - 1], findings)
         judge_totals(scene, k, run, fields[k], findings)
         judge_contact(scene, k, run, fields, findings, state)
@@ -96,7 +96,7 @@ def judged(scene, tools):
 
 
 def checked(scene, run, tools, findings):
-    """The mode that only checks says what a run would say about the input"""
+    """The checking mode reports the same about the input as a run"""
     code, _, errors, _ = tools.command([tools.exe, "3", "run"])
     if code != run.code and "that were in contact in the previous case" not in run.errors:
         findings.append(
@@ -120,7 +120,7 @@ def is_converged(record):
 
 
 def not_converged(record, findings):
-    """Say which iteration did not converge, if the program says so"""
+    """Report which iteration did not converge, according to the program"""
     if is_converged(record):
         return
     what = []
@@ -146,7 +146,7 @@ def judge_numbers(run, k, f, findings):
 
 
 def judge_border(k, f, record, findings):
-    """Contact that the border of the window cuts off is told; where the gap does not change towards the border a body ends"""
+    """Contact that the border of the window cuts off is reported; where the gap does not change towards the border a body ends"""
     h, inside = f["h"], f["eldiv"] > 0
     cut = []
     for side, (size, outer, inner) in {"x low": (f["mx"], np.s_[:, 0], np.s_[:, 1]),
@@ -154,15 +154,15 @@ def judge_border(k, f, record, findings):
                                        "y high": (f["my"], np.s_[-1], np.s_[-2])}.items():
         if size >= 3 and (inside[outer] & (np.abs(h[outer] - h[inner]) > 1e-6*np.abs(h[outer]))).any():
             cut.append(side)
-    told = record["patches"][0].get("border", {})
-    told = told.get("reached", "") if isinstance(told, dict) else str(told)
+    reported = record["patches"][0].get("border", {})
+    reported = reported.get("reached", "") if isinstance(reported, dict) else str(reported)
     for side in cut:
-        if side not in told:
-            findings.append(finding("border", f"contact of case {k} is cut off at {side}, told: {told!r}"))
+        if side not in reported:
+            findings.append(finding("border", f"contact of case {k} is cut off at {side}, reported: {reported!r}"))
 
 
 def value_of_gap(grid, x, y):
-    """Undeformed distance of a scene's geometry at the places x (mx,), y (my,), by the formulas of the guide"""
+    """Undeformed distance of a scene's geometry at the positions x (mx,), y (my,), by the formulas of the guide"""
     x, y = x[np.newaxis, :], y[:, np.newaxis]
     b = grid["gap"]
     if grid["ibase"] == 1:
@@ -179,7 +179,7 @@ def value_of_gap(grid, x, y):
 
 
 def excluded(grid, x, y, margin):
-    """Elements outside the planform, and those too near its border to say (margin: relative to the coordinates)"""
+    """Elements outside the planform, and those too near its border to decide (margin: relative to the coordinates)"""
     x, y = x[np.newaxis, :], y[:, np.newaxis]
     p = grid.get("plan")
     if grid.get("iplan", 1) == 2:
@@ -199,7 +199,7 @@ def excluded(grid, x, y, margin):
 
 
 def offset_of(scene, k):
-    """Numbers of elements by which the window has moved since the first case"""
+    """Shift of the window since the first case, in elements"""
     moves = [case.get("move", (0, 0)) for case in scene["cases"][:k]]
     return sum(move[0] for move in moves), sum(move[1] for move in moves)
 
@@ -291,15 +291,15 @@ def judge_totals(scene, k, run, f, findings):
     if not is_converged(run.cases[k - 1]):
         return
     if case["N"]:
-        exceeds(findings, "force", f"FN of case {k}: {case['load']:.7g} wanted", abs(t["fn"] - case["load"])/case["load"],
+        exceeds(findings, "force", f"FN of case {k}: {case['load']:.7g} prescribed", abs(t["fn"] - case["load"])/case["load"],
                 1e-8 if d["B"] in (0, 2, 3, 4) else 2*scene["eps"] + 1e-8)
     elif t.get("pen") is not None and d["B"] != 4:
         exceeds(findings, "force", f"approach of case {k}", abs(t["pen"] - case["load"])/(abs(case["load"]) + 1e-30), 1e-9)
-    wanted = {1: ("x",), 2: ("x", "y")}.get(case["F"], ())
-    for name in wanted:
+    prescribed = {1: ("x",), 2: ("x", "y")}.get(case["F"], ())
+    for name in prescribed:
         got = t["f" + name]/(mu*t["fn"])
-        exceeds(findings, "force", f"F{name} of case {k}: {case[name]:.7g} wanted", abs(got - case[name]), ALLOWANCE * scene["eps"]
-                + 1e-8)
+        exceeds(findings, "force", f"F{name} of case {k}: {case[name]:.7g} prescribed", abs(got - case[name]),
+                ALLOWANCE * scene["eps"] + 1e-8)
 
 
 def half_spaces(scene, f):
@@ -316,7 +316,7 @@ def half_spaces(scene, f):
 
 
 def rigid_slip(scene, case, f, totals, eps_offset=True):
-    """Rigid slip over the elements (relative in rolling, a distance in a shift), with creepages that were found"""
+    """Rigid slip over the elements (relative in rolling, a distance in a shift), with the computed creepages"""
     d = scene["digits"]
     cksi = totals.get("cksi" if d["T"] >= 2 else "shift_x")
     ceta = totals.get("ceta" if d["T"] >= 2 else "shift_y")
@@ -328,7 +328,7 @@ def rigid_slip(scene, case, f, totals, eps_offset=True):
         dq = step_of(scene, f)
         ahead = (factor[0] if factor else 1/6)*dq
         xo, yo = xo - ahead*math.cos(chi), yo - ahead*math.sin(chi)
-    # E = 2 and 3 leave out one part of the spin
+    # E = 2 and 3 omit one part of the spin
     fx, fy = d["E"] != 3, d["E"] != 2
     wx = cksi - fx*case["phi"]*(f.y[:, np.newaxis] - yo) + 0*f.x[np.newaxis, :]
     wy = ceta + fy*case["phi"]*(f.x[np.newaxis, :] - xo) + 0*f.y[:, np.newaxis]
@@ -339,18 +339,18 @@ def rigid_slip(scene, case, f, totals, eps_offset=True):
 
 
 def step_of(scene, f):
-    """Distance rolled per case: DQ, replaced by DX where the method goes by one element"""
+    """Distance rolled per case: DQ, replaced by DX if the method has steps of one element"""
     d = scene["digits"]
     dq = scene["rolling"][1]
     if d["T"] == 3 or d["M"] == 4:
-        # methods that go by one element replace it, with a warning
+        # methods with steps of one element replace it, with a warning
         used = f.get("dq", f["dx"])
         return f["dx"] if abs(used - f["dx"]) < abs(used - dq) + 1e-12*dq else dq
     return dq
 
 
 def previous_tractions(scene, k, fields, state):
-    """px', py', pn' of the case, or None where they are not known to this judge"""
+    """px', py', pn' of the case, or None if this judge cannot compute them"""
     case = scene["cases"][k - 1]
     zero = np.zeros((fields[k]["my"], fields[k]["mx"]))
     if k == 1 or case["P"] == 2:
@@ -391,7 +391,7 @@ def judge_contact(scene, k, run, fields, findings, state):
     if d["M"] == 4 and "taucrt" in f:
         bound = np.minimum(bound, f["taucrt"])
     if d["T"]:
-        # a law of friction ends when slip has settled within a thousandth
+        # the iteration of a friction law ends when slip has converged within a thousandth
         loose = 3e-3 if d["L"] else 0.0
         exceeds(findings, "bound", f"traction above its bound in case {k}", (np.hypot(px, py) - bound)[inside].max()/(mu.max()*top),
                 (ALLOWANCE*scene["eps"] if converged else 1e-3) + 4*error + loose)
@@ -401,7 +401,7 @@ def judge_contact(scene, k, run, fields, findings, state):
                                                                 fields[k - 1]["pn"].sum())
     state["plastic"] = plastic_before(scene, k, fields, state)
     if d["M"] == 1 and f["mx"]*f["my"] > 80:
-        # costs seconds
+        # takes seconds
         return
     if d["M"] in (2, 3, 5):
         if d["B"] == 0 and elastic_uncoupled(scene):
@@ -430,12 +430,12 @@ def elastic_uncoupled(scene):
 
 
 def judge_friction_law(scene, k, f, findings, converged):
-    """Coefficients of friction lie where the law allows them, constant ones are those of the input"""
+    """Coefficients of friction are within the range of the law, constant ones are those of the input"""
     d, inside = scene["digits"], f["eldiv"] > 0
     if not d["T"] or d["M"] in (2, 3, 5):
         return
     if d["V"] == 3 and d["L"] and (offset_of(scene, k)[1] or abs(math.sin(scene.get("rolling", [0])[0])) > 1e-3):
-        # particles bring coefficients from rows with another law
+        # particles carry coefficients from rows with another law
         return
     rows = np.array(scene["friction"])
     if d["V"] == 0:
@@ -477,7 +477,7 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, stat
     if previous is None:
         return
     if "move" in case and case["P"] != 2 and k > 1 and d["T"] in (1, 2) and state.get("cut"):
-        # elements that were loaded are outside the new window
+        # formerly loaded elements are outside the new window
         return
     if spaces.coupled and case["P"] == 1 and k > 1:
         return
@@ -502,15 +502,15 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, stat
         before = [spaces.displacement(c, *old, ahead=ahead) for c in "xy"]
         if layer:
             sign = 1 if math.cos(chi) > 0 else -1
-            # tractions where the particle was, between two elements
+            # tractions at the previous position of the particle, between two elements
             whole = int(step/f["dx"] + 1e-6)
             part = max(0.0, step/f["dx"] - whole)
             for c in (0, 1):
                 there = (1 - part)*elastic.shifted(old[c], sign*whole, 0) + part*elastic.shifted(old[c], sign*(whole + 1), 0)
                 before[c] = before[c] + layer*there
         along = abs(math.sin(chi)) < 1e-9
-        told = "DQ is larger than DX" in run.text(".out")
-        if step > f["dx"]*1.01 and along and (not told or (d["T"] == 2 and case["F"] == 0)):
+        is_reported = "DQ is larger than DX" in run.text(".out")
+        if step > f["dx"]*1.01 and along and (not is_reported or (d["T"] == 2 and case["F"] == 0)):
             wx, wy, before = leading_edge(f, wx, wy, before, old, spaces, chi, step)
     sx, sy = wx*step + now[0] - before[0], wy*step + now[1] - before[1]
     bound = f["mu"]*pn
@@ -527,14 +527,14 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, stat
     cut = np.where(size > bound, bound/np.where(size > 0, size, 1), 1.0)
     residual = math.sqrt((((px - cut*qx)**2 + (py - cut*qy)**2)[inside]).sum()/(((f["mu"]*pn)[inside]**2).sum() + 1e-300))
     limit = ALLOWANCE*scene["eps"] + 1e-9 + 20*f["error"] + (QUADRATURE if d["M"] == 1 else 0.0)
-    told = run.cases[k - 1]["patches"][0]["solver"].get("tangential_residual")
-    if told is not None and told > scene["eps"]:
-        # methods that stop by their last update tell what is left
-        limit = max(limit, ALLOWANCE*told)
+    reported = run.cases[k - 1]["patches"][0]["solver"].get("tangential_residual")
+    if reported is not None and reported > scene["eps"]:
+        # methods that stop by their last update report their residual
+        limit = max(limit, ALLOWANCE*reported)
     if spaces.coupled:
         limit *= 5
     exceeds(findings, "slip", f"tangential conditions of case {k}", residual, limit)
-    # printed slip is the one that follows from the tractions
+    # printed slip agrees with that computed from the tractions
     scale = np.hypot(wx, wy).max()*step + np.hypot(now[0], now[1]).max()
     slipping = f["eldiv"] == 2
     for name, s in (("sx", sx), ("sy", sy)):
@@ -554,7 +554,7 @@ def upstream(field, sign):
 
 
 def leading_edge(f, wx, wy, before, old, spaces, chi, step):
-    """Particles that entered the contact during the step: their share of the rigid slip, and the displacement at the
+    """Particles that entered the contact during the step: their fraction of the rigid slip, and the displacement at the
     centre of the first exterior element upstream"""
     sign = 1 if math.cos(chi) > 0 else -1
     inside = f["eldiv"] > 0
@@ -579,7 +579,7 @@ def leading_edge(f, wx, wy, before, old, spaces, chi, step):
 
 
 def plastic_before(scene, k, fields, state):
-    """Plastic displacements and yield limit of the particles a step ago (upx, upy, limit); None where not known here"""
+    """Plastic displacements and yield limit of the particles a step ago (upx, upy, limit); None if unknown to this judge"""
     d, f, case = scene["digits"], fields[k], scene["cases"][k - 1]
     if "taucrt" not in f or not d["T"]:
         return None
@@ -602,7 +602,7 @@ def plastic_before(scene, k, fields, state):
 
 
 def judge_yield(scene, k, f, growth, limit_before, slip, findings):
-    """Plastic flow goes along the traction and changes the yield limit by K_TAU"""
+    """Plastic flow is parallel to the traction and changes the yield limit by K_TAU"""
     tau, slope = scene["material"][2:4]
     size = np.hypot(*growth)
     scale = max(size.max(), slip, 1e-300)
@@ -628,7 +628,7 @@ def judge_yield(scene, k, f, growth, limit_before, slip, findings):
 
 
 def judge_falling_friction(scene, k, fields, findings):
-    """Coefficients follow from the slip by the law with its memory; the loop ends when slip has settled within 0.1 %"""
+    """Coefficients follow from the slip by the law with its memory; the loop ends when slip has converged within 0.1 %"""
     d, case, f = scene["digits"], scene["cases"][k - 1], fields[k]
     if (case["P"] == 3 or "move" in case) and k > 1:
         return
@@ -703,8 +703,8 @@ def judge_springs(scene, k, f, previous, totals, findings):
 
 
 def judge_temperature(scene, k, f, findings):
-    """Surface temperatures in the contact: heat that particles took on their way, the own element by the established
-    factor; equal temperatures of both surfaces"""
+    """Surface temperatures in the contact: heat that particles absorbed on their way, that of the current element by the
+    established factor; equal temperatures of both surfaces"""
     if "temp1" not in f or scene["digits"]["M"] in (2, 3, 5) or "taucrt" in f:
         return
     (t1, c1, l1, r1), (t2, c2, l2, r2) = scene["heat"]
@@ -726,7 +726,7 @@ def judge_temperature(scene, k, f, findings):
         rise = rise[:, ::-1]
     middle = (b1*t1 + b2*t2)/(b1 + b2)
     inside = f["eldiv"] > 0
-    # rows with one interval of contact: behind a gap the bodies have exchanged heat already
+    # rows with one interval of contact: after a gap the bodies have already exchanged heat
     single = (np.diff(np.pad(inside, ((0, 0), (1, 1))).astype(int), axis=1) == 1).sum(axis=1) == 1
     chosen = inside & single[:, np.newaxis]
     if not chosen.any():
@@ -797,7 +797,7 @@ def hertz_of(scene, case):
 
 
 def _axes_ratio(curvature_ratio, modulus):
-    """a/b that belongs to A/B, by bisection in the logarithm"""
+    """a/b for A/B, by bisection in the logarithm"""
     low, high = math.log(1e-6), math.log(1e6)
     for _ in range(200):
         middle = 0.5*(low + high)
@@ -810,7 +810,7 @@ def _axes_ratio(curvature_ratio, modulus):
 
 
 def judge_hertz(scene, k, run, f, findings):
-    """Hertzian input: the grid is scaled by his ellipse; the result is near his where the grid is fine"""
+    """Hertzian input: the grid is scaled by the Hertzian ellipse; the result is close to Hertz's solution on fine grids"""
     d, case, t = scene["digits"], scene["cases"][k - 1], run.totals(k)
     if scene["grid"]["ipotcn"] not in (-1, -2, -3) or case["keep"] or case["load"] <= 0:
         return
@@ -829,7 +829,7 @@ def judge_hertz(scene, k, run, f, findings):
         for name in ("pen", "fn", "pmax"):
             exceeds(findings, "hertz", f"{name.upper()} of case {k}", abs(t[name]/hz[name] - 1), limit)
     if d["B"] == 2:
-        # the shape of the formula at the centres, the sum that of the force
+        # the shape is that of the formula at the centres, the sum is the force
         want = np.sqrt(np.clip(1 - (f.x[np.newaxis, :]/hz["a"])**2 - (f.y[:, np.newaxis]/hz["b"])**2, 0, None))
         want *= hz["fn"]/(want.sum()*f.area)
         exceeds(findings, "hertz", f"pressures of case {k}", np.abs(f["pn"] - want).max()/want.max(), 0.05/elements**1.5 + 1e-6)
@@ -838,7 +838,7 @@ def judge_hertz(scene, k, run, f, findings):
 # ------------------------------------------------------------------------------------------- equivalent problems
 
 def variant(scene, run, fields, tools, findings):
-    """The same problem seen otherwise"""
+    """An equivalent problem"""
     name = scene.get("variant")
     if name == "library":
         by_library(scene, run, fields, tools, findings)
@@ -864,7 +864,7 @@ def variant(scene, run, fields, tools, findings):
         return
     second = tools.run("other", text_of(other), other_files(other))
     if name == "scaled" and second.code == 1 and "bound" in second.errors:
-        # scaled out of what the input admits
+        # scaled beyond the bounds of the input
         return
     if second.code != run.code:
         findings.append(finding(name, f"exit codes {run.code} and {second.code}: {judge.without_numbers(second.errors)}"))
@@ -1105,7 +1105,7 @@ def same_totals(name, run, second, scene, findings, chosen=lambda record: True):
 
 
 def interleaved(scene, run, tools, findings):
-    """Two problems in turn, each a result element, give what each gives alone"""
+    """Two interleaved problems, each with its result element, give the results of each alone"""
     import module3
     other, _ = mirrored_y(copy.deepcopy(scene))
     if other is None:
@@ -1119,7 +1119,7 @@ def interleaved(scene, run, tools, findings):
 
 
 def refined(scene, run, fields, tools, findings):
-    """Half the size of elements: forces change by no more than the borders of the contact are uncertain"""
+    """Half the size of elements: forces change by no more than the uncertainty of the contact borders"""
     d, grid, case = scene["digits"], scene["grid"], scene["cases"][0]
     if (d["B"] or d["L"] or d["V"] or d["M"] not in (0, 4) or d["T"] == 2 or d["C"] not in (2, 3) or d["E"]
         or grid.get("ibase") == 9):
@@ -1157,7 +1157,7 @@ def refined(scene, run, fields, tools, findings):
 
 
 def expressible(scene):
-    """Whether the library has calls for all that a scene says"""
+    """Does the library have calls for all inputs of a scene?"""
     d, grid = scene["digits"], scene["grid"]
     if d["C"] in (4, 9) or d["V"] or d["S"] or d["B"] == 1 or grid.get("iplan", 1) != 1 or len(scene.get("rolling", [])) > 3:
         return False
@@ -1165,7 +1165,7 @@ def expressible(scene):
         return False
     for case in scene["cases"]:
         if case["keep"] and grid["ipotcn"] < 0:
-            # the library forms Hertz's grid anew for each load
+            # the library recomputes the Hertzian grid for each load
             return False
         if "centre" in case or "damping" in case or "move" in case:
             return False

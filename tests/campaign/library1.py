@@ -1,4 +1,4 @@
-"""A scene of module 1 through the library: prints one JSON list, a dictionary per case.
+"""Solve a scene of module 1 by the library: prints one JSON list, a dictionary per case.
 
     library1.py SCENE.json FOLDER
 
@@ -22,7 +22,7 @@ MATERIAL = {0: [], 1: [0.5, 0.5, 0.001, 0.001], 2: [1e-4, 0.5, 0.8, 1.0], 3: [0.
 
 
 def settings(pair, scene):
-    """What stays the same in all cases"""
+    """Settings that are the same in all cases"""
     digits = scene["digits"]
     pair.set_flags(if_wrtinp=1, ic_bound=digits["B"], ic_discns=digits["D"], ic_inflcf=digits["C"], ic_norm=digits["N"],
                    ic_force=digits["F"])
@@ -48,7 +48,7 @@ def track(pair, scene, case):
     sign = -1.0 if scene["side"] == "left" else 1.0
     height, first, second, cant = scene["pair"]["track"]
     if scene["roller"]:
-        cant = 0.0  # a roller has none in the input
+        cant = 0.0  # the input of a roller has none
     deviation = scene1.signed(case["deviation"], "deviation", sign)
     if height > 0.0:
         pair.set_track(height, second, cant, gauge_sequence=0, roller_radius=scene["roller"], deviation=deviation)

@@ -1,6 +1,6 @@
 """Solve a scene of module 3 by the library, with one set of calls per case. usage: library3.py SCENE.json ANSWER.json
 
-The answer has per case the code of cntc_calculate, forces, approach, creepages and tractions. The environment tells
+The answer has per case the code of cntc_calculate, forces, approach, creepages and tractions. Environment:
 CONTACT_LIBRARY; the library writes what it solved as library.inp.
 """
 import json
@@ -32,7 +32,7 @@ def set_solver(scene):
 
 
 def set_problem(scene):
-    """All that stays the same from case to case"""
+    """Settings that are the same in all cases"""
     d, grid = scene["digits"], scene["grid"]
     flags(if_units=CNTC["un_cntc"], ic_tang=d["T"], ic_bound=d["B"], ic_inflcf=d["C"], ic_output=2, ic_matfil=0)
     cntc.setmaterialparameters(IRE, ICP, d["M"], scene["nu"] + scene["g"] + scene.get("material", []))
@@ -53,7 +53,7 @@ def set_problem(scene):
 
 
 def solve(scene, k):
-    """Case k, its results"""
+    """Solve case k; returns its results"""
     case = scene["cases"][k]
     # cntc_sethertzcontact has set B = 2 for line contacts; cntc_setextrarigidslip sets E = 9
     flags(ic_bound=scene["digits"]["B"], ic_pvtime=case["P"], ic_iestim=case["I"], ic_norm=case["N"], ic_force=case["F"])

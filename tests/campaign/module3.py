@@ -1,4 +1,4 @@
-"""Random contact problems of their own (module 3): the scenes, their input, and simpler ones."""
+"""Random contact problems of module 3: scenes, their input, and simpler ones."""
 import copy
 import math
 
@@ -14,7 +14,7 @@ def logarithmic(rng, low, high):
 
 
 def short(value):
-    """A number of seven figures, as people write them"""
+    """A number with seven figures in a usual notation"""
     return float(f"{value:.7g}")
 
 
@@ -43,7 +43,7 @@ def _rounded(item):
 
 
 def _digits(rng):
-    """Control digits that can be combined; one scene in fifty takes them as they come"""
+    """Control digits that can be combined; in one scene of fifty they are random"""
     d = {"T": one_of(rng, (1, 0), (2, 1), (2, 2), (3, 3))}
     steady = d["T"] == 3
     d["M"] = one_of(rng, (6, 0), (2, 4), (1, 2), (1 if d["T"] else 0, 3), (1.5 if steady else 0, 1), (0.7 if steady else 0, 5))
@@ -70,7 +70,7 @@ def _scene(rng):
     d = _digits(rng)
     scene = {"digits": d}
     big = rng.random() < 0.03
-    # a few far from what is usual, in one respect or another
+    # a few have unusual values
     wild = rng.random() < 0.15
     mx = (rng.randint(20, 60) if big else rng.choice([1, 2, rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24),
                                                       rng.randint(3, 24)]))
@@ -173,7 +173,7 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen, wild):
 
 def _friction(rng, scene, my, slip, wild):
     law = scene["digits"]["L"]
-    # velocities at which friction changes are about those that occur
+    # velocities at which friction changes are of the order of the slip velocities
     speed = slip*scene.get("rolling", [0, 0, 1.0])[2]
 
     def one():
@@ -211,7 +211,7 @@ def _rolling(rng, scene, a, dx):
 
 
 def _surface(rng, scene, a, b, g, pen):
-    """What a kind of material or of coefficients asks for beyond G and nu"""
+    """Parameters of a kind of material or of coefficients besides G and nu"""
     d = scene["digits"]
     slope = [rng.choice([1.0, rng.uniform(0.2, 1)]), rng.choice([1.0, rng.uniform(0, 1)]), rng.choice([1.0, rng.uniform(0, 2)])]
     shift = d["T"] in (1, 2)
@@ -301,7 +301,7 @@ def input_text(scene):
 
 
 def interleaved_text(scenes):
-    """Cases of several scenes in turn, each scene a result element of its own"""
+    """Interleaved cases of several scenes, each with its own result element"""
     lines = []
     for k in range(max(len(scene["cases"]) for scene in scenes)):
         for element, scene in enumerate(scenes, start=1):
@@ -311,7 +311,7 @@ def interleaved_text(scenes):
 
 
 def case_lines(scene, k):
-    """All lines of case k (from 0) behind its module line"""
+    """All lines of case k (from 0) after its module line"""
     d, lines, case = scene["digits"], [], scene["cases"][k]
     first, fresh = k == 0, not case["keep"]
     s = d["S"] if first else min(d["S"], 1)

@@ -40,7 +40,7 @@ RADIUS = 460.0  # of the wheels, when their scale is 1 [mm]
 
 @functools.lru_cache(maxsize=1)
 def _standard():
-    """The module that makes the profiles of the examples"""
+    """The module that generates the profiles of the examples"""
     spec = importlib.util.spec_from_file_location("make_profiles", os.path.join(TOP, "examples", "make_profiles.py"))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -106,7 +106,7 @@ def guarded(lip, flangeway, bottom):
     """Rail 60E1 with a guard rail on its gauge side: height of the lip below the top, width and depth of the way for the flange"""
     rail = SHAPES["60E1"]()
     rail = rail[np.argmax(rail[:, 1] < bottom - 6.0):]
-    steep = 0.05  # the face of the guard rail leans by this angle
+    steep = 0.05  # inclination of the face of the guard rail
     angle = math.atan2(rail[0, 1] - rail[1, 1], rail[0, 0] - rail[1, 0])  # down along the gauge face
     # From the gauge face through the round corners of the bottom, up to the lip and over it; the file has the other order
     pieces = [(6.0 * (math.pi - angle), math.pi - angle), (max(1.0, flangeway - 12.0), 0.0),
@@ -138,7 +138,7 @@ def arc_length(points):
 
 
 def banded(bands, right):
-    """Solution for a symmetric matrix of a diagonal and two bands beside it, by its triangular factors"""
+    """Solution for a symmetric pentadiagonal matrix, by its triangular factors"""
     d, e, g, x = [list(map(float, part)) for part in (*bands, right)]
     n = len(d)
     e += [0.0] * (n - len(e))
@@ -163,7 +163,7 @@ def banded(bands, right):
 
 
 class Spline:
-    """Natural cubic spline through values at increasing places, or smoothed: weights w, penalty lam on the curvature"""
+    """Natural cubic spline through values at increasing abscissas, or smoothed: weights w, penalty lam on the curvature"""
 
     def __init__(self, s, f, lam=0.0, w=None):
         self.s = s = np.asarray(s, float)
@@ -209,7 +209,7 @@ class Spline:
 
 @functools.lru_cache(maxsize=16)
 def _shape(words):
-    """Points of a shape, made once"""
+    """Points of a shape, computed once"""
     name, *numbers = ast.literal_eval(words)
     return np.array(SHAPES[name](*numbers))
 
@@ -218,7 +218,7 @@ def _shape(words):
 
 
 def points(recipe):
-    """Points (y, z) [mm] of a recipe, as its file gives them when order, mirroring and unit are undone"""
+    """Points (y, z) [mm] of a recipe, as in its file, with order, mirroring and unit reversed"""
     rng = random.Random(recipe.get("seed", 0))
     curve = _shape(repr(recipe["shape"])).copy()
     rail = recipe["body"] == "rail"
@@ -316,7 +316,7 @@ def write(recipe, folder, stem):
 
 
 def prepared(recipe):
-    """Curve y(s), z(s) of a recipe as the program is to see it: two splines over the arc length, smoothed as asked for
+    """Curve y(s), z(s) of a recipe as the program should represent it: two splines over the arc length, smoothed as requested
 
     The corners that the program keeps are not looked for: shapes of this module have none within the parts that touch.
     """
@@ -352,7 +352,7 @@ def _file(rng, recipe):
 
 
 def _measured(rng, recipe):
-    """Now and then points at uneven distances, with noise, and then smoothed"""
+    """Sometimes points at uneven distances, with noise, and then smoothed"""
     recipe["seed"] = rng.randrange(10**6)
     kind = rng.choice(["drawn", "drawn", "drawn", "uneven", "rough", "smoothed"])
     if kind == "uneven":
@@ -396,7 +396,7 @@ def wheel(rng):
 
 
 def pair(rng):
-    """Rail, wheel and where they stand: a dictionary with the recipes, the track and the wheelset
+    """Rail, wheel and their positions: a dictionary with the recipes, the track and the wheelset
 
     track      GAUGHT GAUGSQ GAUGWD CANT, or RAILY0 and RAILZ0 in place of GAUGSQ and GAUGWD when GAUGHT is not positive; for
                the right side of the track

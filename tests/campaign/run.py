@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The machine that keeps looking: random cases, judged by means that share no code with the program.
+"""Campaign of random cases, judged by methods that share no code with the program.
 
     python3 tests/campaign/run.py --exe build/release/bin/contact --module 3 --cases 5000 --seed 1 --jobs 2 --store FOLDER
 
@@ -44,7 +44,7 @@ def kind_of(number):
 
 
 def status_of(findings):
-    """The gravest status of a list of findings"""
+    """The most severe status of a list of findings"""
     found = {item["status"] for item in findings}
     return next((status for status in reversed(STATES) if status in found), "agreed")
 
@@ -55,7 +55,7 @@ def scene_of(module, seed, index):
 
 
 def judged(module, scene, options, folder):
-    """Findings of one scene; a fault of the judge itself is a disagreement, too"""
+    """Findings of one scene; an exception in a judge is a disagreement, too"""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     tools = judge.Tools(options.exe, options.library, options.python_path, folder, options.limit)
@@ -105,7 +105,7 @@ def results_file(options, module):
 
 
 def earlier_results(options, module):
-    """Records of an earlier run by index; a line that was cut short is done again"""
+    """Records of an earlier run by index; a case with a truncated line is repeated"""
     records = {}
     try:
         with open(results_file(options, module), encoding="utf-8") as file:
@@ -121,7 +121,7 @@ def earlier_results(options, module):
 
 
 def table(records):
-    """The table of kinds and rates, then reasons of what did not agree"""
+    """The table of kinds and rates, then the reasons of disagreements"""
     rows = collections.OrderedDict()
     reasons = {status: collections.Counter() for status in STATES[1:]}
     for record in records:
@@ -148,9 +148,9 @@ def table(records):
 def campaign(module, options):
     """All cases of one module; whether there was a disagreement"""
     records = {} if options.fresh else earlier_results(options, module)
-    wanted = [options.only] if options.only is not None else range(options.cases)
-    tasks = [(module, index, options) for index in wanted if index not in records or options.only is not None]
-    print(f"module {module}: seed {options.seed}, {len(wanted)} cases, {len(tasks)} to do, store {options.store}", flush=True)
+    indices = [options.only] if options.only is not None else range(options.cases)
+    tasks = [(module, index, options) for index in indices if index not in records or options.only is not None]
+    print(f"module {module}: seed {options.seed}, {len(indices)} cases, {len(tasks)} to do, store {options.store}", flush=True)
     begin = time.time()
     with open(results_file(options, module), "w" if options.fresh else "a", encoding="utf-8") as file:
         def note(answer):

@@ -21,8 +21,8 @@ import profiles
 
 TRIALS = 30  # for the vertical force
 EPS = 1e-5
-# Contact angles of rails in slices are those of the place where the bodies touch: that of the section below the axle, which
-# input files take otherwise, is told by a warning
+# Contact angles of rails in slices are those at the contact: the angle of the section below the axle, the default of
+# input files, causes a warning
 OPTIONS = ("--json", "--hdf5", "--quiet", "--contact-angle", "contact")
 RELATIONS = ("none", "mirror", "translate", "scale", "file", "refined_profile", "cut", "slices", "refined_grid", "library")
 
@@ -72,11 +72,11 @@ def generate(rng):
     scene["cases"] = [_case(rng, scene, wide, size) for _ in range(count)]
     for k, case in enumerate(scene["cases"]):
         case["fz"] = float("%.6g" % (force * rng.choice([1.0, 1.0, 0.7])))
-        if digits["T"] in (1, 2) and k > 0:  # a step of the one before
+        if digits["T"] in (1, 2) and k > 0:  # a step of the previous scene
             case.update({name: copy.deepcopy(scene["cases"][0][name])
                          for name in ("s", "y", "roll", "yaw", "pitch", "fz", "deviation")})
             case["p"] = 0
-        if "flexible" in scene["cases"][k - 1] and k > 0:  # stays until others are given
+        if "flexible" in scene["cases"][k - 1] and k > 0:  # kept until others are given
             case.setdefault("flexible", list(scene["cases"][k - 1]["flexible"]))
     if digits["F"] == 3:
         scene["springs"] = [rng.choice([1e3, 1e4, 1e5]), 0.0, rng.choice([0.0, 1e5]), 0.0]
@@ -132,7 +132,7 @@ def _give_heights(rng, scene):
     pair = copy.deepcopy(scene["pair"])
     for body in ("rail", "wheel"):
         if (pair[body].get("smooth") or [0])[0] == 2:
-            pair[body].pop("smooth")  # not known here; near enough for a height
+            pair[body].pop("smooth")  # not known here; accurate enough for a height
     curves = geometry1.curves_of(pair)
     depth = 0.5 * scene["cases"][0]["fz"]**(2.0 / 3.0) * 4e-5
     for case in scene["cases"]:
@@ -141,7 +141,7 @@ def _give_heights(rng, scene):
 
 
 def sampled(scene):
-    """Whether the geometry is one that the judge can sample: no spline of method 2, slices that are followed exactly"""
+    """Can the judge sample the geometry? No spline of method 2, slices that are interpolated exactly"""
     both = (scene["pair"]["rail"], scene["pair"]["wheel"])
     return all((recipe.get("smooth") or [0])[0] != 2 and (not recipe.get("slices") or recipe.get("interpol", 1) == 1)
                for recipe in both)
@@ -164,7 +164,7 @@ def labels(scene):
 
 # ---- Input -----------------------------------------------------------------------------------------------
 
-# Places of the values that change their signs on the left side of the track
+# Positions of the values that change their signs on the left side of the track
 ODD = dict(speed=(1, 3, 4), deviation=(0, 2, 3, 5), flexible=(1, 3, 4, 7, 9, 10))
 
 

@@ -5,9 +5,9 @@
 
 A family is drawn at random: wheels with flats of 20 to 110 mm and 0.1 to 3 mm, with sharp or rounded ends, that turn over the
 flat; rails with a groove, or worn so that they touch in two or three places, under a wheel that moves sideways. Left and right,
-track and roller. Along each sweep FZ is prescribed: it is met within EPS, or the program says why it cannot be (a jump, of which
-both sides are told), and never in more than 30 trials. At some places heights are prescribed instead: the force must rise with
-each of them; over a step of a hundredth of the penetration it grows by no more than a part of itself.
+track and roller. Along each sweep FZ is prescribed: it is met within EPS, or the program gives the reason why it cannot be met
+(a jump, of which both sides are reported), and never in more than 30 trials. At some positions heights are prescribed instead: the
+force must increase with each of them; over a step of a hundredth of the penetration it increases by at most a fraction of itself.
 """
 import argparse
 import json
@@ -66,7 +66,7 @@ def flat(draw):
 
 
 def split(draw):
-    """A rail that is grooved or hollow under a barrel of about its own radius, and lateral places of a sweep"""
+    """A rail that is grooved or hollow under a barrel of about its own radius, and lateral positions of a sweep"""
     depth, width = draw.uniform(0.01, 0.12), draw.uniform(1.5, 6.0)
     rail = dict(body="rail", shape=["grooved", depth, width], format="table")
     if draw.random() < 0.5:
@@ -85,7 +85,7 @@ FAMILIES = {"flat": flat, "split": split}
 
 
 def text(d, rail, wheel, places, by_force):
-    """Input of all places of a sweep; each is (varied value, load or height)"""
+    """Input of all positions of a sweep; each is (varied value, load or height)"""
     sign = 1 if d["side"] else -1
     if d["roller"]:
         track = f"-1 {0.0 if d['free'] else sign*752.0} 0 500"
@@ -121,7 +121,7 @@ def total(case, name):
 
 
 def judge(program, d, points, verbose):
-    """What is wrong with a sweep"""
+    """Complaints about a sweep"""
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
         lines = [" " + profiles.write(d[body], folder, body) for body in ("rail", "wheel")]
@@ -129,7 +129,7 @@ def judge(program, d, points, verbose):
         cases, done = run(program, folder, "force", text(d, *lines, places, 1))
         if len(cases) < points or done.returncode:
             return [f"exit status {done.returncode}: {(done.stdout + done.stderr)[-200:]}"]
-        patches, most, told = set(), 0, 0
+        patches, most, reported = set(), 0, 0
         for (value, _), case in zip(places, cases):
             if not case["solved"]:
                 wrong.append(f"at {value:.5g} no result: {case.get('reason')}")
@@ -140,7 +140,7 @@ def judge(program, d, points, verbose):
             patches.add(len(case["patches"]))
             if missed > 1.01*EPS:
                 if "jumps from" in case.get("reason", ""):
-                    told += 1
+                    reported += 1
                 else:
                     wrong.append(f"at {value:.5g} the force is missed by {missed:.1e}: {case['status']}, {case.get('reason')}")
             if trials > MAXNR:
@@ -168,7 +168,7 @@ def judge(program, d, points, verbose):
                 )
     if verbose:
         print(f"  {d['name']}, FZ {d['fz']:.0f} N, roller {d['roller']}: patches {sorted(patches)}, most trials {most}, "
-              f"jumps told {told}", flush=True)
+              f"jumps reported {reported}", flush=True)
     return wrong
 
 

@@ -25,10 +25,10 @@ def ellipse(accuracy, n=12, order=2):
 
 
 def reached():
-    """The result is on a grid of its own, with errors; the next solution without an accuracy has the grid of the caller"""
+    """The result is on a chosen grid, with errors; the next solution without an accuracy has the grid of the caller"""
     with ellipse(0.0, 150) as problem:
         fine = problem.solve()
-    check(fine.errors is None, "no errors without a wish")
+    check(fine.errors is None, "no errors unless requested")
     with ellipse(1e-3) as problem:
         result = problem.solve()
         check(result.pn.shape[0] > 12, f"{result.pn.shape} elements")
@@ -42,7 +42,7 @@ def reached():
         problem.set_solver(accuracy=0.0)
         plain = problem.solve()
         same(plain.pn.shape, (12, 12), "grid of the caller")
-        same(int(cntc.getflags(number, 1, [CNTC["own_reached"]])[0]), 0, "nothing was asked for")
+        same(int(cntc.getflags(number, 1, [CNTC["own_reached"]])[0]), 0, "no accuracy was required")
 
 
 def allowed():
@@ -97,11 +97,11 @@ def missed():
             check("element by element" in str(error), f"refusal: {error}")
         else:
             check(False, "distances of elements are refused")
-    with ellipse(1e-2) as problem, warnings.catch_warnings(record=True) as told:
+    with ellipse(1e-2) as problem, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         problem.set_creepages(5e-4)
         problem.solve()
-        same([str(w.message) for w in told], [], "no warning where it is reached")
+        same([str(w.message) for w in caught], [], "no warning where it is reached")
 
 
 reached()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """One status of a case: .out, .mat, JSON, HDF5, the page, the library and its Python package give the same.
 
-A table of cases for both modules that end in every way; the program computes all of them, the library and the Python
+A table of cases for both modules with all kinds of status; the program computes all of them, the library and the Python
 objects those of module 1 from the same input file, and those of module 3 with the same numbers. Also --strict, the
 counts at the end, and totals as sums of tractions where a force is missed.
 """
@@ -140,7 +140,7 @@ def by_program(name, text, state, missed):
     """Messages of the program about a case; returns the reason"""
     with open(name + ".inp", "w") as file:
         file.write(text + "0\n")
-    # the default solver misses nothing that the pressures reach, a slow one by name does
+    # the default solver converges if the pressures do, a slow one selected by name does not
     solver = ["--classical"] if missed == "tangential" else []
     done = run("2", name, "--json", "--hdf5", *solver)
     same(done.returncode, 1 if state == 2 else 0, f"{name}: exit status, {done.stderr[-300:]}")
@@ -149,7 +149,7 @@ def by_program(name, text, state, missed):
     same(line["status"], WORDS[state], f"{name}: status in JSON")
     same((line["status_code"], line["missed"]), (state, ITERATIONS[missed]), f"{name}: status as numbers, {line}"[:400])
     same((line["solved"], line["converged"]), (state != 2, state == 0), f"{name}: the older keys")
-    same(line.get("iteration"), missed if state else None, f"{name}: what was missed")
+    same(line.get("iteration"), missed if state else None, f"{name}: the missed condition")
     reason = line.get("reason", "")
     check((state == 0) == (reason == ""), f"{name}: a reason where one is needed: '{reason}'")
     with open(name + ".out") as file:
@@ -157,10 +157,10 @@ def by_program(name, text, state, missed):
     if state == 1:
         check("NOT CONVERGED: " + reason in out, f"{name}: the reason in .out")
     else:
-        check("NOT CONVERGED" not in out, f"{name}: nothing is missed in .out")
+        check("NOT CONVERGED" not in out, f"{name}: no missed condition in .out")
     counts = [1 if k == state else 0 for k in range(3)]
-    told = f" 1 case: {counts[0]} solved, {counts[1]} not converged, {counts[2]} refused"
-    check(told in out and told in done.stdout, f"{name}: the count at the end")
+    messages = f" 1 case: {counts[0]} solved, {counts[1]} not converged, {counts[2]} refused"
+    check(messages in out and messages in done.stdout, f"{name}: the count at the end")
     kept = hdf5_status(name)
     if kept is not None:
         row, in_file, word, on_page = kept
@@ -220,7 +220,7 @@ def settle(problem, name):
     if name == "force":
         problem.set_tangential_force(0.9)
     elif name == "refused":
-        problem.set_friction_law(6, [0.3, 20.0, -0.1, 300.0, 0.0, 1.0])  # and no thermal constants
+        problem.set_friction_law(6, [0.3, 20.0, -0.1, 300.0, 0.0, 1.0])  # without thermal constants
 
 
 def by_library3(name, state, missed, code, reason):
@@ -239,8 +239,8 @@ def by_library3(name, state, missed, code, reason):
             same(got, code, f"3 {name}: code of the library, {text}")
         same(ended, WORDS[state], f"3 {name}: status in Python, {text}")
         same(result is None, state == 2, f"3 {name}: a result unless it is refused")
-        told = [str(w.message) for w in heard if issubclass(w.category, contact.NotConvergedWarning)]
-        same(len(told), 1 if state == 1 else 0, f"3 {name}: warnings of Python")
+        messages = [str(w.message) for w in heard if issubclass(w.category, contact.NotConvergedWarning)]
+        same(len(messages), 1 if state == 1 else 0, f"3 {name}: warnings of Python")
         status = library_status(problem.number, 1)
         same(status[:2], (state, ITERATIONS[missed]), f"3 {name}: status of the library, {status}")
         if state == 1:
@@ -279,8 +279,8 @@ def by_library1(name, path, state, missed, code, reason):
             except contact.ContactError as error:
                 got, ended, text = error.code, error.status, str(error)
         same((got, ended), (code, WORDS[state]), f"1 {name}: code and status in Python, {text}")
-        told = [str(w.message) for w in heard if issubclass(w.category, contact.NotConvergedWarning)]
-        same(len(told), 1 if state == 1 else 0, f"1 {name}: warnings of Python")
+        messages = [str(w.message) for w in heard if issubclass(w.category, contact.NotConvergedWarning)]
+        same(len(messages), 1 if state == 1 else 0, f"1 {name}: warnings of Python")
         status = library_status(pair.number, -1)
         same(status[:2], (state, ITERATIONS[missed]), f"1 {name}: status of the library, {status}")
         if state == 1:
@@ -320,9 +320,9 @@ def buried_end():
             with warnings.catch_warnings(record=True) as heard:
                 warnings.simplefilter("always")
                 result = pair.solve()
-            told = [str(w.message) for w in heard if "inner end of the wheel profile: wheel and rail overlap" in str(w.message)]
+            messages = [str(w.message) for w in heard if "inner end of the wheel profile: wheel and rail overlap" in str(w.message)]
             same(result.buried, ends, f"yaw {yaw}: ends within the rail in Python")
-            same(len(told), len(ends), f"yaw {yaw}: warnings of them")
+            same(len(messages), len(ends), f"yaw {yaw}: warnings of them")
             same(int(cntc.getflags(pair.number, -1, [cntc.CNTC["own_border"]])[0]), bits, f"yaw {yaw}: bits of the library")
 
 

@@ -51,12 +51,12 @@ def set_temperatures(problem, icp, source):
         problem.set_temperatures(20.0, source=source)
 
 
-def set_wear(problem, wanted):
+def set_wear(problem, expected_names):
     """Wear, with all of its numbers or without any; switched off by its flag"""
-    if wanted is None:
+    if expected_names is None:
         problem.set_flags(own_wear=0)
     else:
-        problem.set_wear(*wanted)
+        problem.set_wear(*expected_names)
 
 
 COMMON = {
@@ -80,7 +80,7 @@ def put_wheel(wheel, at):
 
 
 def some_place(dice):
-    """A place on the tread or at the flange, with any load; one in five with a height in place of the load"""
+    """A position on the tread or at the flange, with any load; one in five with a height instead of the load"""
     height = dice.uniform(-0.5, 1.3) if dice.random() < 0.2 else None
     return (dice.uniform(-6.0, 7.0), dice.gauss(0.0, 0.003), dice.gauss(0.0, 60.0), dice.gauss(0.0, 0.002),
             10.0 ** dice.uniform(3.0, 5.2), height)
@@ -178,7 +178,7 @@ def make(kind, table, state):
 
 
 def solve(problem):
-    """Result, and its status or why there is none"""
+    """Result, and its status or the reason for none"""
     try:
         result = problem.solve()
     except contact.ContactError as error:
@@ -207,11 +207,11 @@ def change(kind, table, seed, changes, where):
         fresh = make(kind, table, state)
         (found, how), (expected, as_it_should) = solve(problem), solve(fresh)
         fresh.close()
-        told = f"{where} of seed {seed} after changes of {', '.join(past)}: "
-        check(how == as_it_should, f"{told}{how}; a new problem: {as_it_should}")
+        label = f"{where} of seed {seed} after changes of {', '.join(past)}: "
+        check(how == as_it_should, f"{label}{how}; a new problem: {as_it_should}")
         if found is None or expected is None:
             refused += 1
-            # combinations that are refused go on with the first values
+            # refused combinations continue with the first values
             for other in ("motion", "material", "pressures", "temperatures", "friction"):
                 state[other] = table[other][0][0]
                 table[other][1](problem, state[other])
@@ -220,8 +220,8 @@ def change(kind, table, seed, changes, where):
         away = np.abs(forces - right).max() / max(np.abs(right).max(), 1e-300)
         # pressures and tractions are within EPS each; forces that friction limits follow its iteration
         bound = 1e-3 if state["friction"][0] else 4.0 * EPS
-        check(away < bound, f"{told}{away:.1e} away, {forces} in place of {right}")
-        check(names == right_names, f"{told}totals {names} in place of {right_names}")
+        check(away < bound, f"{label}{away:.1e} away, {forces} in place of {right}")
+        check(names == right_names, f"{label}totals {names} in place of {right_names}")
     problem.close()
     return refused
 
@@ -249,13 +249,13 @@ def main():
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for option, number in (("--wheels", 3), ("--contacts", 6), ("--changes", 40), ("--seed", 1)):
         reader.add_argument(option, type=int, default=number)
-    wanted = reader.parse_args()
+    expected_names = reader.parse_args()
     searches()
-    for kind, table, count, where in ((contact.WheelRail, WHEEL, wanted.wheels, "wheel"),
-                                      (contact.Problem, CONTACT, wanted.contacts, "contact")):
-        refused = sum(change(kind, table, wanted.seed + number, wanted.changes, where) for number in range(count))
-        print(f"{count} problems with {wanted.changes} changes each, {where}: {refused} combinations are refused")
-        check(refused < 0.5 * count * wanted.changes or count == 0, f"{where}: most combinations are refused")
+    for kind, table, count, where in ((contact.WheelRail, WHEEL, expected_names.wheels, "wheel"),
+                                      (contact.Problem, CONTACT, expected_names.contacts, "contact")):
+        refused = sum(change(kind, table, expected_names.seed + number, expected_names.changes, where) for number in range(count))
+        print(f"{count} problems with {expected_names.changes} changes each, {where}: {refused} combinations are refused")
+        check(refused < 0.5 * count * expected_names.changes or count == 0, f"{where}: most combinations are refused")
     sys.exit(failures > 0)
 
 

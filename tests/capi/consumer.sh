@@ -68,7 +68,7 @@ if command -v c++ > /dev/null 2>&1; then
   c++ -x c++ $strict -I"$include" "$here/consumer/stranger.c" -x none -o stranger_plus "$work/prefix/bin/contact_addon_linux64.so"
   same stranger_plus ./stranger_plus
 else
-  echo "-- no C++ compiler here, its headers are not tried"
+  echo "-- no C++ compiler here, its headers are not tested"
 fi
 "$fortran" -cpp -fopenmp -I"$include" "$here/consumer/stranger.F90" -o stranger_fortran -L"$work/prefix/bin" \
   -l:contact_addon_linux64.so "-Wl,-rpath,$work/prefix/bin"
@@ -91,11 +91,11 @@ import contact._library
 assert '$work/prefix/bin/' in contact._library.library()._name
 cntc.closelibrary()")
 else
-  echo "-- no numpy here, it is not tried"
+  echo "-- no numpy here, it is not tested"
 fi
 
 if ! command -v pkg-config > /dev/null 2>&1; then
-  echo "-- no pkg-config here, its two ways are not tried"
+  echo "-- no pkg-config here, its two ways are not tested"
   exit 0
 fi
 PKG_CONFIG_PATH=$library_folder/pkgconfig

@@ -118,7 +118,7 @@ def main():
     for library in libraries:
         shown = exported(library)
         check(not expected - shown, f"{library} does not export {sorted(expected - shown)}")
-        check(not shown - expected, f"{library} exports what no header has: {sorted(shown - expected)}")
+        check(not shown - expected, f"{library} exports routines without a header: {sorted(shown - expected)}")
     sources = implemented()
     with open(os.path.join(SOURCE, "src/capi/routines.f90"), encoding="utf-8") as file:
         made = [name for names in re.findall(r'^ *case \(("\w.*?)\)', file.read(), re.MULTILINE)

@@ -23,7 +23,7 @@ from contact._jacobian import COLUMNS, ROWS
 
 warnings.simplefilter("ignore")
 RADIUS, SPEED = 460.0, 20000.0
-#: Difference in mm and s; what makes inputs alike
+#: Step of differences in mm and s; scales of the inputs
 STEP = {"y": 1e-5, "z": 1e-5, "roll": 1e-8, "yaw": 1e-7, "vs": 0.01, "vy": 0.01, "vroll": 2e-5, "vyaw": 2e-5, "vpitch": 2e-5,
         "fz": 0.5}
 ALIKE = np.array([1.0, 1.0, 1 / 750, 1 / 750, 20.0, 20.0, 20 / 460, 20 / 460, 20 / 460, 600.0])
@@ -68,7 +68,7 @@ def solve(pair, at, force_given):
 
 
 def position(y, side=1, length=1.0, roller=False, **changes):
-    """A wheelset a little turned, with all velocities"""
+    """A slightly rotated wheelset, with all velocities"""
     at = {"y": side * y, "z": 0.0, "roll": side * 1e-3, "yaw": side * 0.002, "vs": SPEED, "vy": 30.0, "vroll": 0.01, "vyaw": 0.02,
           "vpitch": -1.0005 * SPEED / RADIUS, "fz": 60000.0}
     if roller:
@@ -98,7 +98,7 @@ def deviation(pair, at, force_given=True, scale=1.0, length=1.0):
         doubt[:, k] = abs(quotient[0] - quotient[1])
     scaled = ALIKE * unit
     largest = np.abs(differences * scaled).max(axis=1)
-    # the vertical force is prescribed, and its row nothing but that
+    # the vertical force is prescribed, so that its row is trivial
     for row in (2, 8):
         largest[row] = largest[row - 2:row + 1].max()
     largest = np.maximum(largest, 1e-6 * largest.max())
@@ -228,16 +228,16 @@ def random_wheels(count, seed, location):
             deviate += 1
             print(f"{number}: {error.max():.1e}, differences good to {worth:.1e}: {names}, {options}, y = {at['y']:.3f} mm, "
                   f"{at['fz']:.0f} N")
-    print(f"{deviate} of {count} wheels deviate by more than ten times what their differences are good for")
+    print(f"{deviate} of {count} wheels deviate by more than ten times the error of their differences")
 
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--random", type=int, metavar="WHEELS")
 parser.add_argument("--seed", type=int, default=1)
 parser.add_argument("--location", type=int, default=2, choices=(2, 3), help="digit D: slip of the reference, or of each element")
-asked = parser.parse_args()
-if asked.random:
-    random_wheels(asked.random, asked.seed, asked.location)
+arguments = parser.parse_args()
+if arguments.random:
+    random_wheels(arguments.random, arguments.seed, arguments.location)
     sys.exit()
 for both in (1, 2):
     agree(both)

@@ -101,7 +101,7 @@ def prescribed_and_transient():
         second = problem.solve(initiation=False)
         check(abs(second.fx) > 1.2 * abs(first.fx), "a second shift adds to the first")
         again = problem.solve()
-        close(again.fx, first.fx, 1e-9 * first.fn, "a new beginning forgets")
+        close(again.fx, first.fx, 1e-9 * first.fn, "a new sequence has no history")
 
 
 def errors():
@@ -115,7 +115,7 @@ def errors():
         texts = warned(lambda: problem.set_flags(ic_matfil=9))[1]
         check(len(texts) == 1 and "= 9" in texts[0] and "replaced by 0" in texts[0], f"a flag that is replaced warns: {texts}")
         same(problem.solve().border_elements, 0, "the problem still works")
-        raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "creepage that is none")
+        raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "an invalid creepage")
         raises(ValueError, lambda: problem.set_flags(ic_nothing=3), "ic_nothing", "unknown flag")
         raises(ValueError, lambda: problem.set_hertz(5, 5, aa=1.0), "aa and bb", "half a geometry")
         raises(ValueError, lambda: problem.set_hertz(5.5, 5, aa=1.0, bb=1.0), "5.5", "half an element")
@@ -194,7 +194,7 @@ def wheel(pair):
 
 
 def wheel_on_rail():
-    """Sums, sides, profiles as arrays, heights in place of forces, stresses"""
+    """Sums, sides, profiles as arrays, heights instead of forces, stresses"""
     with contact.WheelRail("right") as pair:
         wheel(pair)
         result = pair.solve()
@@ -263,18 +263,18 @@ def older_scripts():
     calls = [call.split("/") for line in words if line[0] == "call" for call in line[1:] if call.startswith(("cntc_", "subs_"))]
     check(len(calls) > 60, "calls of the table")
     for name, arguments, _ in calls:
-        # licences are asked for in Matlab alone
+        # only Matlab has routines for licences
         if name != "cntc_managelicense":
             takes = inspect.signature(getattr(python_intfc, name)).parameters
             check(len(takes) >= int(arguments), f"{name} takes {arguments} arguments")
     constants = {name for line in words if line[0] == "constant" for name in line[1:]}
     check(constants <= set(python_intfc.getmagicnumbers()), f"constants {constants - set(python_intfc.getmagicnumbers())}")
-    raises(AttributeError, lambda: cntc.cntc_nothing, "cntc_nothing", "a name that is none")
+    raises(AttributeError, lambda: cntc.cntc_nothing, "cntc_nothing", "an unknown name")
     with contact.WheelRail() as pair:
         cntc.setwheelsetdimensions(pair.number, 2, [1360.0, -70.0, 460.0])
         cntc.setwheelsetflexibility(pair.number, 1, np.zeros(12))
         cntc.settrackdimensions(pair.number, 0, [14.0, 0.0, 1435.0])
-        same(last_error(pair.number, -1), (0, ""), "values that are not needed are left out")
+        same(last_error(pair.number, -1), (0, ""), "values that are not needed can be omitted")
         cntc.setflags(pair.number, None, cntc.CNTC["ic_tang"], 1)
         same(cntc.getflags(pair.number, [], cntc.CNTC["ic_tang"]).tolist(), [1], "None and [] are the default")
 
@@ -283,7 +283,7 @@ def documents():
     """The code blocks of Python in the documents run as printed"""
     folder = os.getcwd()
     with tempfile.TemporaryDirectory() as scratch:
-        # beside the examples; what they write is no part of the sources
+        # beside the examples; their output is not part of the sources
         os.symlink(os.path.join(SOURCE, "examples"), os.path.join(scratch, "examples"))
         os.chdir(scratch)
         for name in ("README.md", "python/README.md", "doc/user/python.md"):
@@ -316,24 +316,25 @@ def doubts():
             mx = 10 if len(border) == 4 else 44
             problem.set_grid(mx, mx, 0.1, 0.1, *first)
             problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
-            result, told = warned(problem.solve)
+            result, messages = warned(problem.solve)
             same(result.border, border, "sides that cut contact off")
-            same([text.startswith("contact reaches " + ", ".join(border)) for text in told], [True] * bool(border), "their warning")
+            same([text.startswith("contact reaches " + ", ".join(border)) for text in messages], [True] * bool(border),
+                 "their warning")
             same(result.border_elements > 0, bool(border), "elements at the border")
         problem.add_block([0.0, 0.05], [0.05], [0.0, 0.02, 0.025, 0.5])
-        stresses, told = warned(problem.stresses)
-        same([text.split()[0] for text in told], ["2"], "points between centres near the surface")
+        stresses, messages = warned(problem.stresses)
+        same([text.split()[0] for text in messages], ["2"], "points between centres near the surface")
         problem.add_block(None, None, [0.0, 0.5])
-        stresses, told = warned(problem.stresses)
-        same((stresses.von_mises.shape, told), ((2, 44, 44), []), "centres of all elements")
-        same(np.allclose(stresses.x, result.x), True, "places of the centres")
+        stresses, messages = warned(problem.stresses)
+        same((stresses.von_mises.shape, messages), ((2, 44, 44), []), "centres of all elements")
+        same(np.allclose(stresses.x, result.x), True, "positions of the centres")
         raises(ValueError, lambda: problem.add_block(None, [0.0], [0.0]), "both", "half of the centres")
         problem.set_grid(7, 7, 1.2, 1.2, -4.2, -4.2)
         problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
-        result, told = warned(problem.solve)
+        result, messages = warned(problem.solve)
         across = cntc.getflags(problem.number, 1, cntc.CNTC["own_across"])
         same((result.elements_across, across.tolist()), (3, [3]), "elements across")
-        same([text.split(":")[0] for text in told], ["contact is only 3 elements wide"], "warning of few elements")
+        same([text.split(":")[0] for text in messages], ["contact is only 3 elements wide"], "warning of few elements")
     with open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8") as file:
         rows = np.array([[float(word) for word in line.split()[:2]] for line in file
                          if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)])
@@ -341,20 +342,20 @@ def doubts():
         with contact.WheelRail(side) as pair:
             braked_wheel(pair)
             pair.set_rail(rows[rows[:, 0] <= -1.0])
-            result, told = warned(pair.solve)
+            result, messages = warned(pair.solve)
         same([patch.border for patch in result.patches], [("outer end of the rail profile",)], "end of the rail")
-        same([text.split(" reaches")[0] for text in told], ["contact patch 1"], "warning of the end of the rail")
+        same([text.split(" reaches")[0] for text in messages], ["contact patch 1"], "warning of the end of the rail")
     with contact.WheelRail() as pair:
         braked_wheel(pair)
         pair.set_rail(rows)
         pair.set_flags(ic_npomax=1000)
-        result, told = warned(pair.solve)
+        result, messages = warned(pair.solve)
         same(result.patches[0].dx, 0.8, "elements are twice as large")
         text = "the elements of contact patch 1 have sides of 0.8 x 0.8 in place of 0.4 x 0.4, because there are at most "
-        same(told, [text + "ic_npomax = 1000"], "warning of larger elements")
+        same(messages, [text + "ic_npomax = 1000"], "warning of larger elements")
         pair.set_flags(ic_npomax=20000)
-        result, told = warned(pair.solve)
-        same((result.patches[0].dx, told), (0.4, []), "elements as they are asked for")
+        result, messages = warned(pair.solve)
+        same((result.patches[0].dx, messages), (0.4, []), "elements of the prescribed size")
 
 
 def braked_wheel(pair):
@@ -410,13 +411,13 @@ def estimated_errors():
     for units, length in (("mm", 1.0), ("si", 1e-3)):
         with contact.Problem(units=units) as problem:
             rolling_ball(problem, length)
-            same(problem.solve().errors, None, "errors that nobody asked for")
+            same(problem.solve().errors, None, "no errors unless requested")
             problem.set_errors()
             found[units] = problem.solve()
             problem.set_errors(False)
-            same(problem.solve().errors, None, "errors that are not wanted any more")
+            same(problem.solve().errors, None, "no errors after the request is withdrawn")
     mm, si = found["mm"].errors, found["si"].errors
-    check("fn" not in mm and "cksi" not in mm, "what is given has no error")
+    check("fn" not in mm and "cksi" not in mm, "prescribed values have no error")
     same(sorted(mm), sorted(si), "totals with errors in both units")
     check(0.0 < mm["fx"] < 0.05 * found["mm"].fn * 0.3, "error of the force")
     close(si["fx"], mm["fx"], 1e-5, "forces in N in both")
@@ -453,15 +454,15 @@ def places():
             name = os.path.join(os.path.realpath(folder), "bin", _library._names()[-1])
             with open(name, "w", encoding="utf-8"):
                 pass
-            told = subprocess.run([sys.executable, "-c", "from contact import _library; print(_library.candidates()[0])"],
-                                  capture_output=True, text=True, cwd=folder,
-                                  env={**os.environ, "PYTHONPATH": os.pathsep.join([python, *sys.path])})
-            same(os.path.realpath(told.stdout.strip()), name, f"the library of an installation {told.stderr[-300:]}")
+            run = subprocess.run([sys.executable, "-c", "from contact import _library; print(_library.candidates()[0])"],
+                                 capture_output=True, text=True, cwd=folder,
+                                 env={**os.environ, "PYTHONPATH": os.pathsep.join([python, *sys.path])})
+            same(os.path.realpath(run.stdout.strip()), name, f"the library of an installation {run.stderr[-300:]}")
     finally:
         os.environ["CONTACT_LIBRARY"] = chosen
     for place in found:
         check(os.path.isfile(place) or os.sep not in place, f"{place} is a file, or a name")
-    same(_library.candidates(), [chosen], "what is chosen is the only one")
+    same(_library.candidates(), [chosen], "a chosen path is the only one")
 
 
 def output():
@@ -475,7 +476,7 @@ def output():
     check(os.path.getsize("results/run.out") > 1000, "the .out file")
     check(any(name.endswith(".mat") for name in os.listdir("results")), "the .mat file")
     with open("results/run.inp", encoding="utf-8") as file:
-        check("--heat moving-source" in file.read(), "the input file tells by which temperatures it is to be run")
+        check("--heat moving-source" in file.read(), "the input file has a remark on the temperatures with which it is to be run")
 
 
 if __name__ == "__main__":

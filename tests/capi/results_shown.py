@@ -24,7 +24,7 @@ def has(module):
     try:
         importlib.import_module(module)
     except ImportError:
-        print(f"{module} is not installed; what needs it is not tried")
+        print(f"{module} is not installed; tests that need it are skipped")
         return False
     return True
 
@@ -66,9 +66,9 @@ def wear_shown():
         problem.set_wear(1e-4, 3000.0, 300.0)
         problem.add_block([0.0], [0.0], [0.5, 1.0])
         full = problem.solve()
-    asked = {"max_wear", "worn_section", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"}
-    same(asked & set(bare.totals()), set(), "without coefficients and points")
-    check({"t_gamma", "traction"} <= set(bare.totals()) and asked <= set(full.totals()), "with them")
+    requested = {"max_wear", "worn_section", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"}
+    same(requested & set(bare.totals()), set(), "without coefficients and points")
+    check({"t_gamma", "traction"} <= set(bare.totals()) and requested <= set(full.totals()), "with them")
     check("max_mises" not in str(bare) and "max_mises" in str(full), "printed")
     # a ball of radius 40 mm on a plane, by Hertz: a1 = 1/(2 R)
     close(full.max_pressure, (6.0 * 5e3 * (82000.0 / 0.72)**2 / (np.pi**3 * 40.0**2))**(1 / 3), 15.0, "a1 of a ball")
@@ -109,7 +109,7 @@ def printed(result, stresses, pair):
     close(pair.totals()["fz_tr"], 10e3, 1.0, "vertical force")
 
 
-def told():
+def descriptions_and_units():
     """Units and descriptions of all names, in the units of the problem"""
     for name in [*_signatures.FIELDS, *_signatures.TOTALS, "eldiv", "pt"]:
         check(meaning_of(name)[1] not in ("", name) or name == "rotation", f"{name} has a description")
@@ -117,7 +117,7 @@ def told():
     same(meaning_of("sx", "si", True)[0], "mm", "slip distances are in mm in all units")
     check("body 2" in meaning_of("fx", "simpack")[1], "Simpack's sign")
     shift = solved(motion="shift")[0]
-    check("shift_x" in shift.totals() and "cksi" not in shift.totals(), "a shift is no creepage")
+    check("shift_x" in shift.totals() and "cksi" not in shift.totals(), "a shift is not a creepage")
     same(shift.meaning("sx"), ("mm", "longitudinal slip distance"), "slip of a shift")
     with contact.Problem() as problem:
         problem.set_flags(ic_tang=1, if_units=cntc.CNTC["un_si"])
@@ -154,7 +154,7 @@ def everything_solved(units, motion):
 
 
 def units_of_values():
-    """All totals, their errors and all fields have the unit that they are said to have, in all systems of units"""
+    """All totals, their errors and all fields have the stated unit, in all systems of units"""
     for motion in ("steady", "shift"):
         plain = everything_solved("mm", motion)
         for units in ("si", "simpack"):
@@ -165,7 +165,7 @@ def units_of_values():
                 for name in first:
                     value, found = (np.abs(np.asarray(one[name], float)) * in_si(item.meaning(name)[0])
                                     for one, item in ((first, plain), (second, other)))
-                    # errors of what is hardly wrong are rounding, as the displacements of symmetric contacts
+                    # errors of almost exact values are round-off, as displacements of symmetric contacts
                     tolerance = (1e-3 if kind == "errors" else 1e-6) * np.max(value) + 1e-300
                     close(found, value, tolerance, f"{name} of a {motion} in {units}")
 
@@ -183,7 +183,7 @@ def drawn(result, stresses, pair):
     mesh = axes.collections[0]
     shown = np.ma.asarray(mesh.get_array()).reshape(15, 21)
     close(shown.filled(0.0), result.pn, 0.0, "the drawn pressure")
-    same(bool(np.array_equal(shown.mask, result.state == 0)), True, "what is outside is not drawn")
+    same(bool(np.array_equal(shown.mask, result.state == 0)), True, "values outside are not drawn")
     close(mesh.get_coordinates()[0, 0], [result.x[0] - result.dx / 2, result.y[0] - result.dy / 2], 1e-12, "the corner")
     same(axes.get_aspect(), 1.0, "to scale")
     check("[mm]" in axes.get_xlabel(), "unit of the axis")
@@ -259,7 +259,7 @@ def loaded(program):
                 close(whole[0].totals[total], value, 1e-3 * max(abs(value), 0.1), f"{total} of the case in .out and HDF5")
             same(whole[0].patch.state.shape, whole[0].patch.pn.shape, "names of solved patches")
             close(whole.table()["fn"], [case.patch.fn for case in whole], 0.0, "a column")
-            same(contact.load(name + ".h5")[0].inputs["digits"]["t"], whole[0].inputs["digits"]["t"], "what was asked")
+            same(contact.load(name + ".h5")[0].inputs["digits"]["t"], whole[0].inputs["digits"]["t"], "the requested motion")
             if has("xarray"):
                 same(whole.to_xarray().fn.attrs["units"], "N", "columns as a data set")
     same(matrix[0].patch.number, 1, "the patch of a wheel")
@@ -319,7 +319,7 @@ def layer():
 
 
 def track(expected):
-    """Older routines for the track, which scripts of others still call, and the library itself"""
+    """Older routines for the track, which published scripts still call, and the library itself"""
     by_old = wheel(lambda number: python_intfc.settrackdimensions_old(number, 3, [1435.0, 14.0, 0.025, 0.0] + 6 * [0.0]))
     same(by_old.forces.track.force.tolist(), expected.forces.track.force.tolist(), "gauge width and height in the older order")
     by_new = wheel(lambda number: python_intfc.cntc_settrackdimensions_new(number, 1, [14.0, 0.0, 1435.0, 0.02, 0.0]))
@@ -330,10 +330,10 @@ def track(expected):
 
 
 def rates_of_pitch():
-    """A longitudinal force in place of the rate: the same contact with the computed rate, signs, and the state of a free wheel"""
+    """A longitudinal force instead of the rate: the same contact with the computed rate, signs, and the state of a free wheel"""
     braked, free, driven = (wheel(force=force) for force in (1000.0, 0.0, -1000.0))
     for result, force in ((braked, 1000.0), (free, 0.0), (driven, -1000.0)):
-        close(result.forces.wheelset.force[0], force, 1e-4 * 10e3, "the force that was asked for")
+        close(result.forces.wheelset.force[0], force, 1e-4 * 10e3, "the prescribed force")
     rates = [-result.wheelset_velocity[5] for result in (braked, free, driven)]
     again = wheel(pitch=-rates[0])
     close(again.forces.track.force, braked.forces.track.force, 1.0, "the same by the rate")
@@ -345,7 +345,7 @@ if __name__ == "__main__":
     wear_shown()
     everything = (*solved(), wheel())
     printed(*everything)
-    told()
+    descriptions_and_units()
     units_of_values()
     drawn(*everything)
     data_sets(*everything)

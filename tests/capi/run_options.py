@@ -133,7 +133,7 @@ def locked(run):
         check("another run is writing the results" in said, f"the reason: {said}")
         same(sorted(name for name in os.listdir() if name.startswith("twice")), ["twice.inp", "twice.lock"], "nothing was written")
     status, said = run("twice", JSON + HDF5)
-    same(status, 0, f"when it was given back: {said}")
+    same(status, 0, f"after its release: {said}")
     check(not os.path.exists("twice.lock"), "the lock goes with the run")
 
     with open("long.inp", "w") as file:
@@ -149,7 +149,7 @@ def locked(run):
     thread.join()
     same(first[0], (0, ""), "the first of two threads with one experiment")
     same(second, LOCKED, f"the second: {said}")
-    check(f"process {os.getpid()} on" in said, f"who has the lock: {said}")
+    check(f"process {os.getpid()} on" in said, f"holder of the lock: {said}")
     with open("long.jsonl") as file:
         lines = file.read().splitlines()
     check(len(lines) == 301 and json.loads(lines[-1])["run"]["complete"], "the results of the first are complete")
@@ -213,8 +213,8 @@ def main():
         check(acts, f"{name}: the choice acts, {values}")
     limited(library)
     status, said = run("warm", NOTHING)
-    same(status, 1, "a bit that means nothing")
-    check("CONTACT_MOVING_HEAT" in said, "what would have been accepted")
+    same(status, 1, "an undefined bit")
+    check("CONTACT_MOVING_HEAT" in said, "the accepted values")
     confined(run)
     locked(run)
     finish()

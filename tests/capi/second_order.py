@@ -53,7 +53,7 @@ def constants_of_layers():
         fitted = e0 + ratio + np.log(1 + ratio * (c[0] + c[1] / (1 + c[2] * ratio**c[3]))) / np.pi
         close(fitted / scale, 1.0, 4e-3, f"layer of {ratio:.1e}: scale of the term")
         fitted = 1 - (1 - d0) / (1 + b[0] * ratio**b[1])
-        close(fitted, 0.75 - (near - far) / np.pi, 4e-3, f"layer of {ratio:.1e}: place of the edge")
+        close(fitted, 0.75 - (near - far) / np.pi, 4e-3, f"layer of {ratio:.1e}: position of the edge")
 
 
 def curvatures(a, b, fn):
@@ -156,14 +156,14 @@ def ellipses():
         if LONG:
             observed = np.log2(np.hypot(*rms[2, 20][:2]) / np.hypot(*rms[2, 80][:2])) / 2
             check(observed >= 1.7, f"{what}: order of the forces {observed:.2f}")
-            # the mean over positions of the first order goes to the same limit, by its own extrapolation; jitter leaves 2e-4 of
+            # the extrapolated mean over positions of the first order has the same limit; jitter causes an error of 2e-4 of
             # it to ten positions, and 3e-4 to four
             first = [np.mean([forces(hertz(n, offset, creep, 1)) for offset in OFFSETS], axis=0) for n in (80, 160)]
             close(2 * first[1] - first[0], limit, 4e-4, f"{what}: limit of the first order")
 
 
 def oblique_edges():
-    """With a large Poisson's ratio: edges that are oblique to the grid have terms of their own"""
+    """With a large Poisson's ratio: edges that are oblique to the grid have different terms"""
     creep, nu = (5e-4, 2e-4, 3e-4), 0.48
     found = {n: np.array([forces(hertz(n, offset, creep, 2, nu=nu)) for offset in OFFSETS[:count]])
              for n, count in ((20, 6), (40, 6), (80, 3), (160, 2))}
@@ -175,14 +175,14 @@ def oblique_edges():
 
 
 def falling_friction():
-    """Friction that falls with slip, with a memory: FX of three grids goes to its limit by the second order"""
+    """Friction that falls with slip, with a memory: FX of three grids converges with the second order"""
     kinetic, exponential = 0.12, 4
     for memory in (0.001, 0.005):
         law = (exponential, [kinetic, 0.08, 30.0, 0.0, 1.0, memory, 10.0])
         fx = [np.mean([forces(hertz(n, offset, (1e-3, 0, 3e-4), 2, mu=0.2, law=law))[0] for offset in OFFSETS[:5]])
               for n in (20, 40, 80)]
         change = np.abs(np.diff(fx))
-        # five positions of the grid leave about 2e-5
+        # the mean of five positions of the grid has an error of about 2e-5
         check(change[1] < max(change[0] / 2.5, 5e-5), f"memory of {memory} mm: FX {fx}, changes {change}")
 
 
@@ -233,7 +233,7 @@ def mirrored():
     for name, sign in (("pn", 1), ("px", -1), ("py", 1), ("sx", -1), ("sy", 1)):
         field, image = getattr(one, name), sign * getattr(other, name)[:, ::-1]
         away = np.abs(image - field).max() / np.abs(field).max()
-        check(away < 1e-4, f"mirror image of {name}: {away:.1e} away")
+        check(away < 1e-4, f"mirror image of {name}: {away:.1e} deviation")
 
 
 def unrest(result):
@@ -278,7 +278,8 @@ def turning_round():
                 problem.set_rolling(1000, dx, np.pi)
                 problem.set_solver(eps=1e-6, order=2)
                 result = problem.solve()
-            check(abs(result.fy) < 1e-9 * 1e-4 * result.fn, f"{n} elements, place {place}: FY = {result.fy:.1e} along a cylinder")
+            check(abs(result.fy) < 1e-9 * 1e-4 * result.fn,
+                  f"{n} elements, position {place}: FY = {result.fy:.1e} along a cylinder")
 
 
 FORMULA = """[[case]]

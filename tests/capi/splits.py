@@ -61,7 +61,7 @@ class Wheel:
         """Result at a lateral position, for the vertical force unless a height is given"""
         self.pair.set_flags(ic_norm=1 if z is None else 0)
         self.pair.set_position(y=self.y if y is None else y, z=z, roll=self.roll, yaw=self.yaw)
-        # a roller turns against the wheel
+        # a roller rotates against the wheel
         self.pair.set_velocity(SPEED / self.roller if self.roller else SPEED, pitch=-1.0003 * SPEED / RADIUS)
         if z is None:
             self.pair.set_vertical_force(self.load)

@@ -12,7 +12,7 @@ import sys
 SKIPPED = 77
 KNOWN = {
     "__contact_capi_library_MOD_library": "the problems of the callers; every access is inside `contact_registry` or atomic",
-    "__contact_text_bounds_MOD_i": "counts in constants, which the compiler works out; nothing uses it when the code runs",
+    "__contact_text_bounds_MOD_i": "counts in constants, evaluated by the compiler; not used at run time",
     "__contact_control_digits_MOD_i": "the same",
     "caught": "of the program only: the signal that ends the run",
     "child": "set once, in a forked process that has one thread",
@@ -39,7 +39,7 @@ KNOWN = {
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
 }
-# Tables of types that compiled code reads and nothing writes; in C++, addresses that are set when the code is loaded
+# Tables of types, which are read only; in C++, addresses that are set when the code is loaded
 CONSTANT = re.compile(r"_MOD___(vtab|def_init)_|^DW\.ref\.")
 # Sections that are writable while the program runs; .data.rel.ro is not
 WRITABLE = re.compile(r"\.(t?data|t?bss)(?!\.rel\.ro)(\.|$)|\*COM\*$")
@@ -61,7 +61,7 @@ def main():
     """Compare the data found with the list"""
     nm, names = sys.argv[1:]
     if not shutil.which(nm):
-        print("skipped: there is no nm to look into object files")
+        print("skipped: there is no nm to examine object files")
         return SKIPPED
     with open(names, encoding="utf-8") as file:
         files = file.read().splitlines()
@@ -74,7 +74,7 @@ def main():
               + ("; see the traps of gfortran in doc/develop/house.md" if name.startswith("slen") else ""))
     missing = sorted(set(KNOWN) - set(found))
     for name in missing:
-        print(f"FAILED {name}, {KNOWN[name]}, is not there; take it off the list")
+        print(f"FAILED {name}, {KNOWN[name]}, does not exist; remove it from the list")
     print(f"{len(files)} object files, {len(found)} variables that threads share, {len(strange)} of them unknown")
     return 1 if strange or missing or len(files) < 100 else 0
 

@@ -51,7 +51,7 @@ def values(line):
 
 
 def smoothed(text, profile, smoothing):
-    """The input with the smoothing of a profile; that of slices stays"""
+    """The input with the smoothing of a profile; that of slices is unchanged"""
     smooth, method = smoothing
     if smoothing == (0.0, 0) or "/" in profile:
         return text

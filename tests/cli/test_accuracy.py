@@ -37,20 +37,20 @@ class Accuracy(Runs):
         _, fine = self.solve("fine.inp", rolling().replace("14 14", "160 160"), "--order", "2")
         fine = fine["patches"][0]["totals"]
         before = 0
-        for asked in (1e-2, 1e-3, 2e-4):
-            with self.subTest(asked):
-                words, record = self.solve("a.inp", rolling(), "--accuracy", str(asked))
+        for required in (1e-2, 1e-3, 2e-4):
+            with self.subTest(required):
+                words, record = self.solve("a.inp", rolling(), "--accuracy", str(required))
                 patch = record["patches"][0]
-                told, totals = patch["accuracy"], patch["totals"]
-                self.assertTrue(told["reached"])
-                self.assertLessEqual(told["estimated"], asked)
+                accuracy, totals = patch["accuracy"], patch["totals"]
+                self.assertTrue(accuracy["reached"])
+                self.assertLessEqual(accuracy["estimated"], required)
                 error = max(abs(totals[name] - fine[name]) for name in ("fx_rel", "fy_rel"))
-                self.assertLess(max(error, abs(totals["pen"] / fine["pen"] - 1.0)), asked)
-                self.assertGreater(told["mx"], before)
-                before = told["mx"]
-                self.assertEqual((told["order"], told["eps"]), (2, min(1e-3, 0.1 * asked)))
+                self.assertLess(max(error, abs(totals["pen"] / fine["pen"] - 1.0)), required)
+                self.assertGreater(accuracy["mx"], before)
+                before = accuracy["mx"]
+                self.assertEqual((accuracy["order"], accuracy["eps"]), (2, min(1e-3, 0.1 * required)))
                 self.assertIn("OF THE FORCES, REACHED\n", words)
-                self.assertIn(f"elements {told['mx']} x {told['my']} of ", words)
+                self.assertIn(f"elements {accuracy['mx']} x {accuracy['my']} of ", words)
                 self.assertIn("_error", "".join(patch["errors"]))
 
     def test_slip_that_turns_round(self):
@@ -74,12 +74,12 @@ class Accuracy(Runs):
             1 1 IBASE IPLAN
             0.02 0 0 0 0 0 B
             """
-        for asked in (3e-2, 1.2e-2, 1e-2, 9e-3, 3e-3, 1e-3):
-            with self.subTest(asked):
-                _, record = self.solve("a.inp", case.format(eps=1e-6, n=216, dx=0.001), "--accuracy", str(asked))
+        for required in (3e-2, 1.2e-2, 1e-2, 9e-3, 3e-3, 1e-3):
+            with self.subTest(required):
+                _, record = self.solve("a.inp", case.format(eps=1e-6, n=216, dx=0.001), "--accuracy", str(required))
                 patch = record["patches"][0]
                 self.assertTrue(patch["accuracy"]["reached"])
-                self.assertLess(abs(patch["totals"]["fx_rel"] - limit), asked)
+                self.assertLess(abs(patch["totals"]["fx_rel"] - limit), required)
         for n, eps in ((40, 1e-6), (170, 1e-3), (686, 1e-3), (686, 3e-4), (1639, 3e-3), (1639, 1e-4)):
             with self.subTest(n=n, eps=eps):
                 _, record = self.solve("a.inp", case.format(eps=eps, n=n, dx=0.216 / n), "--errors", "--order", "2")
@@ -135,14 +135,14 @@ class Accuracy(Runs):
         for number, window in enumerate(WINDOWS):
             text = rolling().replace("-3 IPOTCN", window + geometry.rstrip()).replace("14 14 3 5 1.2 MX MY AA BB SCALE\n", "")
             _, record = self.solve(f"w{number}.inp", text, "--accuracy=2e-3")
-            told = record["patches"][0]["accuracy"]
-            results.append((told["mx"], told["my"], round(told["dx"], 9)))
+            accuracy = record["patches"][0]["accuracy"]
+            results.append((accuracy["mx"], accuracy["my"], round(accuracy["dx"], 9)))
             forces.append(record["patches"][0]["totals"]["fx"])
             if number:
                 continue
-            size = f"{told['mx']} {told['my']} -3.6 -6 {told['dx']!r} {told['dy']!r} MX"
+            size = f"{accuracy['mx']} {accuracy['my']} -3.6 -6 {accuracy['dx']!r} {accuracy['dy']!r} MX"
             text = text.replace("20 20 -3.6 -6 0.36 0.6 MX", size).replace("1e-6 MAXGS", "2e-4 MAXGS")
-            text = text.replace("0 0.5 30000 CHI", f"0 {told['dx']!r} 30000 CHI")
+            text = text.replace("0 0.5 30000 CHI", f"0 {accuracy['dx']!r} 30000 CHI")
             _, same = self.solve("same.inp", text, "--order", "2")
             self.assertEqual(same["patches"][0]["totals"]["fx"], record["patches"][0]["totals"]["fx"])
         self.assertEqual(len(set(results)), 1, results)
@@ -156,9 +156,9 @@ class Accuracy(Runs):
         _, fine = self.solve("f.toml", wheel_text(WHEEL, 4, SOURCE / "examples" / "profiles"), "--order", "2")
         text = wheel_text(WHEEL, 0.5, SOURCE / "examples" / "profiles").replace("output_level = 0", "output_level = 2")
         words, record = self.solve("w.toml", text, "--accuracy", "1e-3")
-        told = record["accuracy"]
-        self.assertTrue(told["reached"] and told["estimated"] <= 1e-3)
-        self.assertNotIn("mx", told)
+        accuracy = record["accuracy"]
+        self.assertTrue(accuracy["reached"] and accuracy["estimated"] <= 1e-3)
+        self.assertNotIn("mx", accuracy)
         bound = 0.3 * sum(p["totals"]["fn"] for p in fine["patches"])
         for name in ("fx_tr", "fy_tr"):
             self.assertLess(abs(record["totals"][name] - fine["totals"][name]), 1e-3 * bound)
@@ -169,29 +169,29 @@ class Accuracy(Runs):
         flange = {"dx": 0.4, "mu": 0.12587320834354052, "cant": 0.025, "y": 5.19271967730047, "yaw": -0.0037212372493698707,
                   "fz": 35218.87049708441, "vs": 20000.0, "vpitch": -43.468563636522646}
         _, record = self.solve("w.toml", wheel_text(flange, 1, SOURCE / "examples" / "profiles"), "--accuracy", "1e-2")
-        told = record["accuracy"]
-        self.assertTrue(told["reached"] and told["estimated"] <= 1e-2 and told["grids"] > 1)
+        accuracy = record["accuracy"]
+        self.assertTrue(accuracy["reached"] and accuracy["estimated"] <= 1e-2 and accuracy["grids"] > 1)
 
     def test_limits(self):
         """If limits end the search, the best result is written, with its error and the reason"""
         for option in ("--limit-elements=1000", "--limit-memory=1.5"):
             words, record = self.solve("a.inp", rolling(), "--accuracy", "1e-5", option)
-            told = record["patches"][0]["accuracy"]
-            self.assertFalse(told["reached"])
-            self.assertTrue(1e-5 < told["estimated"] < 5e-3)
+            accuracy = record["patches"][0]["accuracy"]
+            self.assertFalse(accuracy["reached"])
+            self.assertTrue(1e-5 < accuracy["estimated"] < 5e-3)
             self.assertTrue(record["converged"])
-            self.assertLessEqual(told["mx"] * told["my"], 1000)
+            self.assertLessEqual(accuracy["mx"] * accuracy["my"], 1000)
             self.assertIn("NOT REACHED: more than ", words)
-            self.assertIn("elements are not allowed", told["reason"])
+            self.assertIn("elements are not allowed", accuracy["reason"])
             if option == "--limit-elements=1000":
-                self.assertEqual(told["reason"], "more than 1000 elements are not allowed")
-            self.assertIn("Warning: the accuracy that was asked for was not reached", words)
+                self.assertEqual(accuracy["reason"], "more than 1000 elements are not allowed")
+            self.assertIn("Warning: the required accuracy was not reached", words)
         # bilinear tractions are of first order and need far more elements
-        told = self.solve("a.inp", rolling(influence=3), "--accuracy", "1e-4", "--limit-time=0.3")[1]["patches"][0]["accuracy"]
-        self.assertRegex(told["reason"], "no time left|time limit")
+        accuracy = self.solve("a.inp", rolling(influence=3), "--accuracy", "1e-4", "--limit-time=0.3")[1]["patches"][0]["accuracy"]
+        self.assertRegex(accuracy["reason"], "no time left|time limit")
 
     def test_short_times(self):
-        """The first grid is so coarse that it ends in time: whatever the accuracy, there is a result with its error"""
+        """The first grid is so coarse that it ends in time: for any accuracy, there is a result with its error"""
         source = random.Random(15)
         kinds = "forces", "dissimilar", "viscoelastic", "profile"
         texts = [(kind, text_of(contact(source, kind), 24, (0.0, 0.0))) for kind in kinds]
@@ -200,11 +200,11 @@ class Accuracy(Runs):
             for seconds in (0.2, 0.8):
                 with self.subTest(kind=kind, seconds=seconds):
                     _, record = self.solve("a.toml", text, "--accuracy", "1e-6", f"--limit-time={seconds}")
-                    told = record["accuracy"] if kind == "wheel" else record["patches"][0]["accuracy"]
+                    accuracy = record["accuracy"] if kind == "wheel" else record["patches"][0]["accuracy"]
                     self.assertTrue(record["converged"])
-                    self.assertFalse(told["reached"])
-                    self.assertTrue(1e-6 < told["estimated"] < 0.2)
-                    self.assertRegex(told["reason"], "no time left|time limit")
+                    self.assertFalse(accuracy["reached"])
+                    self.assertTrue(1e-6 < accuracy["estimated"] < 0.2)
+                    self.assertRegex(accuracy["reason"], "no time left|time limit")
 
     def test_refused(self):
         """Values out of range, and cases whose grid cannot be chosen"""
@@ -235,20 +235,20 @@ class Accuracy(Runs):
         c = contact(random.Random(4), "shifts")
         fine = self.solve_all("fine.toml", text_of(c, 120, (0.3, 0.1)))[-1]["totals"]
         for first, last in ((1e-2, 1e-2), (5e-2, 1e-3)):
-            with self.subTest(asked=last):
+            with self.subTest(required=last):
                 text = text_of(c, 30, (0.2, 0.4)).replace("[case.iteration]\n", f"[case.iteration]\naccuracy = {first}\n")
                 patches = self.solve_all("a.toml", text + f"[case.iteration]\naccuracy = {last}\n")
-                told, totals = [p["accuracy"] for p in patches], patches[-1]["totals"]
-                self.assertTrue(all(t["reached"] for t in told))
+                accuracy, totals = [p["accuracy"] for p in patches], patches[-1]["totals"]
+                self.assertTrue(all(t["reached"] for t in accuracy))
                 bound = totals["mu_scal"] * totals["fn"]
                 error = max(abs(totals[name] - fine[name]) for name in ("fx", "fy")) / bound
                 self.assertLess(max(error, abs(totals["pen"] / fine["pen"] - 1.0)), last)
-                self.assertEqual(told[-1]["mx"] > told[0]["mx"], first > last)
-                text = text_of(c, 30, (0.2, 0.4), told[-1]["eps"])
+                self.assertEqual(accuracy[-1]["mx"] > accuracy[0]["mx"], first > last)
+                text = text_of(c, 30, (0.2, 0.4), accuracy[-1]["eps"])
                 for name in ("mx", "my", "dx", "dy"):
-                    text = re.sub(rf"^{name} = .*$", f"{name} = {told[-1][name]!r}", text, flags=re.MULTILINE)
+                    text = re.sub(rf"^{name} = .*$", f"{name} = {accuracy[-1][name]!r}", text, flags=re.MULTILINE)
                 again = self.solve_all("b.toml", text)[-1]["totals"]
-                self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * told[-1]["eps"] * bound)
+                self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * accuracy[-1]["eps"] * bound)
         # a decreasing load leaves former contact outside, which the coarse level has to contain
         c["changes"] = {step: {"fn": c["fn"] / 2**step} for step in range(1, c["steps"])}
         for n in (20, 31):
@@ -270,19 +270,20 @@ class Accuracy(Runs):
         patches = self.solve_all("a.toml", text_of(c, 30, (0.2, 0.4)), "--accuracy", "2e-2")
         self.assertEqual(len(patches), c["steps"])
         for patch, exact in zip(patches, fine):
-            told, totals = patch["accuracy"], patch["totals"]
-            self.assertTrue(told["reached"])
+            accuracy, totals = patch["accuracy"], patch["totals"]
+            self.assertTrue(accuracy["reached"])
             bound = totals["mu_scal"] * totals["fn"]
             self.assertLess(max(abs(totals[name] - exact["totals"][name]) for name in ("fx", "fy")), 2e-2 * bound)
-        text = text_of(c, 30, (0.2, 0.4), told["eps"])
+        text = text_of(c, 30, (0.2, 0.4), accuracy["eps"])
         for name in ("mx", "my", "dx", "dy"):
-            text = re.sub(rf"^{name} = .*$", f"{name} = {told[name]!r}", text, flags=re.MULTILINE)
+            text = re.sub(rf"^{name} = .*$", f"{name} = {accuracy[name]!r}", text, flags=re.MULTILINE)
         again = self.solve_all("b.toml", text)[-1]["totals"]
-        self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * told["eps"] * bound)
-        told = self.solve_all("c.toml", text_of(c, 30, (0.2, 0.4)), "--accuracy", "1e-4", "--limit-elements=5000")[0]["accuracy"]
-        self.assertFalse(told["reached"])
-        self.assertGreater(told["estimated"], 1e-4)
-        self.assertIn("elements are not allowed", told["reason"])
+        self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * accuracy["eps"] * bound)
+        accuracy = self.solve_all("c.toml", text_of(c, 30, (0.2, 0.4)), "--accuracy", "1e-4",
+                                  "--limit-elements=5000")[0]["accuracy"]
+        self.assertFalse(accuracy["reached"])
+        self.assertGreater(accuracy["estimated"], 1e-4)
+        self.assertIn("elements are not allowed", accuracy["reason"])
 
     def test_series_refused(self):
         """Cases that cannot continue on the elements of previous cases"""
@@ -318,8 +319,8 @@ class Accuracy(Runs):
         more = "\n[[case]]\n[case.kinematics]\ncphi = 0.0004\n\n[[case]]\n[case.iteration]\naccuracy = 0\n"
         self.solve("b.toml", text + more)
         records = [plain(json.loads(line)) for line in (self.folder / "b.jsonl").read_text().splitlines()]
-        asked = [r["patches"][0].get("accuracy", {}).get("asked") for r in records if r["patches"]]
-        self.assertEqual(asked, [5e-3, 5e-3, None])
+        required = [r["patches"][0].get("accuracy", {}).get("asked") for r in records if r["patches"]]
+        self.assertEqual(required, [5e-3, 5e-3, None])
         self.assertIn("--accuracy", self.run_program("convert", "b.toml"))
         self.assertIn("Accuracy", self.run_program("explain", "b.toml"))
         for word in ("0.5", '"1e-3"', "-1e-3", "1e-7"):
@@ -338,20 +339,20 @@ class Accuracy(Runs):
         self.assertEqual((patch["accuracy"]["mx"], patch["accuracy"]["estimated"]), (20, 0.055))
         self.assertLess(max(abs(patch["totals"][n] - full["totals"][n]) for n in ("fx_rel", "fy_rel")), 0.055)
         self.assertNotIn("simplified", full["accuracy"])
-        for text, asked, why in ((no_spin, "0.05", "none, as errors without spin are up to 0.055"),
+        for text, required, why in ((no_spin, "0.05", "none, as errors without spin are up to 0.055"),
                                  (rolling(motion=1), "0.06", "none, as errors in shifts are not known"),
                                  (rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "0.06",
                                   "elastic half-spaces")):
-            words, record = self.solve("n.inp", text, "--accuracy", asked, *allow[1:])
+            words, record = self.solve("n.inp", text, "--accuracy", required, *allow[1:])
             self.assertIn(why, record["patches"][0]["accuracy"]["simplified"])
             self.assertNotIn("FaStrip", record["patches"][0]["effects"])
         unused = "simplified methods are allowed, but no accuracy is requested"
         self.assertIn(unused, self.solve("u.inp", no_spin, *allow[1:])[0])
         self.assertNotIn(unused, words)
         self.assertIn("is not known; approximate is", self.run_program("--allow", "all", "2", "a", status=1))
-        told = self.run_program("explain", *allow, "a.inp")
-        self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", told)
-        self.assertIn("about 400 elements", told)
+        text = self.run_program("explain", *allow, "a.inp")
+        self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", text)
+        self.assertIn("about 400 elements", text)
         self.run_program("convert", "--force", "a.inp")
         text = (self.folder / "a.toml").read_text()
         (self.folder / "a.inp").unlink()

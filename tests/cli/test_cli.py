@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program as a user meets it: texts, exit codes, modes, questions, options, files.
+"""The user interface of the program: texts, exit codes, modes, prompts, options, files.
 
 The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -246,7 +246,7 @@ class Runs(Cli):
         plain = self.read("ball.out").split("|Activity")[0]
         try:
             terminal, other_end = pty.openpty()
-        except OSError as why:  # a bare chroot has no terminals to give
+        except OSError as why:  # a bare chroot has no pseudo-terminals
             self.skipTest(str(why))
         with open(self.path("screen"), "w") as screen:
             child = subprocess.Popen([PROGRAM, "2", "ball"], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=screen,
@@ -374,7 +374,7 @@ class Failures(Cli):
         os.mkdir(self.path("ball.0001.mat"))
         run = self.run_program("2", "ball")
         self.fails(run, "ball.0001.mat")
-        self.assertEqual(self.read("ball.out").count("TOTAL FORCES"), 2, "the run goes on")
+        self.assertEqual(self.read("ball.out").count("TOTAL FORCES"), 2, "the run continues")
         self.assertEqual(self.files(), ["ball.0001.mat", "ball.inp", "ball.out"])
 
 

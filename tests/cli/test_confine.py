@@ -105,7 +105,7 @@ class Confined(unittest.TestCase):
             (self.folder / "profiles" / name).unlink()
             os.mkfifo(self.folder / "profiles" / name)
         self.refused("not a regular file", self.rail)
-        self.assertEqual(self.run_program("3", "a")[0], 1)   # and no process waits for it otherwise
+        self.assertEqual(self.run_program("3", "a")[0], 1)   # and no process waits for it
         self.refused("not below the folder", ball(coefficients="'/dev/zero'"))
         self.refused("not below the folder", ball(coefficients="'/proc/self/environ'"))
 

@@ -205,7 +205,7 @@ class Refusals(Doors):
 
     def test_signs_of_forces(self):
         """A force relative to friction is accepted or refused independently of its direction, alone or with the other one"""
-        def told(fx, fy, f):
+        def verdict(fx, fy, f):
             text = self.case3(pbtnfs=f"2031{f}0").replace("9 0.002 0 0", f"9 {fx} {fy} 0")
             run, _, _ = self.run_text(text, "3")
             same_words = run.stderr.replace("below its lower", "above its upper")
@@ -214,10 +214,10 @@ class Refusals(Doors):
         verdicts = set()
         for f in (1, 2):
             for size_x, size_y in ((0.8, 0.3), (0.8, 0.8), (1.5, 0.0), (1.5, 0.3), (0.3, 1.5), (1.5, 1.5), (1.0, 0.0), (0.7, 0.7)):
-                expected = told(size_x, size_y, f)
+                expected = verdict(size_x, size_y, f)
                 verdicts.add(expected[0])
                 for x, y in ((-1, 1), (1, -1), (-1, -1)):
-                    self.assertEqual(told(x*size_x, y*size_y, f), expected, (f, x*size_x, y*size_y))
+                    self.assertEqual(verdict(x*size_x, y*size_y, f), expected, (f, x*size_x, y*size_y))
         self.assertEqual(verdicts, {0, 1})
 
     def test_words_of_digits_with_a_sign(self):
@@ -329,7 +329,7 @@ class Refusals(Doors):
 
 
 class Words(Doors):
-    """Reports of values that were replaced or are missing"""
+    """Messages about replaced and missing values"""
 
     def test_text_below_the_end(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n\n% a comment\n")
@@ -346,11 +346,11 @@ class Words(Doors):
 
     def test_no_results(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
-        self.assertNotIn("No results were asked for", out)
+        self.assertNotIn("No results were requested", out)
         with open(os.path.join(self.folder, "y.inp"), "w") as file:
             file.write("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
         run = subprocess.run([PROGRAM, "2", "y"], cwd=self.folder, capture_output=True, text=True, timeout=60)
-        self.assertIn("No results were asked for", run.stdout)
+        self.assertIn("No results were requested", run.stdout)
 
     def test_largest_number_of_elements(self):
         """Elements that are doubled for NPOT_MAX are reported; a replaced number too"""

@@ -70,10 +70,10 @@ class Program(unittest.TestCase):
 class Border(Program):
     def alarms(self, text):
         cases, warnings, _ = self.run_text(text)
-        told = [line for line in warnings if CUT_OFF in line]
+        messages = [line for line in warnings if CUT_OFF in line]
         patches = [patch for case in cases for patch in case["patches"]]
-        self.assertEqual(len(told), sum("border" in patch for patch in patches), told)
-        return told, patches
+        self.assertEqual(len(messages), sum("border" in patch for patch in patches), messages)
+        return messages, patches
 
     def enough(self, grid, text):
         """The grid recommended by the warning, or None"""
@@ -83,18 +83,18 @@ class Border(Program):
     def test_all_sides_are_named_and_a_larger_grid_too(self):
         for grid, load, n in (("10 10 -0.5 -0.5 0.1 0.1", FORCE, 1), ("40 12 -0.4 -0.3 0.02 0.05", FORCE, 1),
                               ("10 10 -0.5 -0.5 0.1 0.1", 2.955, 0)):
-            told, patches = self.alarms(ball("1\n" + grid, load=load, n=n, dx=grid.split()[4]))
-            self.assertEqual(len(told), 1)
+            messages, patches = self.alarms(ball("1\n" + grid, load=load, n=n, dx=grid.split()[4]))
+            self.assertEqual(len(messages), 1)
             for side in ("x low", "x high", "y low", "y high"):
-                self.assertIn(side, told[0])
+                self.assertIn(side, messages[0])
                 self.assertIn(side, patches[0]["border"]["reached"])
             self.assertGreater(patches[0]["totals"]["border_elements"], 0)
-            better = self.enough(grid, told[0])
-            told, patches = self.alarms(ball(better, load=load, n=n, dx=grid.split()[4]))
-            self.assertEqual(told, [], better)
+            better = self.enough(grid, messages[0])
+            messages, patches = self.alarms(ball(better, load=load, n=n, dx=grid.split()[4]))
+            self.assertEqual(messages, [], better)
             self.assertEqual(patches[0]["totals"]["border_elements"], 0)
             self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.02*hertz_pressure())
-            # like the contact it lies around the origin, within the elements that one on a coarse grid has
+            # the window is around the origin as the contact, within the accuracy of elements of a coarse grid
             first = [float(word) for word in better.split()[3:5]]
             for low, number, side in zip(first, better.split()[1:3], grid.split()[4:]):
                 high = low + int(number)*float(side)
@@ -106,9 +106,9 @@ class Border(Program):
     def test_only_the_sides_that_cut_are_named(self):
         for first, sides in (((-1.0, -2.2), ["x low"]), ((-3.4, -2.2), ["x high"]), ((-2.2, -0.6), ["y low"]),
                              ((-3.4, -3.6), ["x high", "y high"])):
-            told, patches = self.alarms(ball(f"1\n44 44 {first[0]} {first[1]} 0.1 0.1"))
+            messages, patches = self.alarms(ball(f"1\n44 44 {first[0]} {first[1]} 0.1 0.1"))
             self.assertEqual(patches[0]["border"]["reached"], f"the border of the potential contact ({', '.join(sides)})")
-            better = self.enough("44 44 0 0 0.1 0.1", told[0])
+            better = self.enough("44 44 0 0 0.1 0.1", messages[0])
             self.assertEqual(self.alarms(ball(better))[0], [], better)
             # the prescribed window and the contact of radius 1.72, with some elements beside it
             columns, rows, x, y = better.split()[1:5]
@@ -124,14 +124,14 @@ class Border(Program):
     def test_a_larger_grid_is_named_once(self):
         """Later cases on the same grid give the same message, so that they count as one warning"""
         later = "3\n203100\n0100000\n0001201\n999 100 30 1 1e-6\n{load} 0.001 0 0\n"
-        told, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1") + later.format(load=9.0) + later.format(load=8.0))
-        self.assertEqual(["would be enough" in text for text in told], [True, False, False])
-        self.assertEqual(told[1], told[2])
+        messages, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1") + later.format(load=9.0) + later.format(load=8.0))
+        self.assertEqual(["would be enough" in text for text in messages], [True, False, False])
+        self.assertEqual(messages[1], messages[2])
 
     def test_single_row_stays_one(self):
-        told, _ = self.alarms(ball("1\n10 1 -0.5 -500 0.1 1000", shape="1 1\n0.5 0 0 0 0 0", load=2500.0))
-        self.assertIn("(x low, x high)", told[0])
-        better = self.enough("10 1 0 0 0.1 1000", told[0])
+        messages, _ = self.alarms(ball("1\n10 1 -0.5 -500 0.1 1000", shape="1 1\n0.5 0 0 0 0 0", load=2500.0))
+        self.assertIn("(x low, x high)", messages[0])
+        better = self.enough("10 1 0 0 0.1 1000", messages[0])
         self.assertEqual([better.split()[k] for k in (2, 4)], ["1", "-500"])
         self.assertEqual(self.alarms(ball(better, shape="1 1\n0.5 0 0 0 0 0", load=2500.0))[0], [], better)
 
@@ -139,34 +139,34 @@ class Border(Program):
         """A rotated ellipse in a window that is too narrow along x: free at the lower y while contact is truncated"""
         shape = "1 1\n0.027938643635698302 0.016483396011992665 0.012128411607624984 -0.0011796052442192857 0.0006041789909451606 0"
         grid = "13 21 -0.02872227688322342 -0.11779670523792407 0.002920291453715877 0.007174467852392599"
-        told, patches = self.alarms(ball("1\n" + grid, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))
+        messages, patches = self.alarms(ball("1\n" + grid, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))
         self.assertNotIn("y low", patches[0]["border"]["reached"])
-        better = self.enough(grid, told[0])
+        better = self.enough(grid, messages[0])
         self.assertEqual(self.alarms(ball(better, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))[0], [], better)
 
     def test_profile_over_y(self):
         profile = "2 1\n81 0 1 -4 0.1\n" + "\n".join(f"{0.5*(0.1*k - 4)**2:.6f}" for k in range(81))
-        told, _ = self.alarms(ball("1\n44 20 -2.2 -1.0 0.1 0.1", shape=profile))
-        self.assertIn("(y low, y high)", told[0])
-        better = self.enough("44 20 0 0 0.1 0.1", told[0])
+        messages, _ = self.alarms(ball("1\n44 20 -2.2 -1.0 0.1 0.1", shape=profile))
+        self.assertIn("(y low, y high)", messages[0])
+        better = self.enough("44 20 0 0 0.1 0.1", messages[0])
         self.assertEqual(self.alarms(ball(better, shape=profile))[0], [], better)
 
     def test_given_per_element_knows_no_better_grid(self):
         values = " ".join(f"{0.5*((0.1*i - 0.45)**2 + (0.1*j - 0.45)**2):.6f}" for j in range(10) for i in range(10))
-        told, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1", shape="9 1\n" + values))
-        self.assertEqual(len(told), 1)
-        self.assertNotIn("would be enough", told[0])
+        messages, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1", shape="9 1\n" + values))
+        self.assertEqual(len(messages), 1)
+        self.assertNotIn("would be enough", messages[0])
 
     def test_hertzian_grid_names_its_scale(self):
         # twice the ellipse where there are very few elements
         for mx, my in ((21, 21), (40, 40), (40, 9), (9, 40), (7, 7), (5, 6)):
-            told, _ = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 0.7", shape=""))
-            scale = float(re.search(r"SCALE = (\S+) would be enough", told[0]).group(1))
+            messages, _ = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 0.7", shape=""))
+            scale = float(re.search(r"SCALE = (\S+) would be enough", messages[0]).group(1))
             # two or three elements of the coarser direction are free on each side
             free = 0.5*min(mx, my)*(1.0 - 1.0/scale)
             self.assertTrue(1.4 <= free <= 3.1 if min(mx, my) > 6 else scale == 2.0, (mx, my, scale))
-            told, _patches = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 {scale}", shape=""))
-            self.assertEqual(told, [], (mx, my, scale))
+            messages, _patches = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 {scale}", shape=""))
+            self.assertEqual(messages, [], (mx, my, scale))
 
     def test_borders_that_are_meant(self):
         cylinder = "1 1\n0.5 0 0 0 0 0"
@@ -215,9 +215,9 @@ class Border(Program):
                 ("60E1.prr", lambda y: y <= -1.0, False, "5", "outer end of the rail"),
                 ("S1002.prw", lambda y: y >= -2.0, False, "2", "inner end of the wheel"),
                 ("S1002.prw", lambda y: y <= 2.0, True, "4", "outer end of the wheel")):
-            told, patches = self.alarms(self.first_case_on_a_short_profile(profile, keep, left, location))
+            messages, patches = self.alarms(self.first_case_on_a_short_profile(profile, keep, left, location))
             self.assertEqual(patches[0]["border"]["reached"], f"the {end} profile")
-            self.assertIn(f"contact patch 1: contact reaches the {end} profile", told[0])
+            self.assertIn(f"contact patch 1: contact reaches the {end} profile", messages[0])
             self.assertGreater(patches[0]["border"]["pressure"]["value"], 1500.0)
 
     def test_ends_ahead_of_the_axle(self):
@@ -238,7 +238,7 @@ class Border(Program):
             patch = file["case_0001/patch_1"]
             self.assertIn("x low, x high, y low, y high", patch["border"]["reached"][()].decode())
             self.assertEqual(file["patches/border_elements"][0], 36)
-        # what the page is made of
+        # data of the page
         sys.path.insert(0, os.path.join(SOURCE, "python"))
         from contact.report.read import read_experiment
         described, _ = read_experiment(os.path.join(self.folder, "run.h5"))
@@ -307,10 +307,10 @@ class EndsAheadOfTheAxle(Program):
                 cases, warnings, _ = self.run_text(self.pair(end, yaw, left, roller, location, outside=outside))
                 name = "outer" if outside else "inner"
                 depth, place = self.depth(end, -yaw if left else yaw, 0.05, roller)
-                told = [line for line in warnings if "within the rail where no contact patch is" in line]
-                self.assertEqual(len(told), 1, warnings)
+                messages = [line for line in warnings if "within the rail where no contact patch is" in line]
+                self.assertEqual(len(messages), 1, warnings)
                 found = re.search(r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z",
-                                  told[0])
+                                  messages[0])
                 self.assertEqual(found.group(1), name)
                 self.assertIn(found.group(0), " Warning: " + cases[0]["buried"][name])
                 if not outside:
@@ -354,11 +354,11 @@ class TwoPlacesAlongTheTrack(Program):
         self.assertEqual(len(both[0]["patches"]), 2)
         second = min(both[0]["patches"], key=lambda patch: patch["totals"]["fn"]["value"])["totals"]
         cases, warnings, _ = self.run_text(self.dip("2", -1.85))
-        told = [line for line in warnings if "as well, where no contact patch is" in line]
-        self.assertEqual(len(told), 1, warnings)
-        self.assertIn("D = 5", told[0])
-        self.assertIn(cases[0]["beside"], told[0])
-        found = re.search(r"at x = (\S+), y = (\S+) mm", told[0])
+        messages = [line for line in warnings if "as well, where no contact patch is" in line]
+        self.assertEqual(len(messages), 1, warnings)
+        self.assertIn("D = 5", messages[0])
+        self.assertIn(cases[0]["beside"], messages[0])
+        found = re.search(r"at x = (\S+), y = (\S+) mm", messages[0])
         self.assertAlmostEqual(float(found.group(1)), second["xcp_tr"]["value"], delta=1.0)
         self.assertAlmostEqual(float(found.group(2)), second["ycp_tr"]["value"], delta=2.0)
 
@@ -382,43 +382,43 @@ class TwoPlacesAlongTheTrack(Program):
 
 
 class FewElements(Program):
-    """Contact of a few elements has a rough area and force, whatever its residual: FZ was off by four on two elements"""
+    """Contact of a few elements has an inaccurate area and force, whatever its residual: FZ was off by four on two elements"""
 
-    def told(self, text):
+    def warned(self, text):
         cases, warnings, _ = self.run_text(text)
-        told = [line for line in warnings if "elements wide at most" in line]
+        messages = [line for line in warnings if "elements wide at most" in line]
         patches = [patch for case in cases for patch in case["patches"]]
-        self.assertEqual(len(told), sum("coarse" in patch for patch in patches), told)
-        return told, patches
+        self.assertEqual(len(messages), sum("coarse" in patch for patch in patches), messages)
+        return messages, patches
 
     def test_contact_problem(self):
         # a radius of 1.719: elements of 1.2 and 0.9 give 3 and 4 of them across, of 0.6 six
         for side, n, wide in ((1.2, 7, "3 x 3"), (0.9, 8, "4 x 4"), (0.6, 11, "")):
-            told, patches = self.told(ball(f"1\n{n} {n} {-0.5*n*side} {-0.5*n*side} {side} {side}", dx=side))
-            self.assertEqual(len(told), 1 if wide else 0, side)
+            messages, patches = self.warned(ball(f"1\n{n} {n} {-0.5*n*side} {-0.5*n*side} {side} {side}", dx=side))
+            self.assertEqual(len(messages), 1 if wide else 0, side)
             if not wide:
                 continue
-            self.assertIn(f"contact is {wide} elements wide at most", told[0])
+            self.assertIn(f"contact is {wide} elements wide at most", messages[0])
             self.assertEqual([patches[0]["coarse"]["along_x"], patches[0]["coarse"]["along_y"]], [int(wide[0])]*2)
             # the recommended size is sufficient
-            better = float(re.search(r"DX = (\S+),", told[0]).group(1))
+            better = float(re.search(r"DX = (\S+),", messages[0]).group(1))
             n = math.ceil(5.0/better)
-            told, patches = self.told(ball(f"1\n{n} {n} {-0.5*n*better} {-0.5*n*better} {better} {better}", dx=better))
-            self.assertEqual(told, [])
+            messages, patches = self.warned(ball(f"1\n{n} {n} {-0.5*n*better} {-0.5*n*better} {better} {better}", dx=better))
+            self.assertEqual(messages, [])
             self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.05*hertz_pressure())
 
     def test_rows_stand_for_plane_strain(self):
-        self.assertEqual(self.told(ball("1\n40 1 -2 -5 0.1 10", shape="1 1\n0.5 0 0 0 0 0"))[0], [])
-        self.assertEqual(len(self.told(ball("1\n6 1 -6 -5 2 10", shape="1 1\n0.5 0 0 0 0 0", dx=2.0))[0]), 1)
+        self.assertEqual(self.warned(ball("1\n40 1 -2 -5 0.1 10", shape="1 1\n0.5 0 0 0 0 0"))[0], [])
+        self.assertEqual(len(self.warned(ball("1\n6 1 -6 -5 2 10", shape="1 1\n0.5 0 0 0 0 0", dx=2.0))[0]), 1)
 
     def test_wheel_on_rail(self):
         with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
             first = " 1 MODULE" + file.read().split(" 1 MODULE")[1]
         os.symlink(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
-        self.assertEqual(self.told(first)[0], [])
-        told, _ = self.told(first.replace("0.25 0.25 1.0 90d", "4.0 1.0 1.0 90d"))
-        self.assertEqual(len(told), 1)
-        self.assertRegex(told[0], r"contact patch 1: contact is [34] x \d+ elements .* DX = \S+, DS = 1.00 mm")
+        self.assertEqual(self.warned(first)[0], [])
+        messages, _ = self.warned(first.replace("0.25 0.25 1.0 90d", "4.0 1.0 1.0 90d"))
+        self.assertEqual(len(messages), 1)
+        self.assertRegex(messages[0], r"contact patch 1: contact is [34] x \d+ elements .* DX = \S+, DS = 1.00 mm")
 
     def test_in_the_hdf5_file(self):
         try:

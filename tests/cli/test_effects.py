@@ -75,11 +75,11 @@ class Effects(unittest.TestCase):
             return lines, [line for line in file if line.startswith(" EFFECTS: ")]
 
     def test_each_effect(self):
-        for name, (text, wanted) in TABLE.items():
+        for name, (text, expected) in TABLE.items():
             with self.subTest(name):
-                lines, told = self.run_program(text)
-                self.assertEqual(lines[0]["patches"][0]["effects"], wanted)
-                self.assertTrue(told[0].startswith(" EFFECTS: " + wanted + "; SOLVER: "), told[0])
+                lines, effects = self.run_program(text)
+                self.assertEqual(lines[0]["patches"][0]["effects"], expected)
+                self.assertTrue(effects[0].startswith(" EFFECTS: " + expected + "; SOLVER: "), effects[0])
 
     def test_damping_acts_from_the_second_case_on(self):
         first = case(laws="0022020 2", more="1e-3 1e-3 1e10 1e10", digits="202100")
@@ -90,19 +90,19 @@ class Effects(unittest.TestCase):
 
     def test_what_was_missed(self):
         # tangential force, then the tolerance
-        _, told = self.run_program(case(digits="203110", laws="0222020", motion="100 0.9 0 0",
+        _, effects = self.run_program(case(digits="203110", laws="0222020", motion="100 0.9 0 0",
                                         friction="0.1 0.2 1 0 1\n0 1", rolling="0 0.1 1e7"))
-        self.assertIn("; NOT CONVERGED: force, requested FX 27.0000 N, found 10.0000 N", told[0])
-        _, told = self.run_program(case(limits="2 100 30 1 1e-9"))
-        self.assertIn("; NOT CONVERGED: normal problem, NormCG reached the iteration limit", told[0])
+        self.assertIn("; NOT CONVERGED: force, requested FX 27.0000 N, found 10.0000 N", effects[0])
+        _, effects = self.run_program(case(limits="2 100 30 1 1e-9"))
+        self.assertIn("; NOT CONVERGED: normal problem, NormCG reached the iteration limit", effects[0])
 
     def test_missed_forces_of_wheel_and_rail(self):
         with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as file:
             text = file.read()
         first = text[:text.index("1 MODULE", text.index("1 MODULE") + 5)] + "0\n"
-        _, told = self.run_program(first.replace("1203100", "1203110", 1).replace("-43.5", "40000", 1))
-        self.assertTrue(told)
-        for line in told:
+        _, effects = self.run_program(first.replace("1203100", "1203110", 1).replace("-43.5", "40000", 1))
+        self.assertTrue(effects)
+        for line in effects:
             self.assertIn("; NOT CONVERGED: force, requested longitudinal force 40000.0 N", line)
 
 

@@ -335,7 +335,7 @@ class Hdf5(unittest.TestCase):
         return 1
 
     def test_inputs_of_each_case(self):
-        """Groups shared by two cases are written once: each case still has the inputs it has in a file of its own"""
+        """Groups shared by two cases are written once: each case has the same inputs as in a separate file"""
         texts = [FIRST.format(creep=-1e-5)]
         # one number after the other differs, then all are as in the first case
         for old, new in (("2000 -0.000010000 0 0", "2100 -0.000010000 0 0"), ("2000 -0.000010000 0 0", "2000 -0.000020000 0 0"),

@@ -159,25 +159,25 @@ class Json(unittest.TestCase):
                 y = patch["totals"]["ycp_tr"]["value"]
                 self.assertGreater(y if line["side"] == "right" else -y, 0.0)
         with open(os.path.join(self.folder, "wheel_on_rail.out")) as file:
-            told = file.read().count("DATA FOR CONTACT PATCH")
-        self.assertEqual(sum(len(line["patches"]) for line in lines), told)
+            printed = file.read().count("DATA FOR CONTACT PATCH")
+        self.assertEqual(sum(len(line["patches"]) for line in lines), printed)
         self.assertEqual(sides, {"left", "right"})
 
     def test_moments_name_their_origins(self):
         """In steps, MN of .out is about the origin of the elements, mz about the contact reference; both are written"""
         lines, printed = self.run_example("rolling_steps")
-        told = 0
+        count = 0
         for line in lines:
             if len(line["patches"]) != 1:
                 continue
             totals = line["patches"][0]["totals"]
             if "mz_elem" in totals:
-                value, told_value = totals["mz_elem"]["value"], printed[line["case"]]["MZ"]
-                self.assertAlmostEqual(value, told_value, delta=6e-4*abs(told_value))
-                told += abs(totals["mz"]["value"]/totals["mz_elem"]["value"] - 1.0) > 0.1
+                value, printed_value = totals["mz_elem"]["value"], printed[line["case"]]["MZ"]
+                self.assertAlmostEqual(value, printed_value, delta=6e-4*abs(printed_value))
+                count += abs(totals["mz"]["value"]/totals["mz_elem"]["value"] - 1.0) > 0.1
             else:
                 self.agrees(totals["mz"], printed[line["case"]]["MZ"], "N mm")
-        self.assertGreater(told, 0, "a step in which the origins are apart")
+        self.assertGreater(count, 0, "a step in which the origins are apart")
 
     def test_no_contact_and_no_nan(self):
         with open(os.path.join(self.folder, "empty.inp"), "w") as file:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Limits of time, memory and elements; estimates before a case; early end of cases without prospect.
+"""Limits of time, memory and elements; estimates before a case; early end of cases that cannot converge.
 
 The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -99,19 +99,19 @@ class Limits(unittest.TestCase):
     def test_estimate(self):
         done, _ = self.run_program(case(20) + case(400) + case(1400) + "0\n", mode="3")
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = [line for line in done.stdout.splitlines() if "Estimate" in line]
-        self.assertEqual(len(told), 3, told)
-        self.assertIn("Estimate of case 2 on one thread: about 160000 elements", told[0])
-        self.assertIn("1960000 elements", told[2])
+        estimates = [line for line in done.stdout.splitlines() if "Estimate" in line]
+        self.assertEqual(len(estimates), 3, estimates)
+        self.assertIn("Estimate of case 2 on one thread: about 160000 elements", estimates[0])
+        self.assertIn("1960000 elements", estimates[2])
 
     def test_estimate_of_a_large_case(self):
         """A warning before a case that is long or needs much memory; either is sufficient. The limit ends it at once"""
         stresses = case(20).replace("203100", "203103", 1).rstrip("\n") + "\n0 0\n9\n200 200 100\n" + "".join(
             " ".join(f"{0.01*k:.2f}" for k in range(1, n + 1)) + "\n" for n in (200, 200, 100)) + "0\n"
         slow = case(400, g=2, limits="999 100 30 1 1e-5\n0.9 1.0 0 0.5")
-        for text, memory, told in ((case(40), 10000, False), (stresses, 100, True), (slow, 100, True)):
+        for text, memory, warns in ((case(40), 10000, False), (stresses, 100, True), (slow, 100, True)):
             done, _lines = self.run_program(text + "0\n", f"--limit-memory={memory}", "--classical")
-            self.assertEqual("Estimate of this case" in done.stdout, told, done.stdout + done.stderr)
+            self.assertEqual("Estimate of this case" in done.stdout, warns, done.stdout + done.stderr)
 
     def soft_rolling(self, modulus):
         """The first step of the example with a soft wheel"""

@@ -71,9 +71,9 @@ class Linked(Runs):
         for dx, dy in ((0.21, 0.3), (0.19, 0.3), (0.2, 0.31), (0.2, 0.29)):
             with self.subTest(dx=dx, dy=dy):
                 for corner in (f"{-11*dx} {-12*dy}", "-2.2 -3.6", "-2.0 -3.3"):
-                    case, told = self.second(f"22 24 {corner} {dx} {dy}")
+                    case, output = self.second(f"22 24 {corner} {dx} {dy}")
                     self.assertIsNone(case)
-                    self.assertIn("of the previous case; the solution of the previous case cannot be used", told)
+                    self.assertIn("of the previous case; the solution of the previous case cannot be used", output)
                 self.assertIsNotNone(self.second(f"22 24 {-11*dx} {-12*dy} {dx} {dy}", p=2, i=0)[0])
 
     def test_windows_that_are_moved(self):

@@ -42,7 +42,7 @@ class NoExports(unittest.TestCase):
             file.write("0\n")
 
     def test_files_of_a_plain_run(self):
-        """Module 3 and module 1: .out, .mat and .subs as the input asks for"""
+        """Module 3 and module 1: .out, .mat and .subs as requested by the input"""
         shutil.copytree(os.path.join(SOURCE, "examples", "profiles"), os.path.join(self.folder, "profiles"))
         for name in ("subsurface", "wheel_on_rail"):
             shutil.copy(os.path.join(SOURCE, "examples", name + ".inp"), self.folder)
@@ -91,7 +91,7 @@ class NoExports(unittest.TestCase):
         self.assertTrue(made)
         for name in made:
             self.assertRegex(name, "^" + allowed + "$")
-        # what one more case costs: its .mat file and a few writes of the .out file, the same number each time
+        # system calls of one more case: its .mat file and a few writes of the .out file, the same number each time
         counts = [len(traced(n).splitlines()) for n in (10, 20, 30)]
         self.assertLess((counts[2] - counts[0]) / 20, 60)
         self.assertLess(abs(counts[2] - 2 * counts[1] + counts[0]), 20)

@@ -38,7 +38,7 @@ def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, sol
 
 
 class Runs(unittest.TestCase):
-    """Runs of the program in a folder of their own"""
+    """Runs of the program in a separate folder"""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
@@ -122,8 +122,8 @@ class Order(Runs):
         self.assertEqual(words, "NormCG, Newton-Krylov of order 2")
         kept = json.loads((self.folder / "c.jsonl").read_text().split("\n")[1])["patches"][0]
         self.assertEqual(kept["solver"]["tangential_order"], 2)
-        _, asked = self.solve("b.inp", "", "--order", "2")
-        self.assertEqual(two["totals"], asked["totals"])
+        _, requested = self.solve("b.inp", "", "--order", "2")
+        self.assertEqual(two["totals"], requested["totals"])
         _, lowered = self.solve("c.toml", "", "--order", "1")
         self.assertEqual(lowered["totals"], one["totals"])
         self.assertIn("order 2", self.run_program("explain", "c.toml"))
@@ -272,7 +272,7 @@ iteration = {{ order = {order}, eps = 1e-6 }}
                 self.assertTrue(0.3 < estimated / error[2, n] < 5.0, (n, estimated, error))
 
     def test_energy_next_to_the_border(self):
-        """The elastic energy by the virial needs no elements around the contact"""
+        """The elastic energy by the virial formula needs no elements around the contact"""
         errors = []
         for n in 14, 18:
             text = rolling().replace("14 14 3 5 1.2", f"{n} {n} 3 5 {1.2 * n / 14!r}")
@@ -293,8 +293,8 @@ iteration = {{ order = {order}, eps = 1e-6 }}
             for n in 15, 17, 19:
                 found = solve(creep, n)
                 true = max(abs(found["totals"][name]["value"] - exact[name]["value"]) / scale for name, scale in scales.items())
-                told = max(found["errors"][name + "_error"]["value"] / scale for name, scale in scales.items())
-                self.assertTrue(1.0 < told / true < 6.0, (creep, n, told, true))
+                estimate = max(found["errors"][name + "_error"]["value"] / scale for name, scale in scales.items())
+                self.assertTrue(1.0 < estimate / true < 6.0, (creep, n, estimate, true))
 
     def test_transient_rolling_becomes_steady(self):
         """After ten contact lengths no effect of the start remains, except directions of slip that were set from another start"""

@@ -118,7 +118,7 @@ class Outputs(unittest.TestCase):
                 totals = json.loads(file.readline())["patches"][0]["totals"]
             cksi, ceta = totals["cksi"]["value"], totals["ceta"]["value"]
             spin = float(motion.split()[2])
-            # slip is that on the way of a step, half an element away at most; three digits are printed
+            # slip is that of a step, at most half an element away; three digits are printed
             tolerance = abs(spin)*0.5*0.25 + 5e-3*(abs(cksi) + abs(ceta))
             y, count = 0.0, 0
             for line in out[out.index("H-PEN        PN      TRCBND"):].splitlines()[1:]:
@@ -217,7 +217,7 @@ class Outputs(unittest.TestCase):
             os.rmdir(place)
 
     def test_where_contact_angles_are_taken(self):
-        """--contact-angle takes two words, and nothing else"""
+        """--contact-angle accepts two words only"""
         for option, status in ((["--contact-angle=contact"], 0), (["--contact-angle", "established"], 0),
                                (["--contact-angle=there"], 2),
                                (["--contact-angle="], 2)):

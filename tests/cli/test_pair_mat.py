@@ -102,7 +102,7 @@ class PairMat(unittest.TestCase):
         self.mirrored(right, left, 2)
         for side in (right, left):
             for patch in side:
-                # the first set; the friction of its place is that of its elements
+                # the first set; the friction at its position is that of its elements
                 self.assertAlmostEqual(patch[5][3], 0.1, delta=1e-6)
                 self.assertGreater(patch[6][3], 0.11)
 

@@ -85,7 +85,7 @@ class PairReport(unittest.TestCase):
         for c1, s in ((5, ""), (4, "-")) if roller else ((1, ""), (0, "-")):
             text = "".join(CASE.format(c1=c1, s=s, folder=PROFILES, **{**PLAIN, **step}).replace("2033", "2035") for step in steps)
             with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
-                # two signs are none
+                # two sign changes cancel
                 file.write(text.replace("{s}", s).replace("--", "") + "0\n")
             run = subprocess.run([PROGRAM, "--quiet", "--json", *options, "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                  capture_output=True, text=True, timeout=60)
@@ -267,7 +267,7 @@ class PairReport(unittest.TestCase):
                 self.assertAlmostEqual(printed[name], number, delta=1e-3*abs(number), msg=name)
             self.assertNotIn("S_WS", printed)
             self.assertNotIn("VX_WS", printed)
-            # the moment of friction about the roller's axis is what its surface has as a lever
+            # the moment of friction about the axis of the roller has its radius as a lever
             self.assertAlmostEqual(printed["FX(TR)"], value(records[0]["totals"]["fx_tr"]), delta=6e-4*abs(printed["FX(TR)"]) + 0.6)
         for a, b in zip(sides[0][1], sides[1][1]):
             for name, entry in a["totals"].items():
@@ -292,7 +292,7 @@ class PairReport(unittest.TestCase):
                 markers = {name: float(item[()]) for name, item in file["case_0001/markers"].items()}
             for name, number in expected.items():
                 sign = -1 if s and name in odd else 1
-                # axes that are turned one after the other mix roll and yaw a little
+                # successive rotations couple roll and yaw slightly
                 self.assertAlmostEqual(markers[name], sign*number, delta=2e-5 if "w" in name else 1e-9, msg=(name, s))
             with open(os.path.join(self.folder, "x.0001a.mat"), encoding="utf-8") as file:
                 rows = [[float(word) for word in line.split()] for line in file if not line.startswith("%")]

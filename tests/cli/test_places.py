@@ -35,10 +35,10 @@ def lines_with_names(path):
                          if good and re.fullmatch(r"[A-Z][A-Z0-9_()]*", name)]
 
 
-def is_named(told, name):
+def is_named(shown, name):
     """Is it the number named by the comment?"""
-    return (told in (name.replace("B1", "B(1)"), *LONGER.get(name, "").split()) or told.startswith(name)
-            or (len(name) > 1 and name in told))
+    return (shown in (name.replace("B1", "B(1)"), *LONGER.get(name, "").split()) or shown.startswith(name)
+            or (len(name) > 1 and name in shown))
 
 
 class Places(unittest.TestCase):
@@ -73,9 +73,9 @@ class Places(unittest.TestCase):
                     lines.append(built + line[last:])
                 if not expected:
                     continue
-                told = self.check_only(lines)
+                output = self.check_only(lines)
                 places = {(int(row), int(column)): (name, said) for row, column, name, said in re.findall(
-                    r"x\.inp:(\d+):(\d+): (\S+) = %s is (\w+) its (?:upper|lower) bound" % wrong, told)}
+                    r"x\.inp:(\d+):(\d+): (\S+) = %s is (\w+) its (?:upper|lower) bound" % wrong, output)}
                 for place, name in expected.items():
                     if wrong == "1e300":
                         self.assertIn(place, places, (path, name))
@@ -96,11 +96,11 @@ class Places(unittest.TestCase):
                     if name in done or len(name) == 1:
                         continue
                     done.add(name)
-                    told = self.check_only([row for row, _ in rows[:k]] + [line[:place.start()] + "@7" + line[place.end():]])
-                    self.assertIn(f"x.inp:{k + 1}:{place.start() + 1}: ", told, (path, name))
-                    self.assertIn('"@7"', told)
+                    output = self.check_only([row for row, _ in rows[:k]] + [line[:place.start()] + "@7" + line[place.end():]])
+                    self.assertIn(f"x.inp:{k + 1}:{place.start() + 1}: ", output, (path, name))
+                    self.assertIn('"@7"', output)
                     # the words of the first line of a case come before its number
-                    self.assertRegex(told, r"case \d+\)|MODULE", (path, name))
+                    self.assertRegex(output, r"case \d+\)|MODULE", (path, name))
         self.assertGreater(len(done), 100)
 
 

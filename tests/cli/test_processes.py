@@ -224,13 +224,13 @@ class Surroundings(Scratch):
         def outputs():
             lines = (self.folder / "a.jsonl").read_text(encoding="utf-8").splitlines()
             return [{key: value for key, value in json.loads(line).items() if key != "seconds"} for line in lines]
-        wanted = outputs()
+        before = outputs()
         for variable in ("STDERR_UNIT=6", "STDOUT_UNIT=0", "STDIN_UNIT=6", "OPTIONAL_PLUS=1", "UNBUFFERED_ALL=1",
                          "CONVERT_UNIT=big_endian", "DEFAULT_RECL=20", "FORMATTED_BUFFER_SIZE=1", "LIST_SEPARATOR=x"):
             name, value = variable.split("=")
             status, _, err = self.run_program("--json", "2", "a", env=dict(os.environ, **{"GFORTRAN_" + name: value}))
             self.assertEqual((status, err), (0, ""), variable)
-            self.assertEqual(outputs(), wanted, variable)
+            self.assertEqual(outputs(), before, variable)
 
     def test_closed_streams(self):
         self.run_program("2", "a")
@@ -251,7 +251,7 @@ class Surroundings(Scratch):
         self.assertEqual(self.run_program("--json=-", "2", "a", preexec_fn=close(1))[0], 1)
 
     def test_command_lines(self):
-        """Words of an invalid command line, exit status, and a part of the message"""
+        """Arguments of an invalid command line, exit status, and a part of the message"""
         folder = self.folder
         for name in ("b c", "-dash", "ünïcode", "..", "new\nline", "x" * 200, "a;b", "$(touch pwned)", "%n%s"):
             shutil.copy(folder / "a.inp", folder / (name + ".inp"))
@@ -278,12 +278,12 @@ class Surroundings(Scratch):
         if os.geteuid() != 0:
             (folder / "sealed").mkdir(mode=0o500)
             table.append((["--output-dir=sealed", "2", "a"], 1, "Permission denied"))
-        for words, wanted, part in table:
+        for words, expected, part in table:
             with self.subTest(words=[word[:40] for word in words]):
                 status, out, err = self.run_program(*words)
-                self.assertEqual(status, wanted, (out[-300:], err[-300:]))
+                self.assertEqual(status, expected, (out[-300:], err[-300:]))
                 self.assertIn(part, err)
-                self.assertEqual(err == "", wanted == 0, err)
+                self.assertEqual(err == "", expected == 0, err)
                 self.assertNotIn("Fortran runtime", err)
         self.assertFalse((folder / "pwned").exists())
         self.assertEqual([name for name in self.names() if name.endswith((".lock", ".tmp"))], [])
@@ -320,7 +320,7 @@ class SmallStack(Scratch):
             self.assertEqual((status, err), (0, ""), name)
 
     def test_frames_of_options(self):
-        """The stack used by an option on the way of a case fits three quarters of the smallest usual stack of a thread, 128 kB"""
+        """The stack used by any option of a case fits three quarters of the smallest usual stack of a thread, 128 kB"""
         shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
         for name in ("cattaneo", "wheel_on_rail"):
             shutil.copy(SOURCE / "examples" / (name + ".inp"), self.folder)

@@ -89,9 +89,9 @@ class Readable(unittest.TestCase):
     def test_converted_into_another_folder(self):
         """Names of files are relative to an input; conversion into another folder warns, if there are any"""
         (self.folder / "other").mkdir()
-        for name, told in (("wheel_on_rail", True), ("cattaneo", False)):
+        for name, warns in (("wheel_on_rail", True), ("cattaneo", False)):
             said = self.run_program("convert", "--output-dir", str(self.folder / "other"), str(EXAMPLES / (name + ".inp")))
-            self.assertEqual("copy them there" in "".join(said[1:]), told, said)
+            self.assertEqual("copy them there" in "".join(said[1:]), warns, said)
 
     def test_names_with_all_letters(self):
         """A name of a file survives both conversions, with quotes, marks of comments and separators in it"""
@@ -134,7 +134,7 @@ class Readable(unittest.TestCase):
         self.assertIn('a.toml:9:1: "fsat" is not known; did you mean "fstat"?', errors)
         self.assertIn("a.toml:8:1: fstat is missing: static coefficient of friction; it belongs under [case.friction]", errors)
         errors = self.complaints(HEAD + REST.replace("[case.material]", "[case.material]\ngg3 = 1.0"))
-        self.assertIn('"gg3" has no meaning in this case, whose choices do not ask for it; did you mean "gg', errors)
+        self.assertIn('"gg3" has no meaning in this case, whose choices do not use it; did you mean "gg', errors)
         errors = self.complaints(HEAD + REST.replace("[case.material]", "[case.materials]"))
         self.assertIn('"materials" is not known; did you mean "material"?', errors)
         self.assertIn("gg1 is missing: modulus of rigidity [N/mm2]", errors)
@@ -152,12 +152,12 @@ class Readable(unittest.TestCase):
         self.assertIn('"springs" has no meaning in this case', errors)
         self.assertIn('the first case must say: motion', self.complaints('[[case]]\nmodule = 3\nnormal = "force"\n' + REST))
         self.assertIn("the first case must have the key module", self.complaints("[[case]]\n" + REST))
-        # a case that cannot be understood leaves the next ones something to keep
+        # after an invalid case the next ones can still keep values
         errors = self.complaints('[[case]]\nmodule = "wheel_rail"\nmotion = "x"\n[[case]]\n[case.position]\nfz = 1\n[[case]]\n')
         self.assertIn('motion = "x" is not known', errors)
 
     def test_values(self):
-        self.assertIn('a.toml:6:6: fn = "10 mm" has the unit "mm", wanted is N', self.complaints(
+        self.assertIn('a.toml:6:6: fn = "10 mm" has the unit "mm", expected is N', self.complaints(
             HEAD + REST.replace("fn = 1000", 'fn = "10 mm"')))
         self.assertIn("a.toml:6:6: fn = -5 is below its lower bound 0 N", self.complaints(HEAD + REST.replace("1000", "-5")))
         self.assertIn("mx = 11.5 must be an integer", self.complaints(HEAD + REST.replace("mx = 11", "mx = 11.5")))
@@ -194,11 +194,11 @@ class Readable(unittest.TestCase):
         before = (self.folder / "a.inp").read_bytes()
         status, _, errors = self.run_program("convert", "a.toml")
         self.assertEqual(status, 1)
-        self.assertIn("a.inp: the file is there already; --force replaces it", errors)
+        self.assertIn("a.inp: the file exists already; --force replaces it", errors)
         self.assertIn("the suffix must say", self.run_program("convert", "a")[2])
         (self.folder / "a.toml").write_text(HEAD)
         self.assertEqual(self.run_program("convert", "--force", "a.toml")[0], 1)
-        self.assertEqual((self.folder / "a.inp").read_bytes(), before, "whole or nothing")
+        self.assertEqual((self.folder / "a.inp").read_bytes(), before, "an unchanged file after a failure")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.inp", "a.toml"])
 
     def test_temperatures(self):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Relations that every solution obeys: mirror images, exchanged bodies, other lengths, other moduli; for all kinds of materials,
+"""Relations that every solution obeys: mirror images, exchanged bodies, scaled lengths and moduli; for all kinds of materials,
 friction, motion and solvers, two cases in a row each.
 
-Factors are powers of two, so that nothing is rounded differently. The environment gives CONTACT_PROGRAM.
+Factors are powers of two, which do not change round-off. The environment gives CONTACT_PROGRAM.
 """
 import copy
 import json
@@ -173,7 +173,7 @@ class Relations(unittest.TestCase):
         self.assertLessEqual(set(KINDS) - {"contact_area"}, seen)
 
     def test_configurations_differ(self):
-        """No two of them have the same forces: each has an effect"""
+        """All of them have different forces: each has an effect"""
         cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
         found = self.solve(cases)
         for k, name in enumerate(CONFIGURATIONS):
@@ -188,7 +188,7 @@ class Relations(unittest.TestCase):
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
 
     def test_without_contact(self):
-        """No contact, or no pressure: no forces by any solver, whatever is prescribed, and no warning"""
+        """No contact, or no pressure: no forces by any solver for any prescribed values, and no warning"""
         cases = []
         for values in CONFIGURATIONS.values():
             case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values)
@@ -214,7 +214,7 @@ class Relations(unittest.TestCase):
                 for part in ("normal", "tangential"):
                     if f"{part}_residual" not in row["solver"]:
                         continue
-                    # the classical solvers look at the size of updates; GDsteady at the contact conditions as well, and forces
+                    # the classical solvers check the size of updates; GDsteady the contact conditions as well, and forces
                     # are met within the tolerance
                     classical = row["solver"][f"{part}_method"] in ("ConvexGS", "SteadyGS", "GDsteady")
                     exact = row["solver"][f"{part}_method"] == "GDsteady" and cases[k//2]["l"] == 0
@@ -230,7 +230,7 @@ class Relations(unittest.TestCase):
                 if not good:
                     self.assertEqual(row["status"], "not converged", label)
                 elif row["status"] != "solved":
-                    # forces and outer iterations have tolerances of their own
+                    # forces and outer iterations have separate tolerances
                     self.assertTrue(cases[k//2]["f"] or cases[k//2]["maxout"] > 1 or cases[k//2]["l"], label)
         self.assertGreater(len(ended), 4, ended)
 
@@ -242,7 +242,7 @@ class Relations(unittest.TestCase):
             self.assertGreater(needed, 3)
             for number in (1, 2, 3, needed - 1, needed):
                 solver = self.solve([dict(case, maxgs=number)])[0]["solver"]
-                # GDsteady judges the size of a step by MAXGS, and may need one less
+                # GDsteady relates the size of a step to MAXGS, and may need one less
                 ended = "converged" if number == needed or (name, number) == ("GDsteady", needed - 1) else "iteration limit"
                 self.assertEqual(solver["tangential_ended"], ended, (name, number, needed))
                 self.assertLessEqual(solver["tangential_iterations"], number)
@@ -250,7 +250,7 @@ class Relations(unittest.TestCase):
                     self.assertEqual(solver["tangential_iterations"], number, name)
 
     def test_what_was_before_does_not_count(self):
-        """Each first case in the other order of cases, to the last bit; the second one continues its own first one"""
+        """Each first case in the other order of cases, bit by bit; the second one continues its own first one"""
         cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
         for k, case in enumerate(cases):
             # neighbours have other windows, forces and creepages
@@ -302,7 +302,7 @@ class Relations(unittest.TestCase):
 
 
 class SecondOrder(Relations):
-    """The same with the second order, where there is one"""
+    """The same with the second order, if available"""
     OPTIONS = ("--classical", "--order", "2")
 
 

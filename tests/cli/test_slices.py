@@ -103,7 +103,7 @@ class Slices(unittest.TestCase):
             return -35.0*math.exp(-((u - 150.0)/25.0)**2)
 
         self.slices("rail.slcs", range(-300, 301, 10), lambda u: [float(k) for k in range(-30, 31)], height)
-        # how far the wheel is within the ramp when it stands on the level part
+        # penetration of the wheel into the ramp if it is supported by the level part
         depth = max(35.0*math.exp(-((x - 150.0)/25.0)**2) - RADIUS + math.sqrt(RADIUS**2 - x**2) for x in range(100, 230))
         self.assertGreater(depth, 5.0)
         for location in (2, 5):

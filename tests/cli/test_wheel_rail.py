@@ -123,7 +123,7 @@ class Wheel:
         return [d + f + r*t for d, f, r in zip(design, self.flexible[:3], self.flexible_rates[:3])]
 
     def velocity_of(self, point, flexible_only=False):
-        """By a central difference of the positions of the material point that is here at time 0"""
+        """Velocity by a central difference of the positions of the material point that is here at time 0"""
         dt = 1e-7
         origin = [0.0, self.y, self.z - NOMRADW]
         in_set = turned_back(self.axes, minus(point, origin))
@@ -239,10 +239,10 @@ class Forces(Case):
                                    vpitch=0.0 if tang == 1 else -43.5).replace(" 0.5 0.5 1 90d", " 1.0 2.0 1 90d") for fz in forces]
                 results, _ = self.solve(*cases)
                 for fz, case in zip(forces, results):
-                    told = "D = %d, T = %d, y = %g, FZ = %g" % (location, tang, y, fz)
-                    self.assertAlmostEqual(case["totals"]["fz_tr"]["value"], fz, delta=1e-4*fz, msg=told)
-                    self.assertTrue(case["converged"], told)
-                    self.assertLessEqual(case["totals"]["force_trials"], 30, told)
+                    label = "D = %d, T = %d, y = %g, FZ = %g" % (location, tang, y, fz)
+                    self.assertAlmostEqual(case["totals"]["fz_tr"]["value"], fz, delta=1e-4*fz, msg=label)
+                    self.assertTrue(case["converged"], label)
+                    self.assertLessEqual(case["totals"]["force_trials"], 30, label)
 
 
     def test_a_force_is_met_within_eps_or_that_is_told(self):
@@ -251,16 +251,16 @@ class Forces(Case):
         cases = [self.case(y=y, fz=fz, yaw=0.004 if y > 5 else 0.0, vpitch=-43.4).replace("1e-5", "1e-12").replace(
             " 0.5 0.5 1 90d", " 1.5 1.5 1 90d") for y in (0.0, 2.0, 6.3) for fz in forces]
         results, out = self.solve(*cases)
-        told = 0
+        count = 0
         for fz, result, report in zip(3*forces, results, re.split(r"\n Case +\d+", out)[1:]):
             self.assertEqual(result["status"], "solved")
             difference = abs(result["totals"]["fz_tr"]["value"] - fz)/fz
             warning = re.search(r"vertical force is met within +(\S+) of what is asked for, not within EPS", report)
             if warning:
-                told += 1
+                count += 1
                 self.assertAlmostEqual(float(warning.group(1)), difference, delta=0.06*difference)
             self.assertEqual(warning is not None, difference > 1e-12, (fz, difference))
-        self.assertTrue(1 <= told <= 30, told)
+        self.assertTrue(1 <= count <= 30, count)
 
 
 class Statements(Case):
@@ -274,7 +274,7 @@ class Statements(Case):
         self.assertEqual(out.count("creepages beyond 1"), 1)
         _, out = self.solve(self.case(side=4, vs=40.0, vpitch=43.5))
         self.assertIn("the wheel turns against the roller", out)
-        # rolling backward is no mistake, and neither is a shift
+        # rolling backward is allowed, and so is a shift
         _, out = self.solve(self.case(vs=-V, vpitch=43.5), self.case(vs=0.0, vpitch=0.001, tang=1))
         self.assertNotIn("turns against", out)
         self.assertNotIn("creepages beyond", out)
@@ -310,7 +310,7 @@ class Statements(Case):
         self.assertEqual(fy[0], fy[1])
 
     def test_no_contact(self):
-        """The height of a wheel that meets no rail is not carried over, whatever happens in between"""
+        """The height of a wheel that meets no rail is not carried over, independent of the cases in between"""
         results, out = self.solve(self.case(), self.case(y=300.0), self.case(y=300.0), self.case())
         self.assertEqual(len(re.findall("Warning:.*wheel and rail do not meet", out)), 2)
         heights = [case["totals"]["z_ws"]["value"] for case in results]
@@ -339,20 +339,20 @@ class Statements(Case):
         self.assertAlmostEqual(lateral[0], -lateral[1], delta=1e-3*abs(lateral[0]))
 
     def test_steps_of_a_layer_that_yields(self):
-        """One element per step, whatever the value of DQREL, with a message; other layers accept any step"""
-        told = "DQREL is set to 1"
+        """One element per step, for any value of DQREL, with a message; other layers accept any step"""
+        message = "DQREL is set to 1"
         results = {}
         for limit in (35, 0):
             for step in (0.5, 1):
                 case = self.case(tang=2, mater=4, fz=20000.0, vpitch=-1.01*V/NOMRADW, physics=" 10000 0.02 %d 0\n" % limit)
                 found, out = self.solve(case.replace(" 0.5 0.5 1 90d", " 0.5 0.5 %g 90d" % step))
-                self.assertEqual(told in out, limit > 0 and step < 1, (limit, step))
+                self.assertEqual(message in out, limit > 0 and step < 1, (limit, step))
                 results[limit, step] = found[0]["totals"]["fx_tr"]["value"]
         self.assertAlmostEqual(results[35, 0.5], results[35, 1], delta=1e-9*abs(results[35, 1]))
         self.assertGreater(abs(results[0, 0.5] - results[0, 1]), 1e-3*abs(results[0, 1]))
 
     def test_sensitivities_that_nobody_asked_for(self):
-        """M = 1: the search for the height uses the stiffness of the contact; how accurate that is is its own affair"""
+        """M = 1: the search for the height uses the stiffness of the contact; its accuracy does not affect the result"""
         _, out = self.solve(self.case(mater=1, physics=" 0.5 0.5 0.0001 0.0001\n"))
         self.assertNotIn("sensitivities", out)
 
@@ -406,7 +406,7 @@ class Tables(Case):
         self.assertEqual(out.count("Influence coefficients from"), 1, "the file is read once")
         self.assertRegex(out, r"Influence coefficients from .*, body 1 \(rail *\) above")
         self.assertIn("tabulated influence coefficients", out)
-        # what the force search leaves, relative to the load and to levers of 100 mm
+        # remaining error of the force search, relative to the load and to levers of 100 mm
         for a, b in [(flat, table)] + list(zip(flat["patches"], table["patches"])):
             for name, item in a["totals"].items():
                 scale = {"N": 6e4, "N mm": 6e6}.get(item.get("unit") if isinstance(item, dict) else None)

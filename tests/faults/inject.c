@@ -5,7 +5,7 @@
  *                 fopen as open, and malloc, calloc, realloc and their relatives that align as memory; any: all that touch files
  * INJECT_AT       number of the call that fails; 0 for none
  * INJECT_ERROR    number of the error (errno); -1: the process ends instead, a write after half of its bytes; -2: a write takes half
- *                 of its bytes and tells so, which is no error
+ *                 of its bytes and returns their number, which is not an error
  * INJECT_FOLDER   files below this folder are meant
  * INJECT_FOR_EVER if set, all later calls fail too
  * INJECT_COUNT    name of a file that receives the number of calls at the end
@@ -13,7 +13,7 @@
  * INJECT_SIZE     requests for less memory are not counted [bytes]
  *
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
- * inject_memory(n, for_ever, size) begins to count, inject_counted() tells how many were counted.
+ * inject_memory(n, for_ever, size) begins to count, inject_counted() returns the count.
  *
  * The streams of the C library call write and close of their own: fopen and fdopen for writing make streams that call those here.
  */
@@ -54,7 +54,7 @@ __attribute__((constructor)) static void begin(void) {
   }
 }
 
-/* Is this file or path meant? */
+/* Does the fault apply to this file or path? */
 static int is_meant(int file, const char *path) {
   char name[4096], link[64];
   if (kind == NULL || folder == NULL) return 0;
@@ -105,7 +105,7 @@ void inject_memory(long at, int all_later, size_t size) {
 
 long inject_counted(void) { return memory_calls; }
 
-/* Is this the request that is refused? */
+/* Is this the request to be refused? */
 static int refused(size_t size) {
   if (!counting || size < smallest) return 0;
   const long number = __atomic_add_fetch(&memory_calls, 1, __ATOMIC_RELAXED);
@@ -129,7 +129,7 @@ int posix_memalign(void **block, size_t align, size_t size) {
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-/* Of how many bytes is the failing write made? -1: it fails */
+/* Number of bytes of the failing write that are written; -1: it fails */
 static ssize_t part(size_t size) { return error == end_of_process || error == half_a_write ? (ssize_t)((size + 1) / 2) : -1; }
 
 static ssize_t after_part(ssize_t done) {
@@ -183,7 +183,7 @@ int open64(const char *path, int flags, ...) {
   return fails("open", -1, path) ? -1 : REAL(open64)(path, flags, mode);
 }
 
-/* Calls without a function of their own */
+/* System calls without a C function */
 long syscall(long number, ...) {
   long value[6];
   va_list list;
@@ -199,7 +199,7 @@ long syscall(long number, ...) {
   return REAL(syscall)(number, value[0], value[1], value[2], value[3], value[4], value[5]);
 }
 
-/* Streams that write by the calls above */
+/* Streams, which write by the calls above */
 static int number_of(void *cookie) { return (int)(intptr_t)cookie - 1; }
 
 static ssize_t stream_read(void *cookie, char *data, size_t size) { return read(number_of(cookie), data, size); }

@@ -1,5 +1,5 @@
-/* Requests for memory are refused while a host calls the library: an error code or right results, never the end of the
- * host, and right results again afterwards.
+/* Requests for memory are refused while a host calls the library: an error code or correct results, never the end of the
+ * host, and correct results again afterwards.
  *
  * usage: library_memory contact | pair | run | large | threads  SAMPLES | all  FOLDER_OF_EXAMPLES
  *
@@ -23,7 +23,7 @@
 
 enum { max_values = 4000, largest_message = 400, max_elements = 201*201 };
 
-/* What a scenario gave: values, and whether the caller was told of trouble */
+/* Result of a scenario: values, and the error that was reported to the caller */
 struct outcome {
   int count, trouble, code;
   double values[max_values];
@@ -58,13 +58,13 @@ static void hand_over(struct outcome *o, const double *values, int n) {
   for (int k = 0; k < n && o->count < max_values; k++) o->values[o->count++] = values[k];
 }
 
-/* A code of a call, and what the library tells */
+/* Record the code of a call, and the message of the library */
 static void look(struct outcome *o, int ire, int icp, int error) {
   char text[largest_message];
-  const int told = contact_last_error(ire, icp, text, sizeof text);
-  if (error == 0 && told == 0) return;
+  const int code = contact_last_error(ire, icp, text, sizeof text);
+  if (error == 0 && code == 0) return;
   if (!o->trouble) {
-    o->code = error != 0 ? error : told;
+    o->code = error != 0 ? error : code;
     memcpy(o->message, text, sizeof text);
   }
   o->trouble = 1;
@@ -170,7 +170,7 @@ static int is_right(const struct outcome *o) {
   return o->count == reference.count && memcmp(o->values, reference.values, sizeof *o->values*(size_t)o->count) == 0;
 }
 
-/* Two threads at work on other elements at the same time are told, or right, too */
+/* Two other threads computing on other elements at the same time also get an error or correct results */
 static void play(struct outcome *o) {
   memset(o, 0, sizeof *o);
   if (strcmp(kind, "pair") == 0) pair(o);
@@ -182,7 +182,7 @@ static void play(struct outcome *o) {
       if (pthread_create(&thread[k], NULL, work, &of_thread[k]) != 0) thread[k] = 0, of_thread[k].trouble = 1, of_thread[k].code = 1;
     for (int k = 0; k < 2; k++)
       if (thread[k] != 0) pthread_join(thread[k], NULL);
-    /* the one that was told, or the one that is wrong, counts */
+    /* a thread with an error, or with wrong results, is counted */
     int one = 0;
     for (int k = 1; k >= 0; k--)
       if (of_thread[k].trouble) one = k;
@@ -200,7 +200,7 @@ static long resident(void) {
 }
 
 int main(int argc, char **argv) {
-  long right = 0, told = 0, failures = 0, step = 1, before = 0;
+  long right = 0, errors = 0, failures = 0, step = 1, before = 0;
   if (argc != 4) return 2;
   kind = argv[1];
   examples = argv[3];
@@ -244,7 +244,7 @@ int main(int argc, char **argv) {
       inject(-1, 0, 0);
       const char *how = persistent ? " and all later ones" : "";
       if (seen.trouble) {
-        told++;
+        errors++;
         if (seen.message[0] == 0 && seen.code == 0) {
           printf("FAILED %s: request %ld%s refused: neither code nor message\n", kind, place, how);
           failures++;
@@ -252,7 +252,7 @@ int main(int argc, char **argv) {
       } else if (is_right(&seen)) {
         right++;
       } else {
-        printf("FAILED %s: request %ld%s refused: wrong results and not a word\n", kind, place, how);
+        printf("FAILED %s: request %ld%s refused: wrong results without an error\n", kind, place, how);
         failures++;
       }
       play(&seen);
@@ -266,7 +266,7 @@ int main(int argc, char **argv) {
   alarm(0);
   cntc_finalizelast();
   is_over = 1;
-  printf("%s: %ld requests, %ld refusals: %ld right results, %ld errors told, %ld complaints; %ld kB more\n", kind, requests, right + told,
-         right, told, failures, resident() - before);
+  printf("%s: %ld requests, %ld refusals: %ld right results, %ld errors, %ld complaints; %ld kB more\n", kind, requests, right + errors,
+         right, errors, failures, resident() - before);
   return failures != 0;
 }

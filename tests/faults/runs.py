@@ -1,4 +1,4 @@
-"""Runs of each kind for the tests of faults, and what their files hold."""
+"""Runs of each kind for the tests of faults, and comparison of their files."""
 import json
 import os
 import pathlib
@@ -32,7 +32,7 @@ def run(folder, name, *options, environment=None, timeout=300):
 
 
 def without_times(text):
-    """A report or JSON lines without times, and as it is without the warning of a lock that could not be had"""
+    """A report or JSON lines without times, and without the warning of a missing lock"""
     text = re.sub(rb"(?m)^\|.*\n", b"", text)
     text, unlocked = re.subn(rb"(?m)^ *Warning: the experiment could not be locked .*\n", b"", text)
     if unlocked:
@@ -42,7 +42,7 @@ def without_times(text):
 
 
 def hdf5_difference(good, file):
-    """What is different in an HDF5 file, apart from times"""
+    """Differences of an HDF5 file, apart from times"""
     known = {}
 
     def address(item):
@@ -86,7 +86,7 @@ def same(a, b):
 
 
 def difference(good, file):
-    """What is different in a file, nothing when it is as it should be"""
+    """Differences of a file from the expected one; empty if there are none"""
     if file.suffix == ".h5":
         return hdf5_difference(good, file)
     old, new = without_times(good.read_bytes()), without_times(file.read_bytes())
@@ -111,7 +111,7 @@ def differences(good, folder):
 
 
 def check_whole(file):
-    """A file that is there only when it is complete"""
+    """Is this a file that exists only if it is complete?"""
     content = file.read_bytes()
     if file.suffix == ".vts":
         assert content.rstrip().endswith(b"</VTKFile>"), file.name
@@ -121,7 +121,7 @@ def check_whole(file):
 
 
 def finished_cases(folder):
-    """Cases that each file holds after a run was killed; an exception when one cannot be read"""
+    """Cases in each file after a run was killed; an exception if a file cannot be read"""
     counts = {}
     for file in folder.iterdir():
         if file.suffix == ".jsonl":
@@ -135,7 +135,7 @@ def finished_cases(folder):
                 assert "complete" in data.attrs and "cases_planned" in data.attrs, sorted(data.attrs)
             read_all(file)
         elif file.suffix == ".pvd":
-            # a write that was cut in two leaves a list whose last line is torn
+            # an interrupted write leaves a list with an incomplete last line
             listed = [line for line in file.read_text(encoding="utf-8").split("\n")[3:] if "DataSet" in line]
             for line in listed[:-1]:
                 xml.etree.ElementTree.fromstring(line)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A call that touches a file fails, or the process is killed there, at every place of a small run.
+"""A system call on a file fails, or the process is killed there, at every such call of a small run.
 
 usage: test_files.py LIBRARY_TO_PRELOAD [STEP [FIRST]]
 
 After a failure: success with right files, or an error, and nothing half-written that could be taken for whole. After a kill:
-every file can be read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise;
+every file can be read, and holds all cases up to the last but one or two. Every STEP-th place is tried, by default 37;
 FIRST, from 0 to below STEP, chooses which of them, so that STEP runs try all places.
 """
 import errno
@@ -70,7 +70,7 @@ def run(folder, kind, preload, **inject):
 
 
 def half_written(file):
-    """Is this file, which stands there after an error, unreadable?"""
+    """Is this file, which exists after an error, unreadable?"""
     try:
         if file.suffix == ".h5":
             runs.read_all(file)
@@ -87,7 +87,7 @@ def half_written(file):
 
 
 def after_kill(folder):
-    """What is wrong with the files of a run that was killed"""
+    """Complaints about the files of a run that was killed"""
     try:
         runs.finished_cases(folder)
     except (OSError, ValueError, AssertionError, KeyError, xml.etree.ElementTree.ParseError) as reason:
@@ -103,20 +103,20 @@ def after_failure(good, folder, code, text):
     bad = [] if "ERROR" in text else [f"no message with exit status {code}"]
     bad += [f"{name} is left" for name in sorted(names) if name.endswith((".tmp", ".part"))]
     for name in sorted(names):
-        # files that grow from case to case end somewhere; the message names them
+        # files that grow from case to case may be truncated; the message names them
         growing = name.endswith((".jsonl", ".pvd")) and f"{name}: the file is not complete" in text
         what = half_written(folder / name)
         if what and not growing:
             bad.append(f"{name}: {what}")
-        # a case without results has no surfaces, and is finished
+        # a case without results has no surfaces, but is finished
         if name.endswith(".pvd") and "(writing VTK files)" in text:
             whole, found = (good / name).read_text(encoding="utf-8"), (folder / name).read_text(encoding="utf-8")
             if "<!-- complete" in found and found.count("<DataSet") < whole.count("<DataSet"):
-                bad.append(f"{name} says that it is complete")
+                bad.append(f"{name} is marked as complete")
     return bad
 
 
-#: Calls of which every place is tried: the renewed HDF5 file takes its name, of which nothing else tells, and files are read again
+#: Calls of which every occurrence is tested: renaming of the updated HDF5 file, which has no other effect, and reading of files
 ALWAYS = (("rename", "wheel on rail, HDF5"), ("open", "wheel on rail, HDF5"))
 
 
@@ -141,7 +141,7 @@ def main():
                                  INJECT_FOR_EVER=1 if for_ever else None)
                 row[1] += 1
                 if error == -1:
-                    # the number of writes depends on time: the last places may not be reached
+                    # the number of writes depends on time: the last ones may not be reached
                     bad = after_kill(folder) if code in (0, 137) else [f"not killed: {code}"]
                 elif code not in (0, 1) or (error == -2 and code):
                     bad = [f"ended with {code}: {text[-300:]}"]

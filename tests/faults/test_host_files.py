@@ -19,7 +19,7 @@ FAULTS = [("write", errno.EIO, False), ("write", errno.ENOSPC, True), ("close", 
 
 
 def host(folder):
-    """Cases of one problem; says what the library tells of each"""
+    """Solve cases of one problem, and print the messages of the library about each"""
     library = ctypes.CDLL(os.environ["CONTACT_LIBRARY"])
 
     def whole(*values):
@@ -28,7 +28,7 @@ def host(folder):
     def real(*values):
         return (ctypes.c_double * len(values))(*values)
 
-    def tell(ire):
+    def print_error(ire):
         message = ctypes.create_string_buffer(1000)
         if library.contact_last_error(ire, 1, message, len(message)) or message.value:
             print("TOLD", message.value.decode())
@@ -45,9 +45,9 @@ def host(folder):
         library.cntc_calculate(one, one, code)
         if code[0] < 0:
             print("CODE", code[0])
-        tell(0)
+        print_error(0)
     library.cntc_finalizelast()
-    tell(0)
+    print_error(0)
     print("ALIVE")
 
 
@@ -58,7 +58,7 @@ def empty(folder):
 
 
 def run(folder, command, preload, **inject):
-    """Exit status and what was said"""
+    """Exit status and messages"""
     settings = {key: str(value) for key, value in inject.items() if value is not None}
     environment = dict(os.environ, LD_PRELOAD=preload, INJECT_FOLDER=f"{folder}/", OMP_NUM_THREADS="1", **settings)
     done = subprocess.run(command, env=environment,
@@ -67,7 +67,7 @@ def run(folder, command, preload, **inject):
 
 
 def each_fault(folder, command, prepare, preload, judge):
-    """All places of all calls; number of faults and of complaints"""
+    """Fail each occurrence of each call; number of faults and of complaints"""
     tried = bad = 0
     count = pathlib.Path.cwd() / "count"
     for call, error, for_ever in FAULTS:
@@ -106,8 +106,8 @@ def main():
             return ""
         if b" 0  MODULE" in found:
             return "the damaged file has its end"
-        told = "TOLD" in said and ("contact_addon.inp" in said or "input file of the library" in said)
-        return "" if told else "nothing was told"
+        is_reported = "TOLD" in said and ("contact_addon.inp" in said or "input file of the library" in said)
+        return "" if is_reported else "no error was reported"
 
     tried, bad = each_fault(folder, command, lambda: empty(folder), preload, judge_host)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One request for memory is refused, or all from one on, in small runs of each kind: an error, or success with right files.
+"""One request for memory is refused, or all from one on, in small runs of each kind: an error, or success with correct files.
 
 usage: test_memory.py LIBRARY_TO_PRELOAD [all | SAMPLES] [NAMES OF EXPERIMENTS]
 
@@ -26,13 +26,13 @@ RUNS = {
     "wheel_on_rail_check": ["3"],
     "missing": ["2"],
 }
-#: Samples per run and mode where the command line says nothing
+#: Default number of samples per run and mode
 SAMPLES = 6
 SEED = 20261122
 
 
 def first_case(text, name):
-    """The input as it is, or its first case where the example is long"""
+    """The input, or its first case if the example is long"""
     if not name.startswith("wheel"):
         return text
     lines = text.splitlines()
@@ -64,7 +64,7 @@ def run(folder, name, preload, at, for_ever=False, count=None):
 
 
 def contents(folder):
-    """What all files hold, without times; HDF5 files by their presence only, test_files looks into them"""
+    """Contents of all files, without times; HDF5 files by their presence only, as test_files compares them"""
     found = {}
     for file in sorted(folder.iterdir()):
         if file.suffix == ".h5":
@@ -76,7 +76,7 @@ def contents(folder):
 
 
 def complaints(code, text, good, folder, expected):
-    """What is wrong with the end of a run"""
+    """Complaint about the end of a run"""
     if code == "hang" or code < 0 or code > 2:
         return [f"ended with {code}: {text.strip()[-300:]}"]
     left = [f"{name.name} is left" for name in folder.iterdir() if name.suffix in (".tmp", ".part")]
@@ -88,14 +88,14 @@ def complaints(code, text, good, folder, expected):
 
 
 def main():
-    """Sample of the places, or all"""
+    """Sample of the requests, or all"""
     preload, *rest = sys.argv[1:]
     samples = rest[0] if rest else str(SAMPLES)
     names = rest[1:] or list(RUNS)
     here = pathlib.Path.cwd()
     failed = 0
     chance = random.Random(SEED)
-    print("run                   requests  refused  right files  error told  complaints")
+    print("run                   requests  refused  right files      errors  complaints")
     for name in names:
         good_folder, folder, count_file = here / f"good_{name}", here / f"bad_{name}", here / "count"
         expected, text = run(good_folder, name, preload, 0, count=count_file)
@@ -104,7 +104,7 @@ def main():
             return 1
         good, count = contents(good_folder), int(count_file.read_text(encoding="utf-8"))
         places = range(1, count + 1) if samples == "all" else sorted(chance.sample(range(1, count + 1), min(count, int(samples))))
-        right = told = bad = 0
+        right = errors = bad = 0
         for place in places:
             for for_ever in (False, True):
                 code, text = run(folder, name, preload, place, for_ever)
@@ -114,9 +114,9 @@ def main():
                           flush=True)
                 bad += bool(found)
                 right += not found and code == 0
-                told += not found and code != 0
+                errors += not found and code != 0
         failed += bad
-        print(f"{name:20} {count:9} {right + told + bad:8} {right:12} {told:11} {bad:11}", flush=True)
+        print(f"{name:20} {count:9} {right + errors + bad:8} {right:12} {errors:11} {bad:11}", flush=True)
         shutil.rmtree(folder, ignore_errors=True)
     return 1 if failed else 0
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A run that ended too early goes on with --resume, and its files are those of an uninterrupted run.
+"""An interrupted run is continued with --resume, and its files are those of an uninterrupted run.
 
 usage: test_resume.py LIBRARY_TO_PRELOAD [--all [MOST]]
 
@@ -41,7 +41,7 @@ def shift(fx, link=0, first=False, element="", estimate=1, mat=1, stored=1):
 
 
 def sequences():
-    """Inputs with what a resumed run must not mix up: histories, steps repeated, interleaved elements, input only noted"""
+    """Inputs with data that a resumed run must restore: histories, repeated steps, interleaved result elements, checked cases"""
     steps = (-0.3, -0.6, -0.875, -0.5, 0.2)
     plain = shift(-0.2, first=True) + "".join(shift(fx) for fx in steps)
     repeated = shift(-0.2, first=True) + shift(-0.5) + shift(-0.6, link=3) + shift(-0.7, link=1) + shift(-0.8, estimate=0)
@@ -49,7 +49,7 @@ def sequences():
              + shift(-0.1))
     mixed = (shift(-0.2, first=True, element="1") + shift(-0.3, first=True, element="2") + shift(-0.5, element="1")
              + shift(-0.6, element="2", stored=3) + shift(-0.7, element="1") + shift(-0.8, element="2") + shift(-0.1, element="1"))
-    # contact that is cut off: a larger window is named once
+    # truncated contact: a larger window is recommended once
     cut = plain.replace("13 13 -1.3 -1.3 0.2 0.2", "5 5 -0.5 -0.5 0.2 0.2")
     return {name: text + "0 MODULE\n" for name, text in
             (("plain", plain), ("cut", cut), ("repeated", repeated), ("fresh", fresh), ("mixed", mixed))}
@@ -64,7 +64,7 @@ def prepare(folder, name, text):
 
 
 def plain(folder):
-    """The number of planned cases is another one while the input cannot be read to its end"""
+    """The number of planned cases differs while the input cannot be read to its end"""
     for file in folder.glob("*.jsonl"):
         file.write_text(re.sub(r'"cases_planned":\d+', "", file.read_text()))
 
@@ -129,14 +129,14 @@ class Campaign:
         self.kill_some(name, text)
 
     def kill_some(self, name, text):
-        """As by kill -9, with and without the HDF5 file: it holds the cases that were finished at its last renewal"""
+        """As by kill -9, with and without the HDF5 file, which contains the cases that were finished at its last update"""
         most = min(self.most, 40)
         for options, sample in ((("--json", "--vtk"), most if self.everything else 3),
                                 (runs.ALL_FILES, most // 2 if self.everything else 2)):
             self.kill(name, text, options, sample)
 
     def kill(self, name, text, options, sample):
-        """The same with some files and at so many places"""
+        """The same with some files, at the given number of system calls"""
         good, bad, count = pathlib.Path.cwd() / "killed-good", pathlib.Path.cwd() / "bad", pathlib.Path.cwd() / "count"
         prepare(good, name, text)
         inject = {"LD_PRELOAD": self.preload, "INJECT_CALL": "any", "INJECT_FOLDER": str(good) + "/", "INJECT_COUNT": str(count)}
@@ -159,7 +159,7 @@ class Campaign:
             except (AssertionError, OSError, ValueError, KeyError, SyntaxError) as reason:
                 self.complain(f"{what}: a file cannot be read: {reason!r}")
             code, said = resumed(bad, name)
-            if "ordinary run" in said:  # nothing was finished, and the journal not begun
+            if "ordinary run" in said:  # no case was finished, and the journal not started
                 code, said = runs.run(bad, name, *options)
             self.checks += 1
             self.went_on += "finished before" in said
@@ -170,7 +170,7 @@ class Campaign:
 
 
 def refusals():
-    """What cannot be resumed is refused in one sentence, and nothing changes"""
+    """A run that cannot be resumed is refused in one sentence, without changes"""
     bad, complaints = pathlib.Path.cwd() / "bad", []
     text = sequences()["plain"]
     broken = text.replace("9.1954 0.2", "9.1954 nonsense")
@@ -200,7 +200,7 @@ def refusals():
 
 
 def damaged_journals():
-    """One character of what a run has noted of itself is another one: the run begins anew or is refused, and no file gets wrong"""
+    """One character of the journal is changed: the run starts again or is refused, and no file becomes wrong"""
     good, bad, complaints = pathlib.Path.cwd() / "good", pathlib.Path.cwd() / "bad", []
     text = sequences()["plain"]
     prepare(good, "x", text)
@@ -212,7 +212,7 @@ def damaged_journals():
     kept = {file.name: file.read_bytes() for file in bad.iterdir()}
     noted = kept["x.unfinished"]
     ends = [k for k, byte in enumerate(noted) if byte == 10]
-    # some characters of the settings, and of the lines of cases
+    # characters of the settings, and of the lines of cases
     places = [k for k in range(ends[0] + 1, ends[1]) if noted[k:k + 1].strip()]
     for at in sorted(chance.sample(places, 12) + chance.sample(range(ends[1] + 1, len(noted)), 8)):
         for name, content in kept.items():

@@ -1,6 +1,6 @@
 /* Cases in memory: texts of the readable format with any numbers in place of theirs, into arrays of any size
  *
- * The first line may tell sizes of the arrays, the numbers that vary and their values:
+ * The first line may contain sizes of the arrays, the names of varied numbers and their values:
  *     # rows columns cases reason_length | group.key group.key | value value ...
  * Arrays have exactly these sizes, so that each access beyond their end is found by the address sanitizer. */
 #include <ctype.h>
@@ -15,7 +15,7 @@
 const char fuzz_name[] = "batch";
 
 enum { most_values = 12, most_names = 4, most_room = 200, name_room = 400, longest_side = 60, last_missed = 5, out_of_time = 5 };
-/* What the arrays hold before a call */
+/* Contents of the arrays before a call */
 static const double unset = -7.77e77;
 
 struct arrays {
@@ -26,7 +26,7 @@ struct arrays {
 
 void fuzz_begin(void) {}
 
-/* A number of elements that would take time and memory, of which a batch has no limits */
+/* Is the number of elements so large that it takes too much time and memory, which a batch does not limit? */
 static int has_many_elements(const char *text)
 {
   static const char *const keys[] = {"mx", "my", "npot_max", "nx", "ny", "nz"};
@@ -43,7 +43,7 @@ static int has_many_elements(const char *text)
   return 0;
 }
 
-/* Sizes, names and values of the first line; without them the cases of the text are solved as they are */
+/* Sizes, names and values of the first line; without them the cases of the text are solved unchanged */
 static void read_line(const char *text, struct arrays *all)
 {
   contact_batch_job *job = &all->job;
@@ -89,7 +89,7 @@ static void *room(size_t count, size_t size) { return malloc(count * size > 0 ? 
 
 static int positive(int n) { return n > 0 ? n : 0; }
 
-/* Arrays that hold nothing yet */
+/* Initialise the arrays */
 static void make_arrays(contact_batch_job *job)
 {
   const size_t rows = positive(job->room_rows), columns = positive(job->room_columns), cases = positive(job->room_cases);
@@ -110,12 +110,12 @@ static void free_arrays(contact_batch_job *job)
   free(job->values), free(job->places), free(job->states), free(job->reasons);
 }
 
-/* What was counted is in the arrays, and nothing else; results are numbers */
+/* The arrays contain the reported numbers of results and nothing else; results are finite */
 static void judge(const contact_batch_job *job)
 {
   int k, column;
   if (job->rows < 0 || job->rows > positive(job->room_rows) || job->cases < 0 || job->cases > positive(job->room_cases))
-    fuzz_fail("%d rows and %d cases, more than there is room for", job->rows, job->cases);
+    fuzz_fail("%d rows and %d cases, more than the size of the arrays", job->rows, job->cases);
   for (k = 0; k < job->rows; k++) {
     if (job->places[2 * k] < 1 || job->places[2 * k] > job->cases || job->places[2 * k + 1] < 0)
       fuzz_fail("row %d belongs to case %d, patch %d", k + 1, job->places[2 * k], job->places[2 * k + 1]);
@@ -124,7 +124,7 @@ static void judge(const contact_batch_job *job)
       if (!isfinite(job->values[k * job->room_columns + column])) fuzz_fail("a solved case has no number in column %d", column + 1);
   }
   for (k = job->rows * job->room_columns; k < job->room_rows * job->room_columns; k++)
-    if (job->values[k] != unset) fuzz_fail("a value behind the last row was changed");
+    if (job->values[k] != unset) fuzz_fail("a value beyond the last row was changed");
   for (k = 0; k < job->cases; k++) {
     const char *reason = job->reasons + (size_t)k * positive(job->reason_length);
     if (job->states[2 * k] < CONTACT_SOLVED || job->states[2 * k] > CONTACT_REFUSED || job->states[2 * k + 1] < 0
@@ -153,16 +153,16 @@ static void look(contact_batch *batch, const contact_batch_job *job)
     if (contact_batch_field(batch, patch, "pn", &mx, &my, frame, unit, sizeof unit) != 0) continue;
     if (mx < 1 || my < 1) fuzz_fail("a field of %d x %d elements", mx, my);
     values = room((size_t)mx * my, sizeof *values);
-    if (contact_batch_field_values(batch, patch, "pn", mx * my - 1, values) != 1) fuzz_fail("a field without room was given");
+    if (contact_batch_field_values(batch, patch, "pn", mx * my - 1, values) != 1) fuzz_fail("a field larger than its array was returned");
     found = contact_batch_field_values(batch, patch, "pn", mx * my, values);
-    if (found != 0) fuzz_fail("a field that is there was not given");
+    if (found != 0) fuzz_fail("an existing field was not returned");
     for (k = 0; k < mx * my; k++)
-      if (!isfinite(values[k])) fuzz_fail("a pressure is no number");
+      if (!isfinite(values[k])) fuzz_fail("a pressure is not a number");
     free(values);
   }
 }
 
-/* Two calls, of which the clock ended no case, must give the same */
+/* Two calls without a case that ran out of time must give the same results */
 static void compare(const contact_batch_job *first, const contact_batch_job *second, const char *what)
 {
   int k;
@@ -198,7 +198,7 @@ void fuzz_text(const char *text, size_t length)
     judge(&all[k]->job);
     look(batches[k == 2], &all[k]->job);
   }
-  if (status[0] != status[2] || strcmp(message[0], message[2]) != 0) fuzz_fail("a new batch says: %s\nnot: %s", message[2], message[0]);
+  if (status[0] != status[2] || strcmp(message[0], message[2]) != 0) fuzz_fail("a new batch reports: %s\nnot: %s", message[2], message[0]);
   compare(&first.job, &fresh.job, "a new batch");
   if (status[0] == status[1]) compare(&first.job, &again.job, "the same text again");
   for (k = 0; k < 3; k++) free_arrays(&all[k]->job);

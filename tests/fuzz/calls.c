@@ -1,8 +1,8 @@
 /* Calls of the library in any order, with any values
  *
  * The text has one call on a line: name and arguments as in src/capi/interface.txt, separated by blanks. A scalar is a number,
- * an array a list in brackets, a text stands in quotes, ~ is a null pointer. What is missing is 0. Arrays have the length that
- * their call tells, whatever is given for them, so that each access beyond their end is a fault of the library; checked by
+ * an array a list in brackets, a text is in quotes, ~ is a null pointer. Missing values are 0. Arrays have the length passed
+ * in the call, independent of the values given, so that each access beyond their end is a fault of the library; checked by
  * the address sanitizer. */
 #define _GNU_SOURCE
 #include <ctype.h>
@@ -38,10 +38,10 @@ struct routine {
 
 static struct routine routines[max_routines];
 static int routine_count;
-/* What outputs hold before a call */
+/* Contents of outputs before a call */
 static const int unset = -777777;
 
-/* "in int lenarr" or "out real values[lenarr]"; returns what follows */
+/* Parse "in int lenarr" or "out real values[lenarr]"; returns the rest */
 static const char *read_argument(const char *text, struct argument *argument)
 {
   char direction[8], kind[8], name[24];
@@ -94,7 +94,7 @@ struct value {
   size_t length;
 };
 
-/* Position behind the name in the text of one call */
+/* Position after the name in the text of one call */
 struct reader {
   const char *at, *end;
 };
@@ -106,7 +106,7 @@ static void skip_blanks(struct reader *text)
 
 static int as_integer(double value) { return value >= INT_MIN && value <= INT_MAX ? (int)value : unset; }
 
-/* A number; false at the end or where none stands */
+/* Read a number; false at the end or if there is none */
 static int read_number(struct reader *text, double *value)
 {
   char *next;
@@ -131,7 +131,7 @@ static size_t length_of(const struct value *value)
   return value && !value->is_null && value->i > 0 ? (size_t)value->i : 0;
 }
 
-/* Elements that the library may use of array k: what the call says, 20000 at most */
+/* Number of elements of array k that the library may use: as passed in the call, 20000 at most */
 static size_t honest_length(struct routine *this, struct value *values, int k)
 {
   const char *name = this->arguments[k].name;
@@ -156,7 +156,7 @@ static size_t honest_length(struct routine *this, struct value *values, int k)
   return 0;
 }
 
-/* Letters in quotes; no folder but that of the target can be named */
+/* Read letters in quotes; only names in the folder of the target are possible */
 static void read_text(struct reader *text, char *letters, size_t room)
 {
   char quote;
@@ -170,7 +170,7 @@ static void read_text(struct reader *text, char *letters, size_t room)
   text->at += text->at < text->end;
 }
 
-/* Read scalars first: lengths may stand behind their arrays */
+/* Read scalars first: lengths may follow their arrays */
 static void read_values(struct routine *this, struct reader text, struct value *values, int arrays)
 {
   for (int k = 0; k < this->count; k++) {
@@ -213,7 +213,7 @@ static void read_values(struct routine *this, struct reader text, struct value *
   }
 }
 
-/* Would the call only ask for a long calculation? */
+/* Would the call only cause a long calculation? */
 static int is_large(struct routine *this, struct value *values)
 {
   for (int k = 0; k < this->count; k++) {
@@ -228,7 +228,7 @@ static int is_large(struct routine *this, struct value *values)
   return 0;
 }
 
-/* The same for what stands in the arrays: grids, step sizes, depths */
+/* The same for values of arrays: grids, step sizes, depths */
 static int makes_large(struct routine *this, struct value *values)
 {
   struct value *p = find(this, values, "params");
@@ -246,7 +246,7 @@ static int makes_large(struct routine *this, struct value *values)
   return 0;
 }
 
-/* What a call handed over */
+/* Check the results of a call */
 static void judge(struct routine *this, struct value *values)
 {
   static char message[4000];
@@ -268,7 +268,7 @@ static void judge(struct routine *this, struct value *values)
   if (strcmp(this->name, "cntc_calculate") == 0 || strcmp(this->name, "subs_calculate") == 0) {
     struct value *code = find(this, values, "ierror"), *ire = find(this, values, "ire"), *icp = find(this, values, "icp");
     if (code->is_null) return;
-    if (code->i == unset) fuzz_fail("%s sets no code", this->name);
+    if (code->i == unset) fuzz_fail("%s does not set a code", this->name);
     if (code->i >= 0 || ire->is_null || icp->is_null) return;
     if (contact_last_error(ire->i, icp->i, message, sizeof message) != 0) fuzz_judge_message(message, "a calculation fails");
   }
@@ -278,7 +278,7 @@ static void judge(struct routine *this, struct value *values)
 enum { most_limited = 16 };
 static char is_limited[most_limited];
 
-/* A wheel that is placed deep in its rail asks for no more than 400 elements, until the text says otherwise. By default a
+/* A wheel that is placed deep in its rail has at most 400 elements, unless the text sets another limit. By default a
  * patch may have 200000, which takes seconds */
 static void limit_elements(int ire)
 {
@@ -319,7 +319,7 @@ static void call(const char *line, const char *end)
   }
   if (!makes_large(this, values)) {
     int ire = values[0].is_null ? -1 : values[0].i;
-    /* elements that were made by another call than cntc_initialize */
+    /* elements that were created by another call than cntc_initialize */
     if (strcmp(this->name, "cntc_calculate") == 0 && ire >= 0 && ire < most_limited && !is_limited[ire]) limit_elements(ire);
     if (strcmp(this->name, "cntc_setflags") == 0 && ire >= 0 && ire < most_limited && sets_limit(this, values)) is_limited[ire] = 1;
     if (strcmp(this->name, "cntc_finalize") == 0 && ire >= 0 && ire < most_limited) is_limited[ire] = 0;

@@ -1,4 +1,4 @@
-/* Files of influence coefficients (C = 9)
+/* Target: files of influence coefficients (C = 9)
  *
  * The first line of the text chooses the case that uses the file: 0 a shift, 1 steady rolling, 2 wheel on rail; the rest is
  * the file. */

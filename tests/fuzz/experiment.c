@@ -10,7 +10,7 @@
 /* Failures by a wrong text, as src/capi/run.f90 counts them */
 enum { status_input = 11 };
 
-/* "name.suffix:12:3: ", or "name.suffix: " where the file as a whole is meant, at the beginning */
+/* "name.suffix:12:3: ", or "name.suffix: " for the file as a whole, at the beginning */
 static int names_a_place(const char *message)
 {
   const char *colon = strchr(message, ':');
@@ -28,7 +28,7 @@ int run_experiment(int mode, int extra)
   fuzz_tell("status %d: %s", status, message);
   if (status == 1) fuzz_fail("the call is refused: %s", message);
   if (status != 0) fuzz_judge_message(message, "the run fails");
-  if (status == status_input && !names_a_place(message)) fuzz_fail("a complaint about a text without its place: %s", message);
+  if (status == status_input && !names_a_place(message)) fuzz_fail("an error of the text without its position: %s", message);
   if (status == 0 && message[0]) fuzz_fail("success with a message: %s", message);
   if (mode == CONTACT_RUN) fuzz_judge_report("fuzz.out");
   return status;

@@ -1,4 +1,4 @@
-/* Folder, files and judgements that all targets share, see fuzz.h */
+/* Folder, files and checks of all targets, see fuzz.h */
 #define _GNU_SOURCE
 #include "fuzz.h"
 
@@ -19,7 +19,7 @@ int fuzz_slow_count;
 
 static char folder[128], start[PATH_MAX];
 static pid_t owner;
-/* Names of the files that stay */
+/* Names of the files that are kept */
 static char *kept[64];
 static int kept_count;
 
@@ -141,7 +141,7 @@ static double processor_time(void)
   return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
 }
 
-/* A text that took long is lost otherwise: nothing is wrong with its answer */
+/* Keep a slow text, which would not be recorded otherwise, as its result is correct */
 static void keep_slow(const char *text, size_t length, double seconds)
 {
   static char name[PATH_MAX + 100];
@@ -171,12 +171,12 @@ void fuzz_execute(const char *text, size_t length)
 void fuzz_judge_message(const char *message, const char *what)
 {
   const unsigned char *c = (const unsigned char *)message;
-  if (!*c) fuzz_fail("%s, and no message says why", what);
+  if (!*c) fuzz_fail("%s, without a message", what);
   for (; *c; c++)
     if (*c < 32 || *c == 127) fuzz_fail("%s with the control character %d in its message: %s", what, *c, message);
 }
 
-/* Is the word a number that is none? */
+/* Is the word NaN or infinite? */
 static int is_nonsense(const char *word, size_t length)
 {
   static const char *const bad[] = {"nan", "inf", "infinity"};
@@ -186,7 +186,7 @@ static int is_nonsense(const char *word, size_t length)
   return length >= 5 && strspn(word, "*") >= length;
 }
 
-/* A row of the picture of the contact area, in which a star stands for adhesion */
+/* Is this a row of the picture of the contact area, in which stars mark adhesion? */
 static int is_picture(const char *line)
 {
   line += strspn(line, " ");
@@ -202,7 +202,7 @@ void fuzz_judge_report(const char *name)
   static char line[4096];
   FILE *file = fopen(name, "r");
   while (file && fgets(line, sizeof line, file)) {
-    /* messages repeat what the input says */
+    /* messages repeat text of the input */
     if (is_picture(line) || strpbrk(line, "'\"") || strstr(line, "ERROR") || strcasestr(line, "warning")) continue;
     for (const char *word = line; *word;) {
       size_t length = strcspn(word, " \t\r\n,;:=()[]{}");

@@ -1,4 +1,4 @@
-/* What all targets of fuzzing share: a text is given to the library, and what comes back is judged.
+/* Common part of all fuzzing targets: a text is passed to the library, and the results are checked.
  *
  * A target is one C file with fuzz_name, fuzz_begin and fuzz_text. It is linked with replay.c, which repeats a corpus and
  * changes it by a fixed seed, or with guided.c, which lets libFuzzer choose by the branches that were taken. */
@@ -15,25 +15,25 @@ enum { fuzz_longest = 16384 };
 extern const char fuzz_name[];
 /* Called once, in the folder of the target */
 void fuzz_begin(void);
-/* Give one text, null-terminated, to the library; ends in fuzz_fail when what comes back is wrong */
+/* Pass one null-terminated text to the library; calls fuzz_fail if the results are wrong */
 void fuzz_text(const char *text, size_t length);
 
 /* Make an empty folder in memory, go there, copy the profiles of the examples to profiles/ with an eighth of their points */
 void fuzz_enter(void);
 /* Remove all files of that folder that fuzz_keep has not named */
 void fuzz_tidy(void);
-/* Remember all files that are there now */
+/* Mark all present files to be kept */
 void fuzz_keep(void);
 /* One text to the library, and the files that it wrote removed. A text that takes more processor time than fuzz_slow is kept as
- * slow-NAME-HASH in the folder that CONTACT_FUZZ_FOUND names, or else in the working directory, and told: a finding */
+ * slow-NAME-HASH in the folder that CONTACT_FUZZ_FOUND names, or else in the working directory, and reported as a finding */
 void fuzz_execute(const char *text, size_t length);
 /* Processor time from which a text is slow [s], and how many of them there were */
 extern double fuzz_slow;
 extern int fuzz_slow_count;
 
-/* Report what is wrong and end the process by SIGABRT */
+/* Report a finding and end the process by SIGABRT */
 _Noreturn void fuzz_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* What the library answered, on standard error when CONTACT_FUZZ_TELL is set: to see whether texts get far */
+/* Print a message of the library on standard error if CONTACT_FUZZ_TELL is set, which shows how far texts get */
 void fuzz_tell(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Write a file; a failure ends the process */
 void fuzz_write(const char *name, const char *text, size_t length);

@@ -1,7 +1,7 @@
-/* Between libFuzzer and a target: its entry points, and the branches that were taken
+/* Connection of libFuzzer and a target: its entry points, and coverage of branches
  *
  * The rooms are compiled with -fsanitize-coverage=trace-pc: each block of the code calls __sanitizer_cov_trace_pc. Pairs of
- * blocks that follow each other are counted in a table that libFuzzer looks at after each execution. */
+ * consecutive blocks are counted in a table that libFuzzer evaluates after each execution. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,13 +25,13 @@ void __sanitizer_cov_trace_pc(void);
 
 void __sanitizer_cov_trace_pc(void)
 {
-  /* relative to the library, whose place differs from run to run */
+  /* relative to the library, whose address differs from run to run */
   uintptr_t here = ((uintptr_t)__builtin_return_address(0) - (uintptr_t)&contact_run) * 0x9e3779b97f4a7c15u >> 47;
   counters[here ^ before]++;
   before = here >> 1;
 }
 
-/* Told at the end, for the table of doc/validation/robustness.md */
+/* Printed at the end, for the table of doc/validation/robustness.md */
 static void tell_branches(void)
 {
   size_t n = 0;

@@ -1,4 +1,4 @@
-/* Changes of a text that respect what it is made of: numbers, words, lines, groups of lines */
+/* Changes of a text that respect its structure: numbers, words, lines, groups of lines */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "fuzz.h"
 
-/* Take the place of a number */
+/* Replacements of a number */
 static const char *const values[] = {"0", "1", "-1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "0.5", "-0.5", "1e-3", "-1e-3",
   "1e-9", "1e-300", "1e9", "-1e9", "1e20", "1e300", "-1e300", "nan", "inf", "-inf", "180d", "90d", "0.1r", "2147483647",
   "-2147483648", "99999999999", "1d", ".", "1.d0", "1e", "''", "%", "word", "100", "0.28", "82000", "1d-05", "-0", "1e-320"};
@@ -20,7 +20,7 @@ size_t fuzz_random(uint64_t *state, size_t limit)
   return limit ? (size_t)((z ^ (z >> 31)) % limit) : 0;
 }
 
-/* Put a piece of n bytes where removed ones are; returns the new length, the old one when there is no room */
+/* Replace some bytes by a piece of n bytes; returns the new length, or the old one if it does not fit */
 static size_t splice(char *text, size_t length, size_t room, size_t at, size_t removed, const char *piece, size_t n)
 {
   if (at > length) return length;
@@ -75,7 +75,7 @@ static size_t pick_lines(const char *text, size_t length, uint64_t *state, size_
   return last - *first;
 }
 
-/* A number near the one that stands there */
+/* A number near the present one */
 static size_t near_number(const char *word, size_t n, char *piece, size_t size, uint64_t *state)
 {
   static const double factors[] = {-1, 0.1, 0.5, 0.999, 1.001, 2, 10, 1000};

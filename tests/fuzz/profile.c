@@ -1,10 +1,10 @@
 /* Files of profiles
  *
- * The first line of the text tells how the file is to be read, the rest is the file:
+ * The first line of the text has the name and the options of reading, the rest is the file:
  *
  *     rail.prr  KIND MIRRORY MIRRORZ ERRORS METHOD  SCALE SMOOTH MAXOMIT ZIGTHRS KINKHIGH KINKLOW KINKWID
  *
- * The name begins with rail or wheel, and its suffix chooses the format. As many numbers as stand there are given. */
+ * The name begins with rail or wheel, and its suffix chooses the format. Only the numbers of this line are passed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ void fuzz_begin(void)
   fuzz_write("d.txt", wheel, sizeof wheel - 1);
 }
 
-/* All that can be asked of the profile: finite numbers */
+/* All getters of the profile return finite numbers */
 static void ask(void)
 {
   for (int kind = 0; kind <= 1; kind++)

@@ -9,12 +9,12 @@
 
 const char fuzz_name[] = "readable";
 
-/* Lines of the file of totals, as far as they are compared */
+/* Maximum length of the file of totals that is compared */
 enum { longest_line = 20000 };
 
 void fuzz_begin(void) {}
 
-/* Take out the number behind a name, which may differ */
+/* Remove the number after a name, which may differ */
 static void forget(char *line, const char *name)
 {
   char *place = strstr(line, name);
@@ -23,7 +23,7 @@ static void forget(char *line, const char *name)
   memmove(place, place + strcspn(place, ",}"), strlen(place + strcspn(place, ",}")) + 1);
 }
 
-/* The totals of both runs, but for time and line numbers, must be the same bytes */
+/* The totals of both runs must be identical, except for time and line numbers */
 static void compare_totals(const char *first_name, const char *second_name)
 {
   static char first[longest_line], second[longest_line];
@@ -37,7 +37,7 @@ static void compare_totals(const char *first_name, const char *second_name)
     if (!more) break;
     forget(first, "\"line\":"), forget(first, "\"seconds\":");
     forget(second, "\"line\":"), forget(second, "\"seconds\":");
-    /* the clock ended this case in one of both */
+    /* this case ran out of time in one of both */
     if (strstr(first, "limit") || strstr(second, "limit")) break;
     if (strcmp(first, second) != 0) fuzz_fail("the other format has other results:\n%s%s", first, second);
   }
@@ -51,7 +51,7 @@ void fuzz_text(const char *text, size_t length)
   int status, needed = 0;
   fuzz_write("fuzz.toml", text, length);
   status = contact_explain_experiment("fuzz.toml", words, sizeof words, &needed);
-  if (status != 0 && !words[0]) fuzz_fail("no words say why nothing is explained");
+  if (status != 0 && !words[0]) fuzz_fail("no message about the missing explanation");
   /* the other format has no word for the order, which is therefore the same in both */
   status = run_experiment(CONTACT_RUN, CONTACT_SECOND_ORDER);
   if (status != 0) return;
@@ -64,8 +64,8 @@ void fuzz_text(const char *text, size_t length)
   }
   if (rename("fuzz.jsonl", "first.jsonl") != 0 || remove("fuzz.toml") != 0) fuzz_fail("the run left no totals");
   status = run_experiment(CONTACT_RUN, CONTACT_SECOND_ORDER);
-  /* the clock may end one of two equal runs */
+  /* one of two equal runs may run out of time */
   if (status == status_time) return;
-  if (status != 0) fuzz_fail("what runs in one format fails in the other");
+  if (status != 0) fuzz_fail("a case runs in one format and fails in the other");
   compare_totals("first.jsonl", "fuzz.jsonl");
 }

@@ -1,11 +1,11 @@
-/* A target without libFuzzer: repeats its corpus, then texts of it that are changed by a fixed seed
+/* A target without libFuzzer: repeats its corpus, then texts of it with random changes by a fixed seed
  *
  *   fuzz_NAME ROUNDS SEED PATIENCE FILE...     files or folders; PATIENCE: seconds of processor time that one text may take
  *                                              (and twenty times as many by the clock, if it waits)
  *
  * A text that takes more than a tenth of that is kept, and the exit status is 1: times CONTACT_SLOWER, where that is set.
  *
- * The text at hand is written to the file fuzz_NAME.found in the working directory when something is wrong with it. */
+ * The current text is written to the file fuzz_NAME.found in the working directory if it is a finding. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <limits.h>
@@ -23,7 +23,7 @@ enum { max_texts = 20000 };
 static struct { char *text; size_t length; } texts[max_texts];
 static int count;
 
-/* The text at hand, and where it goes */
+/* The current text, and the file of a finding */
 static char at_hand[fuzz_longest + 1], found[PATH_MAX];
 static size_t at_hand_length;
 

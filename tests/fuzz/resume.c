@@ -1,17 +1,17 @@
-/* What --resume reads of a run that was ended: its journal, what its results end with, the HDF5 file, the input
+/* Target: the data that --resume reads of an interrupted run: journal, end of the results, HDF5 file, input
  *
- * A run of four cases is ended in front of the last one. The text changes what it has left, and the run goes on. The text has
- * sections; the line in front of each tells what is changed:
+ * A run of four cases is ended before the last one. The text changes its files, and the run is resumed. The text has
+ * sections; the line before each names the file that is changed:
  *
  *   @words         words of the journal: number of line, number of word, new word; the line gets its hash
  *   @unfinished    the whole journal, each line gets its hash
- *   @journal       the same, with the hashes that stand there
+ *   @journal       the same, with the given hashes
  *   @out @jsonl @pvd @inp     the whole of this file
  *   @cut           name of one of these and h5, and its new length, -n for n bytes less
- *   @h5            bytes of the HDF5 file: place, value; a negative place counts from the end
+ *   @h5            bytes of the HDF5 file: position, value; negative positions count from the end
  *
- * A run that says that it is complete must have the report of an uninterrupted run, unless journal or report were changed on
- * purpose. */
+ * A run that is marked as complete must have the report of an uninterrupted run, unless journal or report were changed
+ * intentionally. */
 #include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
@@ -33,12 +33,12 @@ static const char next_case[] = "3 MODULE\n001120\n0101001\n00111201\n9.1954 -0.
 
 enum { file_count = 6 };
 static const char *const suffixes[file_count] = {"inp", "unfinished", "out", "jsonl", "pvd", "h5"};
-/* What the ended run has left, in the order of the suffixes */
+/* Files of the interrupted run, in the order of the suffixes */
 static struct { char *bytes; size_t length; } left[file_count], now[file_count];
 /* The report of an uninterrupted run without its times */
 static char *whole_report;
 
-/* A file of the run; NULL when it is not there */
+/* A file of the run; NULL if it does not exist */
 static char *read_file(const char *suffix, size_t *length)
 {
   char name[40], *bytes;
@@ -89,9 +89,9 @@ void fuzz_begin(void)
       char broken[2100];
       snprintf(broken, sizeof broken, "%snonsense\n", input);
       fuzz_write("fuzz.inp", broken, strlen(broken));
-      if (fuzz_run(0, message, sizeof message) == 0) fuzz_fail("the run was to end in front of its last case");
+      if (fuzz_run(0, message, sizeof message) == 0) fuzz_fail("the run should end before its last case");
       for (int i = 1; i < file_count; i++)
-        if (!(left[i].bytes = read_file(suffixes[i], &left[i].length))) fuzz_fail("an ended run has left no .%s", suffixes[i]);
+        if (!(left[i].bytes = read_file(suffixes[i], &left[i].length))) fuzz_fail("an interrupted run has no .%s", suffixes[i]);
       fuzz_tidy();
     }
     n += snprintf(input + n, sizeof input - (size_t)n, next_case, k + 2);
@@ -124,7 +124,7 @@ static void replace(int k, char *bytes, size_t length)
   now[k].length = length;
 }
 
-/* Begin of a word of a line, and its length; 0 when the line has not so many */
+/* Begin of a word of a line, and its length; 0 if the line has fewer words */
 static size_t find_word(const char *line, size_t length, int number, const char **word)
 {
   size_t k = 0;
@@ -141,7 +141,7 @@ static size_t find_word(const char *line, size_t length, int number, const char 
   }
 }
 
-/* The journal with a hash for each line behind the first, and with one word of one line replaced; line 0 for none */
+/* The journal with a hash for each line after the first, and with one word of one line replaced; line 0 for none */
 static void seal(const char *journal, size_t size, int drop_old, int line_number, int word_number, const char *new_word)
 {
   char *made = malloc(2*size + 100000);
@@ -171,14 +171,14 @@ static int find_file(const char *name, size_t length)
   return -1;
 }
 
-/* Place in a file, from its begin or its end */
+/* Position in a file, from its begin or its end */
 static size_t place_of(long place, size_t length)
 {
   if (place < 0) place += (long)length;
   return place < 0 ? 0 : (size_t)place < length ? (size_t)place : length;
 }
 
-/* What one section does; whether the report can no longer be judged */
+/* Apply one section; returns whether the report can no longer be checked */
 static int change(const char *name, size_t name_length, const char *body, const char *end)
 {
   const char *line;
@@ -254,7 +254,7 @@ void fuzz_text(const char *text, size_t length)
   if (status == 0 && (!found || strcmp(found, whole_report) != 0)) {
     size_t k = found ? strspn(found, "") : 0;
     while (found && found[k] && found[k] == whole_report[k]) k++;
-    fuzz_fail("the report is another one behind byte %zu: %.300s", k, found ? found + k : "there is none");
+    fuzz_fail("the report differs after byte %zu: %.300s", k, found ? found + k : "there is none");
   }
   free(found);
 }

@@ -1,4 +1,4 @@
-!> For resume.c: a run as the program makes it, with and without --resume, and the hash of a line of its journal
+!> For resume.c: a run as by the program, with and without --resume, and the hash of a line of its journal
 module contact_fuzz_resume_entry
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_loc, c_long
    use contact_base_error, only : error_type, full_text
@@ -15,7 +15,7 @@ contains
 
    !> Run the experiment fuzz with all files, under limits that keep a case within milliseconds; 0, or 1 with a message
    integer(c_int) function fuzz_run(resume, message, length) bind(c)
-      !> Not 0: go on with the run that left its files
+      !> Not 0: continue the interrupted run
       integer(c_int), value :: resume
       !> Buffer and its size
       integer(c_int), value :: length

@@ -6,9 +6,9 @@
 #   --sanitize    with the sanitizers (preset fuzz), a tenth of the speed; else with checks of bounds (preset fuzz-fast)
 #   --minimise    no fuzzing; keep the smallest set of texts that takes the same branches
 #
-# May be stopped and started again at any time: texts that take new branches are kept in build/fuzzing/NAME, what was found
-# goes to build/fuzzing/found (slow-... are texts that take more than 2 s of processor time), and the sum of all runs stands
-# in build/fuzzing/statistics. The exit status is 1 when something was found. A text is repeated by build/fuzz/tests/fuzz_NAME FILE, with CONTACT_SOURCE set to the top of the sources.
+# May be stopped and started again at any time: texts that take new branches are kept in build/fuzzing/NAME, findings
+# are in build/fuzzing/found (slow-... are texts that take more than 2 s of processor time), and the sum of all runs is
+# in build/fuzzing/statistics. The exit status is 1 if there are findings. A text is repeated by build/fuzz/tests/fuzz_NAME FILE, with CONTACT_SOURCE set to the top of the sources.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"
@@ -46,10 +46,10 @@ trap 'exit 130' INT TERM
 cp "$top/tests/fuzz/words.dict" "$work/words.dict"
 sed -n 's/^\(\(cntc\|subs\)_[a-z0-9_]*\)(.*/"\1"/p' "$top/src/capi/interface.txt" >>"$work/words.dict"
 
-# How many slow texts of a target were kept
+# Number of slow texts of a target
 slow_of() { find "$work/found" -name "slow-$1-*" | wc -l; }
 
-# How many files a folder has
+# Number of files in a folder
 files_of() { find "$1" -type f | wc -l; }
 
 # A number of the last run, by its name

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A text that takes more processor time than allowed is kept and told: slow.sh TARGET TEXT
+# A text that takes more processor time than allowed is kept and reported: slow.sh TARGET TEXT
 set -u
 rm -f slow-*
 # no time at all is allowed

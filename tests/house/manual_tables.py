@@ -18,7 +18,7 @@ import sys
 
 TOP = pathlib.Path(os.environ.get("CONTACT_SOURCE", pathlib.Path(__file__).resolve().parents[2]))
 START, END = "<!-- keys: made by tests/house/manual_tables.py --write -->", "<!-- end of keys -->"
-# told by the lists themselves
+# lengths are given by the lists themselves
 LENGTHS = {"NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT", "PROFILE", "CZZ"}
 RENAMED = {"Y,ALPHA": "inclinations", "XL,XH,YL,YH": "rectangles"}
 FILES = {"rail_profile", "wheel_profile", "influence"}
@@ -42,21 +42,21 @@ def procedures(name):
 
 
 def words_of(text):
-    """Sources have names in capitals, and IPOTCN; here keys count"""
+    """Convert names in capitals and IPOTCN of the sources to keys"""
     text = text.replace("IPOTCN = -4", 'form = "hertz_line_curvature"')
     table = bounds()
     return re.sub(r"\b[A-Z][A-Z0-9_]+\b", lambda m: m.group(0).lower() if row_of(m.group(0), table) else m.group(0), text)
 
 
 def in_digits(text):
-    """Sources name choices, motion = "none"; input.md has digits, T = 0"""
+    """Convert named choices of the sources, motion = "none", to the digits of input.md, T = 0"""
     keys = {".".join(part for part in row[2:4] if part): row[0] for row in rows("control/words.f90", "key_row")}
     digits = {(row[0], row[6]): row[1] for row in rows("control/digits.f90", "digit_row") if len(row) > 6}
 
-    def told(match):
+    def with_digits(match):
         name = keys.get(match[1])
         return f"{name} = " + re.sub(r'"(\w+)"', lambda word: digits[name, word[1]], match[2])
-    return re.sub(r'([a-z_.]+) = ("\w+"(?:(?:, | or )"\w+")*)', told, text)
+    return re.sub(r'([a-z_.]+) = ("\w+"(?:(?:, | or )"\w+")*)', with_digits, text)
 
 
 def bounds():
@@ -71,7 +71,7 @@ def row_of(name, table):
 
 
 def names_of(body, parts, seen=frozenset(), prefix=""):
-    """Names of the numbers that a piece of a description visits; of NAME // "1" the NAME is handed over by the caller"""
+    """Names of the numbers that a piece of a description visits; of NAME // "1" the NAME is passed by the caller"""
     out = []
     for match in re.finditer(r'\bname // "(\d)"|(?<!// )"([A-Z][A-Z0-9_,|]*)"|call (visit_\w+)(?:\(a, "([A-Z]+)")?', body):
         if match[1]:
@@ -79,7 +79,7 @@ def names_of(body, parts, seen=frozenset(), prefix=""):
         elif match[2]:
             out.append(match[2])
         elif match[3] in parts and match[3] not in seen:
-            # several callers may hand over other names
+            # several callers may pass different names
             out += names_of(parts[match[3]], parts, seen if match[4] else seen | {match[3]}, match[4] or "")
     return out
 
@@ -125,11 +125,11 @@ def digit_rows(modules):
 
 
 def with_rows(page, start, new):
-    """A page with other rows in place of those that begin with some words and stand together"""
+    """A page with consecutive rows that begin with some words replaced by other rows"""
     lines = page.split("\n")
     found = [k for k, line in enumerate(lines) if re.match(start, line)]
     assert found, f"no row {start} in the manual"
-    assert found == list(range(found[0], found[-1] + 1)), f"rows {start} of the manual stand apart"
+    assert found == list(range(found[0], found[-1] + 1)), f"rows {start} of the manual are not consecutive"
     return "\n".join(lines[:found[0]] + list(new) + lines[found[-1] + 1:])
 
 
@@ -225,11 +225,11 @@ def input_page(page):
 
 
 def wheel_rail_page(page):
-    """Its digits are made; every number of its own groups has to stand in one of its tables, or be named in the list of groups"""
-    told = set(re.findall(r"[A-Z][A-Z0-9_]+", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
+    """Its digits are generated; every number of its groups must be in one of its tables, or be named in the list of groups"""
+    explained = set(re.findall(r"[A-Z][A-Z0-9_]+", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
     of_pair = ("search", "track", "deviations", "springs", "wheel_dimensions", "position", "velocity", "flexibility")
-    wanted = {part for name, names in groups().items() if name in of_pair for whole in names for part in whole.split("|")}
-    assert not wanted - told, f"doc/user/wheel_rail.md does not explain {wanted - told}"
+    required = {part for name, names in groups().items() if name in of_pair for whole in names for part in whole.split("|")}
+    assert not required - explained, f"doc/user/wheel_rail.md does not explain {required - explained}"
     return page_of_digits(page, ("both", "module_1"))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""doc/user/python_reference.md is what the docstrings of the package contact say
+"""doc/user/python_reference.md agrees with the docstrings of the package contact
 
 Usage: python_page.py [--write]. Public names are those of __all__ in contact, contact.study and contact.table, and the functions of
 contact.wear and contact.cntc. Only the sources are read. Without --write the page is compared with what it should be.
@@ -29,7 +29,7 @@ SECTION = re.compile(r"^(Parameters|Returns|Raises|Attributes|Yields|Notes|Warns
 
 
 def public(path):
-    """The names in __all__ of a module, or nothing"""
+    """The names in __all__ of a module, none without it"""
     for node in ast.parse(path.read_text()).body:
         if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "__all__":
             return ast.literal_eval(node.value)
@@ -37,14 +37,14 @@ def public(path):
 
 
 def words(text):
-    """A docstring's words in Markdown: names as code, powers and arrows as they are"""
+    """Text of a docstring in Markdown: names as code, powers and arrows unchanged"""
     parts = re.sub(r":\w+:`~?([^`]*)`", r"``\1``", text).split("``")
     plain = [part.replace("*", "\\*").replace("<", "&lt;") for part in parts[::2]]
     return "".join(f"{one}`{other}`" for one, other in zip(plain, parts[1::2])) + (plain[-1] if len(parts) % 2 else "")
 
 
 def entries(text):
-    """The entries of a section: names, and what is said of them"""
+    """The entries of a section: names with their descriptions"""
     if not re.search(r"^ ", text, re.MULTILINE):
         return words(text).strip() + "\n"
     lines = ""
@@ -56,7 +56,7 @@ def entries(text):
     return lines.strip("\n") + "\n"
 
 
-def told(node):
+def docstring_text(node):
     """The docstring of a class or function in Markdown"""
     parts = SECTION.split(inspect.cleandoc(ast.get_docstring(node, clean=False) or ""))
     text = words(parts[0]).strip() + "\n"
@@ -67,7 +67,7 @@ def told(node):
 
 
 def call(node, name, method):
-    """How a function is called"""
+    """Signature of a function"""
     arguments = ast.unparse(node.args)
     if method:
         arguments = re.sub(r"^self(: \w+)?(, )?", "", arguments)
@@ -81,7 +81,7 @@ def is_property(node):
 def a_function(node, level, method=False, owner=""):
     title = node.name if is_property(node) else f"{node.name}()"
     kind = "" if is_property(node) else f"```python\n{call(node, owner + node.name, method)}\n```\n\n"
-    return f"{'#' * level} {owner}{title}\n\n{kind}{told(node)}\n"
+    return f"{'#' * level} {owner}{title}\n\n{kind}{docstring_text(node)}\n"
 
 
 def a_class(node):
@@ -90,7 +90,7 @@ def a_class(node):
     if start and not node.name.startswith("_"):
         text += f"```python\n{call(start, node.name, True)}\n```\n\n"
     bases = [ast.unparse(base) for base in node.bases if ast.unparse(base) in BASES]
-    text += told(node) + "\n" + "".join(f"It has what `{base}` has, too.\n\n" for base in bases)
+    text += docstring_text(node) + "\n" + "".join(f"It has what `{base}` has, too.\n\n" for base in bases)
     seen = set()
     for item in node.body:
         shown = isinstance(item, ast.FunctionDef) and not item.name.startswith("_") and ast.get_docstring(item)
@@ -110,7 +110,7 @@ def sources(part):
     return sorted(folder.glob("_[a-z]*.py")) if folder.is_dir() else [PACKAGE / f"{part}.py"]
 
 
-def wanted(part):
+def required_names(part):
     """The names of a part that are public; of a module of functions all that do not begin with _"""
     if (PACKAGE / part).is_dir():
         return public(PACKAGE / part / "__init__.py")
@@ -126,7 +126,7 @@ def page():
                 for node in ast.parse(path.read_text()).body:
                     if not isinstance(node, (ast.ClassDef, ast.FunctionDef)) or node.name.startswith("_"):
                         continue
-                    names = wanted(part)
+                    names = required_names(part)
                     if not ast.get_docstring(node) or (names is not None and node.name not in names):
                         continue
                     text += a_class(node) if isinstance(node, ast.ClassDef) else a_function(node, 3)

@@ -76,9 +76,9 @@ def tables():
 
     return ("Totals of a contact patch:\n\n" + head + rows(totals("patch/result.f90", "totals"))
             + "\nand in module 1\n\n" + head + rows(totals("wheelrail/result.f90", "patch_totals"))
-            + "\nand where wear and fatigue are asked for, by the table `wear`\n\n" + head
+            + "\nand if wear and fatigue are requested, by the table `wear`\n\n" + head
             + rows(totals("patch/result.f90", "add_wear"))
-            + "\nand with points below the surface, where wear and fatigue or estimated errors are asked for\n\n" + head
+            + "\nand with points below the surface, if wear and fatigue or estimated errors are requested\n\n" + head
             + rows(totals("patch/result.f90", "add_stresses"))
             + "\nTotals of wheel and rail:\n\n" + head + rows(totals("wheelrail/result.f90", "wheel_rail_totals"))
             + "\nElement fields; the number is that of `cntc_getfielddata`, CNTC_fld_NAME:\n\n"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every page of the manual is in the site, and every link of the site leads to a file and a place of it
+"""Every page of the manual is in the site, and every link of the site leads to an existing file and anchor
 
 Usage: site_links.py SITE DOC
 """
@@ -10,7 +10,7 @@ import urllib.parse
 
 
 class Page(html.parser.HTMLParser):
-    """Links of a page, and the names of its places"""
+    """Links of a page, and its anchors"""
 
     def __init__(self, path):
         super().__init__()
@@ -26,7 +26,7 @@ class Page(html.parser.HTMLParser):
 
 
 def target_of(link, page):
-    """File and place that a link leads to; None for addresses elsewhere"""
+    """File and anchor of a link; None for external addresses"""
     parts = urllib.parse.urlsplit(link)
     if parts.scheme or parts.netloc:
         return None
@@ -35,7 +35,7 @@ def target_of(link, page):
 
 
 def main():
-    """Tells links that lead to nothing, and pages that are not there"""
+    """Report broken links and missing pages"""
     site, doc = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
     pages = {path: Page(path) for path in site.rglob("*.html")}
     wrong = [f"{source.relative_to(doc)} has no page in the site" for source in doc.rglob("*.md")

@@ -5,7 +5,7 @@ Usage: test_additions.py [--build FOLDER]
 
 Each addition follows the recipe of its name in doc/develop/recipes.md. The test fails when
 
-- a line beside which something is to stand is no longer there: the recipe is out of date,
+- a line at which text is to be inserted no longer exists: the recipe is out of date,
 - the files that were changed are not those of the numbered steps of the recipe, or are more than the addition allows,
 - an existing thing of the same kind is named in a file that the recipe does not know: then the next one has to be named
   there, too.
@@ -32,7 +32,7 @@ SOURCES = ("src/**/*.f90", "python/**/*.py", "matlab/**/*.m")
 
 
 def additions():
-    """The modules of the folder additions, see the first one for what they hold"""
+    """The modules of the folder additions; their contents are described in the first one"""
     for file in sorted((HERE / "additions").glob("*.py")):
         spec = importlib.util.spec_from_file_location(file.stem, file)
         module = importlib.util.module_from_spec(spec)
@@ -83,19 +83,19 @@ def judge(module, top, recipes):
     changed = {file for file, *_ in module.EDITS}
     lines = sum(len(text.strip("\n").splitlines()) for *_, text in module.EDITS)
     print(f"{module.RECIPE}: {len(changed)} files, {len(module.EDITS)} places, {lines} lines")
-    if len(changed) > module.MOST_FILES:
-        complaints.append(f"{len(changed)} files are changed, {module.MOST_FILES} are allowed")
-    if len(module.EDITS) > module.MOST_PLACES:
-        complaints.append(f"{len(module.EDITS)} places are changed, {module.MOST_PLACES} are allowed")
+    if len(changed) > module.MAX_FILES:
+        complaints.append(f"{len(changed)} files are changed, {module.MAX_FILES} are allowed")
+    if len(module.EDITS) > module.MAX_PLACES:
+        complaints.append(f"{len(module.EDITS)} places are changed, {module.MAX_PLACES} are allowed")
     steps = steps_of(module.RECIPE, recipes)
     if steps is None:
         complaints.append("doc/develop/recipes.md has no such recipe")
     elif steps != changed:
-        complaints.append(f"the recipe does not tell {sorted(changed - steps)} and tells {sorted(steps - changed)} in vain")
+        complaints.append(f"the recipe lacks {sorted(changed - steps)} and has superfluous steps for {sorted(steps - changed)}")
     if not named:
-        complaints.append(f"nothing of the kind is named anywhere: {module.SIBLING!r}")
+        complaints.append(f"no existing item is named anywhere: {module.SIBLING!r}")
     for file in sorted(named - changed - set(module.KNOWING)):
-        complaints.append(f"{file} names an existing one, {module.SIBLING!r}; the recipe does not know this place")
+        complaints.append(f"{file} names an existing item, {module.SIBLING!r}, but is missing in the recipe")
     for file in sorted(set(module.KNOWING) - named):
         complaints.append(f"{file} names none any more, leave it out of KNOWING")
     return [f"{module.RECIPE}: {text}" for text in complaints]
@@ -111,7 +111,7 @@ def build(top, folder):
 
 
 def judge_itself():
-    """Steps are read from recipes, and what is missing or too much is found"""
+    """Test of this script: steps are read from recipes, missing and superfluous ones are found"""
     text = "# Recipes\n\n## A thing\n\n1. `src/a.f90`: it.\n2. `src/b.f90`, a row.\n\n`src/c.f90` may.\n\n## Another\n\n1. `x`.\n"
     assert steps_of("A thing", text) == {"src/a.f90", "src/b.f90"}
     assert steps_of("No thing", text) is None
@@ -122,7 +122,7 @@ def judge_itself():
             (top / f"src/{name}.f90").write_text("one\n! thing\ntwo thing\n")
 
         class Thing:
-            RECIPE, SIBLING, KNOWING, MOST_FILES, MOST_PLACES = "A thing", r"\bthing\b", (), 1, 1
+            RECIPE, SIBLING, KNOWING, MAX_FILES, MAX_PLACES = "A thing", r"\bthing\b", (), 1, 1
             EDITS = (("src/a.f90", "behind", "one", "new\n"), ("src/a.f90", "before", "three", "new\n"))
         found = judge(Thing, top, text)
         assert len(found) == 4, found
@@ -131,7 +131,7 @@ def judge_itself():
 
 
 def main():
-    """Plant all, and build them together where that is asked for"""
+    """Apply all additions, and build them together if requested"""
     parser = argparse.ArgumentParser()
     parser.add_argument("--build", default=os.environ.get("CONTACT_BUILD_ADDITIONS"))
     folder = parser.parse_args().build

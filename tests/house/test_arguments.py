@@ -25,7 +25,7 @@ EMPTY = {"a", "an", "the", "of", "this", "that", "its", "it", "value", "values",
 
 
 def statements(lines):
-    """Number, text and comment of each statement, continued lines joined, in small letters as they stand"""
+    """Number, text and comment of each statement, continued lines joined, in lower case"""
     text, comment, number = "", [], 0
     found = []
     for count, raw in enumerate(lines, 1):
@@ -77,7 +77,7 @@ def names_of(entities):
 
 
 class Source:
-    """What one module has: procedures with their arguments, types with their bindings, what is public"""
+    """Contents of a module: procedures with their arguments, types with their bindings, public names"""
 
     def __init__(self, lines):
         #: name -> list of (argument, number of the line, declaration, comment), in the order of the declarations
@@ -90,7 +90,7 @@ class Source:
         self.read(statements(lines))
 
     def read(self, found):
-        """Walk through the statements of a file"""
+        """Parse the statements of a file"""
         stack, block, kind, bound = [], None, None, False
         for number, text, comment in found:
             low = text.lower()
@@ -164,13 +164,13 @@ def first_of(kind, binding, types):
 
 
 def echoes(comment, name, declaration):
-    """Does a comment say no more than the name and the type?"""
+    """Does a comment only repeat the name and the type?"""
     said = set(re.findall(r"[a-z0-9]+", comment.lower()))
     return not said - EMPTY - set(re.findall(r"[a-z0-9]+", (name + " " + declaration.split("::")[0]).replace("_", " ")))
 
 
 def is_household(declaration, name, household):
-    """Is this an argument that means the same everywhere?"""
+    """Is this an argument of the glossary, with the same meaning everywhere?"""
     kind = KIND.match(declaration)
     return kind is not None and (name, kind[1]) in household
 
@@ -269,7 +269,7 @@ end module planted
 
 
 def judge_itself():
-    """What is planted is found, and nothing else"""
+    """Test of this script: exactly the planted offences are found"""
     found = [what[2:] for what in offences({"planted": Source(PLANTED.splitlines())})]
     assert found == [("first_of_two", "w"), ("seen", "b"), ("shown", "number"), ("shown", "size_of_it")], found
     routine = ["subroutine cntc_x(log, a)", "type(log_type), intent(in) :: log", "real, intent(in) :: a", "end subroutine"]
@@ -294,7 +294,7 @@ def main():
         print(f"FAILED doc/develop/glossary.md: src has no type {kind}")
     for key, number, name, dummy in offences(sources, household, routines):
         bad += 1
-        print(f"FAILED src/{key}:{number}: {name}: what is {dummy}? A comment above its declaration says it: shape, unit, sign")
+        print(f"FAILED src/{key}:{number}: {name}: {dummy} needs a comment above its declaration: meaning, shape, unit, sign")
     print(f"{len(files)} files, {bad} failures")
     return 1 if bad or len(files) < 100 else 0
 

@@ -2,7 +2,7 @@
 """Numbers that tune a method have a name, with a comment that gives their origin.
 
 In the rooms of the physics no executable line holds a real number of its own: whole numbers up to 100 and simple fractions
-are coefficients of formulas, 180 and 1000 units. A parameter that has a value of its own stands below or beside a comment.
+are coefficients of formulas, 180 and 1000 units. A parameter with such a value has a comment above or beside it.
 """
 import os
 import pathlib
@@ -24,7 +24,7 @@ def is_tuning(number):
 
 
 def offences(lines):
-    """Number and text of each executable line with a number of its own"""
+    """Number and text of each executable line with an unnamed number"""
     declares = continued = False
     for count, line in enumerate(lines, 1):
         code = re.sub(r'"[^"]*"', '""', line).split("!")[0]
@@ -36,7 +36,7 @@ def offences(lines):
 
 
 def judge_itself():
-    """What is planted is found, and nothing else"""
+    """Test of this script: exactly the planted offences are found"""
     planted = ["   real(wp), parameter :: few = 0.3_wp, &", "      & many = 1.0e5_wp", "   x = 0.5_wp*y + 2.0_wp ! 0.3_wp",
                "   x = 0.3_wp*y", "   if (x > 1.0e-3_wp &", "      & .and. y < 7.25_wp) return",
                '   text = "0.3_wp"', "   allocate(x(3), source=0.7_wp)"]
@@ -52,7 +52,7 @@ def main():
     for file in files:
         for number, line in offences(file.read_text(encoding="utf-8").splitlines()):
             bad += 1
-            print(f"FAILED {file.relative_to(top)}:{number}: {line}\n  give the number a name, and say where it comes from")
+            print(f"FAILED {file.relative_to(top)}:{number}: {line}\n  give the number a name and a comment with its origin")
     print(f"{len(files)} files, {bad} numbers without a name")
     return 1 if bad or len(files) < 100 else 0
 

@@ -32,9 +32,9 @@ def different_extras():
 
 def main():
     """Compares words of the help with those of the files"""
-    told = subprocess.run([os.environ["CONTACT_PROGRAM"], "--help"], capture_output=True, text=True, check=True).stdout
+    help_text = subprocess.run([os.environ["CONTACT_PROGRAM"], "--help"], capture_output=True, text=True, check=True).stdout
     version = subprocess.run([os.environ["CONTACT_PROGRAM"], "--version"], capture_output=True, text=True, check=True).stdout
-    options = set(re.findall(r"--[a-z][a-z0-9-]+", told))
+    options = set(re.findall(r"--[a-z][a-z0-9-]+", help_text))
     assert len(options) > 10, "options of the help"
     bad = []
     page = subprocess.run([sys.executable, str(FOLDER / "man.py"), os.environ["CONTACT_PROGRAM"]], capture_output=True, text=True,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Files of src have at most 500 lines and procedures at most 100, or a reason at their head.
 
-The reason is a line of the comment that opens the file, or stands above the procedure: `!> Long because ...`.
+The reason is a line of the comment at the beginning of the file, or above the procedure: `!> Long because ...`.
 What is still too long without one is listed in OPEN; the list may only become shorter.
 """
 import os
@@ -10,7 +10,7 @@ import re
 import sys
 
 #: Lines of a file and of a procedure at most
-MOST_OF_FILE, MOST_OF_PROCEDURE = 500, 100
+MAX_FILE_LINES, MAX_PROCEDURE_LINES = 500, 100
 #: File, procedure ("" for the whole file): to be split, or to be given a reason
 OPEN: set[tuple[str, str]] = set()
 #: Head of a procedure: attributes, type of the result, name
@@ -29,16 +29,16 @@ def comment_above(lines, number):
 
 
 def too_long(lines):
-    """Name and number of lines of what is too long without a reason; the name of the whole file is empty"""
+    """Name and number of lines of everything that is too long without a reason; the name of the whole file is empty"""
     first = next((n for n, line in enumerate(lines) if not line.startswith("!")), 0)
-    if len(lines) > MOST_OF_FILE and not comment_above(lines, first):
+    if len(lines) > MAX_FILE_LINES and not comment_above(lines, first):
         yield "", len(lines)
     opened = []
     for number, line in enumerate(lines):
         head = HEAD.match(line.split("!")[0])
         if END.match(line):
             name, start = opened.pop()
-            if number - start + 1 > MOST_OF_PROCEDURE and not comment_above(lines, start):
+            if number - start + 1 > MAX_PROCEDURE_LINES and not comment_above(lines, start):
                 yield name, number - start + 1
         elif head:
             opened.append((head[2], number))
@@ -46,14 +46,14 @@ def too_long(lines):
 
 
 def judge_itself():
-    """What is planted is found, and nothing else"""
-    body = ["   x = 1"]*(MOST_OF_PROCEDURE - 1)
+    """Test of this script: exactly the planted offences are found"""
+    body = ["   x = 1"]*(MAX_PROCEDURE_LINES - 1)
     long = ["   pure real(wp) function f(x)", *body, "   end function f"]
-    assert list(too_long(long)) == [("f", MOST_OF_PROCEDURE + 1)]
+    assert list(too_long(long)) == [("f", MAX_PROCEDURE_LINES + 1)]
     assert not list(too_long([long[0], *body[1:], long[-1]]))
     assert not list(too_long(["   !> Value", "   " + REASON + "it is a table", *long]))
-    assert list(too_long(["!> A file", "module m"] + ["x"]*MOST_OF_FILE)) == [("", MOST_OF_FILE + 2)]
-    assert not list(too_long(["!> A file", REASON + "it is a table", "module m"] + ["x"]*MOST_OF_FILE))
+    assert list(too_long(["!> A file", "module m"] + ["x"]*MAX_FILE_LINES)) == [("", MAX_FILE_LINES + 2)]
+    assert not list(too_long(["!> A file", REASON + "it is a table", "module m"] + ["x"]*MAX_FILE_LINES))
 
 
 def main():
@@ -67,13 +67,13 @@ def main():
     for (file, name), count in found.items():
         if (file, name) not in OPEN:
             bad += 1
-            limit = f"procedure {name} has {count} lines, more than {MOST_OF_PROCEDURE}"
+            limit = f"procedure {name} has {count} lines, more than {MAX_PROCEDURE_LINES}"
             if not name:
-                limit = f"{count} lines, more than {MOST_OF_FILE}"
-            print(f"FAILED {file}: {limit}: split it by matter, or say why not: {REASON}...")
+                limit = f"{count} lines, more than {MAX_FILE_LINES}"
+            print(f"FAILED {file}: {limit}: split it by subject, or give a reason: {REASON}...")
     for file, name in sorted(OPEN - set(found)):
         bad += 1
-        print(f"FAILED {file} {name}: no longer too long, leave it out of OPEN")
+        print(f"FAILED {file} {name}: no longer too long, remove it from OPEN")
     print(f"{len(files)} files, {len(found)} still too long, {bad} failures")
     return 1 if bad or len(files) < 100 else 0
 

@@ -5,36 +5,36 @@ import pathlib
 import re
 import sys
 
-# All that may stand in the top folder, beside names with a dot; build is made
+# Allowed names in the top folder, besides names that begin with a dot; build is generated
 TOP = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "build", "doc", "examples", "include", "matlab", "python",
        "src", "tests"}
 # A format in quotes: after the unit of write or read, or given to a variable
 FORMAT = re.compile(r"""(?:\b(?:write|read)\s*\(\s*[\w%*]+\s*,\s*|\bform\w*(?:\([^)]*\))?\s*=\s*\[?)(['"])(\(.*?)\1""")
 
 
-# Rooms that know control digits; all others know named choices
+# Rooms that use control digits; all others use named choices
 DOORS = {"control", "input", "output", "capi"}
 DIGIT = re.compile(r"\bcase_digits\b|\bdigits\s*%|\bcontact_control_(?:digits|translation)\b")
-# A message that names a digit: a capital letter with a figure behind an equals sign; names in the code are small
+# A message that names a digit: a capital letter with a digit after an equals sign; names in the code are in lower case
 TOLD_DIGIT = re.compile(r"""\b(?:[A-Z]|C1|M2) ?= ?\d|\b[A-Z]-digit""")
 # A message that names choices: motion = ""none"" or ""shift""
 TOLD_CHOICE = re.compile(r"""([a-z_.]+) = (""\w+""(?:(?:, | or )""\w+"")*)""")
-# A choice means what is done, never "what the previous case did"
+# A choice says what is done, never "as in the previous case"
 KEEP = re.compile(r"::.*\bkeep\s*=\s*\d")
 # A named choice compared with its number, and a digit compared with the choice of the same name
 CHOICE = re.compile(r"\bspec%(force|motion|normal|pressure|kernel|material_model|solver|variation|link|estimate) ?"
                     r"(==|/=|[<>]=?) ?\d")
 MIXED = re.compile(r"\bdigits%\w+ ?(==|/=) ?(motion|normal_control|force_control|variation|kernel_model|material_model)%")
-# Whoever makes a result reads the specification, and does not change it
+# Procedures that compute a result read the specification and do not change it
 PROCEDURE = re.compile(r"^ *(?:\w+ )*subroutine (\w+)\(.*?^ *end subroutine \1$", re.MULTILINE | re.DOTALL)
 CHANGED_INPUT = re.compile(r"(?:type|class)\((?:\w+_spec|input_case)\), intent\(inout\)")
 MADE_RESULT = re.compile(r"(?:type|class)\(\w+_result\), intent\((?:inout|out)\)")
-# First line of the text of a procedure or constant that begins in the middle of a sentence
+# First line of a comment that begins in the middle of a sentence
 CUT_OFF = re.compile(r"   !> [a-z]{3,}(?:$|,| [a-z])")
 
 
 def written_back(text):
-    """Names of procedures that may put what they compute into the specification"""
+    """Names of procedures that may store computed data in the specification"""
     for match in PROCEDURE.finditer(text):
         own = match[0].split("\n   contains\n")[0]
         if CHANGED_INPUT.search(own) and MADE_RESULT.search(own):
@@ -55,7 +55,7 @@ def offences(lines, room="base"):
         if CHOICE.search(line):
             yield number, line.strip(), "choices have names: spec%motion /= motion%none"
         if MIXED.search(line):
-            yield number, line.strip(), "a digit is not a choice: problem%motion() tells which one it asks for"
+            yield number, line.strip(), "a digit is not a choice: problem%motion() returns the choice"
         for match in FORMAT.finditer(line):
             descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
             if re.search("[a-z]", descriptors):
@@ -84,10 +84,10 @@ def main():
     digits = ["   if (spec%digits%c >= 2) return", "      integer :: none = 0, keep = 1", "   keep = 1"]
     assert [line[0] for line in offences(digits, "base")] == [1, 2], "digits and kept values in choices"
     assert [line[0] for line in offences(digits, "input")] == [], "digits of the reader"
-    told = ['   call fatal_error(error, "conformal contact (C = 4) needs")', '   text = "the solver of the G-digit"',
+    lines = ['   call fatal_error(error, "conformal contact (C = 4) needs")', '   text = "the solver of the G-digit"',
             '   ! C = 4', '   text = "GG = 4, DX = 1 and motion = ""shift"""', '   call say("P=2 with I=0")']
-    assert [line[0] for line in offences(told, "patch")] == [1, 2, 5], "digits in messages"
-    assert not list(offences(told, "input")), "digits in messages of the reader"
+    assert [line[0] for line in offences(lines, "patch")] == [1, 2, 5], "digits in messages"
+    assert not list(offences(lines, "input")), "digits in messages of the reader"
     mixed = ["   if (spec%motion > 0) return", "   if (digits%t == motion%shift) return", "   if (spec%force /= force_control%a)"]
     assert [line[0] for line in offences(mixed, "capi")] == [1, 2], "numbers of choices"
     made = ("   pure subroutine a(spec, result)\n      type(case_spec), intent({}) :: spec\n"
@@ -104,7 +104,7 @@ def main():
     left_out = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
     bad = len(left_out)
     if left_out:
-        print(f"FAILED {top} holds {left_out[:10]}: left by a test that ran there, or in the wrong place")
+        print(f"FAILED {top} holds {left_out[:10]}: left by a test that ran there, or misplaced")
     for file in files:
         if file.parent.name in DOORS:
             continue

@@ -14,7 +14,7 @@ command -v octave-cli >/dev/null 2>&1 || skip "there is no octave (Debian: apt-g
 
 here=$(cd "$(dirname "$0")" && pwd)
 run="addpath('$here/support', '${CONTACT_SOURCE}/matlab'); run_test('$script')"
-# Octave 7 tells of an exception while it closes its graphics; the exit status is not touched
+# Octave 7 reports an exception while it closes its graphics; the exit status is not affected
 if [ "$mode" = text ]; then
   exec octave-cli --quiet --norc --eval "$run"
 fi

@@ -1,4 +1,4 @@
-% Damaged files of results: the right numbers, or one sentence that names the file, and an end in any case
+% Damaged files of results: correct numbers, or one sentence that names the file; never an endless loop
 
 rand('twister', 16);
 run_example('cattaneo');
@@ -10,7 +10,7 @@ kinds = {'cattaneo.0002.mat', @() loadcase('damaged', 2); ...
          'subsurface.0001.subs', @() loadstrs('damaged', 1); ...
          'cattaneo.out', @() parse_out3('damaged'); ...
          'wheel_on_rail.out', @() parse_out1('damaged')};
-said = 0;   total = 0;
+reported = 0;   total = 0;
 for k = 1 : size(kinds,1)
    f = fopen(kinds{k,1}, 'r');
    whole = fread(f, Inf, 'uint8')';
@@ -41,15 +41,15 @@ for k = 1 : size(kinds,1)
       try
          result = kinds{k,2}();
       catch reason
-         said = said + 1;
+         reported = reported + 1;
          check(~isempty(strfind(reason.message, 'damaged')) && isempty(strfind(reason.message, char(10))), ...
-               sprintf('%s, damage %d at %d, is told as: %s', kinds{k,1}, mod(i,5), at, reason.message));
+               sprintf('%s, damage %d at %d, is reported as: %s', kinds{k,1}, mod(i,5), at, reason.message));
       end
    end
    delete(target);
 end
-fprintf('%d damaged files, %d were told\n', total, said);
-check(said>25, 'damage is told');
+fprintf('%d damaged files, %d were reported\n', total, reported);
+check(reported>25, 'damage is reported');
 
 % --- the HDF5 file, whose checksums let no changed digit pass
 run_input('sheet', fileread('wheel_on_rail.inp'), '--hdf5', 'profiles/60E1.prr', 'profiles/S1002.prw');
@@ -57,10 +57,10 @@ f = fopen('sheet.h5', 'r');
 whole = fread(f, Inf, 'uint8')';
 fclose(f);
 good = loadcase('sheet.h5', 2);
-% entries of the trees that tell where the pieces of an array are: byte 5 is the kind, 6 the level
+% entries of the index of the chunks of arrays: byte 5 is the kind, 6 the level
 trees = strfind(char(whole), 'TREE');
 trees = trees(whole(trees+4)==1 & whole(trees+5)==0);
-wrong = 0;   told = 0;
+wrong = 0;   reported = 0;
 for i = 1 : 40
    bytes = whole;
    at = ceil(rand*numel(bytes));
@@ -86,21 +86,21 @@ for i = 1 : 40
          printf('damage %d at %d: other values\n', mod(i,4), at);
       end
    catch reason
-      told = told + 1;
+      reported = reported + 1;
       check(~isempty(strfind(reason.message, 'damaged')) && isempty(strfind(reason.message, char(10))), ...
-            sprintf('damage %d at %d is told as: %s', mod(i,4), at, reason.message));
+            sprintf('damage %d at %d is reported as: %s', mod(i,4), at, reason.message));
    end
 end
 delete('damaged.h5');
-fprintf('40 damaged HDF5 files, %d were told\n', told);
+fprintf('40 damaged HDF5 files, %d were reported\n', reported);
 check(wrong==0, sprintf('%d damaged HDF5 files give other values', wrong));
 
-% --- a run that ended too early
+% --- an interrupted run
 f = fopen('early.inp', 'w');
 text = fileread('cattaneo.inp');
 fprintf(f, '%s', strrep(text, '9.1954  -0.875', '9.1954  word'));
 fclose(f);
 system(sprintf('"%s" --quiet 2 early 2> /dev/null', getenv('CONTACT_PROGRAM')));
 sol = parse_out3('early');
-check(~sol.complete && numel(sol.icase)==1, 'missing cases are told');
+check(~sol.complete && numel(sol.icase)==1, 'missing cases are reported');
 check(getfield(parse_out3('cattaneo'), 'complete'), 'a complete run is complete');

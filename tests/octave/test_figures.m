@@ -1,4 +1,4 @@
-% The figures of examples/figures, drawn from results of the examples as doc/user/plots.md tells
+% The figures of examples/figures, drawn from results of the examples as in doc/user/plots.md
 
 examples = fullfile(getenv('CONTACT_SOURCE'), 'examples', 'figures');
 addpath(examples);

@@ -1,4 +1,4 @@
-% Calls as scripts for other programs of this kind make them: argument lists, outputs, names of fields and options
+% Calls in the style of scripts for other programs: argument lists, outputs, names of fields and options
 
 folder = fullfile(getenv('CONTACT_SOURCE'), 'examples', 'profiles');
 
@@ -33,13 +33,13 @@ check_near(s.fric.fstat, 0.2 + 0.08 + 0.04, 1e-12, 'friction at rest');
 t = loadcase('unlike.h5', 1);
 check_near([t.mater.ga t.mater.si t.mater.ak t.fric.fstat], [s.mater.ga s.mater.si s.mater.ak s.fric.fstat], 1e-6, 'the same in HDF5');
 [b{1:9}] = loadstrs('subsurface', 1);
-check(isstruct(b{1}) && isempty(b{9}), 'more blocks are asked for than there are');
+check(isstruct(b{1}) && isempty(b{9}), 'more blocks are requested than exist');
 
 % --- one patch by its number
 check_same_struct(loadcase('cattaneo', 2, 1), loadcase('cattaneo', 2), 0, 'patch 1 of basic contact');
 lastwarn('');
 s = loadcase('cattaneo', 2, 2);
-check(isempty(s) && ~isempty(strfind(lastwarn(), 'has 1 contact patch')), 'a patch that is not there is []');
+check(isempty(s) && ~isempty(strfind(lastwarn(), 'has 1 contact patch')), 'a missing patch is []');
 check_error(@() loadcase('cattaneo', 99, 2), 'there are no results of case 99');
 
 % --- fields by names with dots
@@ -90,7 +90,7 @@ write_simpack([y z], 'ours.prr', 'a comment');
 check(isequal(fileread('ours.prr'), fileread('habit.prr')), 'the same in our order');
 q = read_profile('habit.prr', [], -1, -1, 1, 1, 0, 0, 0);
 check_near(q.ProfileY, y, 1e-9, 'read_profile with 9 arguments');
-% modify_profile with the arguments of established scripts; whatever is not asked for stays
+% modify_profile with the arguments of established scripts; everything else is unchanged
 wheel = read_profile(fullfile(folder,'S1002.prw'));
 p = modify_profile(wheel, 1, 0, 0, 1, 20, 0);
 check_near(interp1(p.ProfileY, p.ProfileZ, 20), 0, 1e-12, 'y_tape: the height is measured from there');
@@ -106,7 +106,7 @@ p = modify_profile(fold, 0, 0, 0, 1, [], 0, 0.5);
 check_near(p.ProfileY, fold.ProfileY([1:5 7:10]), 0, 'point_dist_min');
 p = modify_profile(fold, 0, 0, 0, 1, [], 0, [], 1);
 check_near(p.Mask, [1 0 1 1 1 1 1 1 0 1]', 0, 'delete_foldback = 1 marks where y turns back or stands');
-check(numel(p.ProfileY)==10, 'and keeps all points');
+check(numel(p.ProfileY)==10, 'and all points are kept');
 p = modify_profile(fold, 0, 1, 0, 1, [], 1, [], 2);
 check_near([p.ProfileY p.ProfileAngle], [-flipud(fold.ProfileY([1 3:8 10])) -flipud([1 3:8 10]')], 0, 'delete_foldback = 2 leaves them out');
 check_error(@() modify_profile(wheel, 1, 0, 0, 1, 500, 0), 'no profile at y_tape');
@@ -142,7 +142,7 @@ check(p.FlangeBackPos==-70 && p.FlangeBackDist==1360, 'flange back');
 check_near(p.ProfileY, [-70; -50; 0; 50], 1e-9, 'the tread datum is the origin');
 check_error(@() read_vampire('habit.prr'), 'WHEELPROFILE');
 
-% --- smoothing: a parabola stays, its noise goes, waves of length l_filt are halved
+% --- smoothing: a parabola is preserved, noise is removed, waves of length l_filt are halved
 x = (0:0.5:100)';
 spl = make_spline(x, sin(x/10), [], 0);
 d = 0.25;
@@ -190,7 +190,7 @@ check(numel(wide.s)==21 && numel(wide.cy)==numel(wide.tj)-4, 'ds_bspl: knots');
 check_near(yy, sin(x/10), 2e-4, 'a curve of few knots');
 cubic = x.^2/50 - x;
 third = make_spline(x, cubic + 0.1*wave, [], 1e9, [], [], [], 0, [], 3);
-check(max(abs(diff(third.y, 3))) < 1e-6 && max(abs(third.y - cubic)) < 0.05, 'use_deriv = 3: a parabola stays');
+check(max(abs(diff(third.y, 3))) < 1e-6 && max(abs(third.y - cubic)) < 0.05, 'use_deriv = 3: a parabola is preserved');
 jump = max(0, x-50).^2/100;
 free = make_spline(x, jump, [], 10, [], [], 101, 0, [], 3);
 tied = make_spline(x, jump, [], 10, [], [], [], 0, [], 3);
@@ -246,7 +246,7 @@ check(isequaln([sol.cp_pos.xtr sol.cp_pos.ytr sol.cp_pos.ztr sol.cp_pos.yr sol.c
                [sol.cp_pos.xcp_tr sol.cp_pos.ycp_tr sol.cp_pos.zcp_tr sol.cp_pos.ycp_r sol.cp_pos.zcp_r sol.cp_pos.xcp_w ...
                 sol.cp_pos.ycp_w sol.cp_pos.zcp_w]), 'xtr ... zw');
 
-% --- surfaces of splines: polynomials of third order come back, as do their derivatives
+% --- surfaces of splines: polynomials of third order and their derivatives are reproduced
 u = [0 1 2.5 4 6 7]';
 v = linspace(-1, 2, 9);
 [uu, vv] = ndgrid(u, v);
@@ -260,7 +260,7 @@ place = eval_2dspline(s, [0.5 3], [], [1.3 -1]);
 check_near(place, ([1.3 -1]-0.2*[0.5 3])/3, 1e-9, 'v of given y');
 place = eval_2dspline(s, [0.5 3], [], [1.3 -1 2]);
 check_near(place, (ones(2,1)*[1.3 -1 2]-0.2*[0.5;3]*ones(1,3))/3, 1e-9, 'the same, all with all');
-check(isnan(eval_2dspline(s, 3, [], 99)), 'no v has it');
+check(isnan(eval_2dspline(s, 3, [], 99)), 'no v for it');
 [dx, dy, dz] = eval_2dspline_deriv(s, 3, 0.4, 1);
 check_near([dx dy dz], [1 0.2 2*3*0.4-0.3*9], 1e-10, 'derivatives to u');
 [dx, dy, dz] = eval_2dspline_deriv(s, 3, 0.4, 2);
@@ -272,7 +272,7 @@ t = make_2dspline((0:5)', v, ones(6,1)*v, ((0:5)==2)'*ones(1,9));
 [~, ~, ~, z] = eval_2dspline(t, [1 2 3 4], 0.2*[1 1 1 1]);
 check_near(z, [1 4 1 0]/6, 1e-12, 'control points: one sixth, four sixths');
 [~, ~, ~, z] = eval_2dspline(t, 9, 0.2);
-check(isnan(z), 'beside the surface');
+check(isnan(z), 'outside of the surface');
 % mirrored light: a plane, and a cylinder whose normal turns
 plane = make_2dspline(u, v, uu, vv, 0*uu, [], 0);
 [x, y, z, theta] = make_reflec(plane, [0 0 1], [0 90], u, v);
@@ -285,7 +285,7 @@ tube = make_2dspline(u, angles, u*ones(1,60), ones(6,1)*sin(angles), ones(6,1)*c
 [~, ~, ~, theta] = make_reflec(tube, [0 0 1], [0 0 1], 3, angles);
 check_near(theta, 2*angles*180/pi, 1e-3, 'twice the angle of the normal');
 check_error(@() make_2dspline(u(1:3), v, vv(1:3,:), vv(1:3,:)), '4 values');
-% points that are missing, by a mask and by NaN: the surface ends where they begin, and is the same polynomial up to there
+% missing points, by a mask and by NaN: the surface ends at them, and is the same polynomial up to there
 height = @(a, b) 1 + a.^2.*b - 0.1*a.^2 + b.^3;
 mask = ones(6,9);
 mask(1:3,7:9) = 0;
@@ -309,7 +309,7 @@ for s = {make_2dspline(u, v, 3*vv+0.2*uu, height(uu,vv), mask, 0), make_2dspline
 end
 place = eval_2dspline(s{1}, [1 1 5], [], 3*[0.5 1.5 1.5]+0.2*[1 1 5]);
 check_near(place([1 3]), [0.5 1.5], 1e-9, 'v of given y');
-check(isnan(place(2)), 'where points are missing no v has it');
+check(isnan(place(2)), 'no v where points are missing');
 t = make_2dspline((0:5)', v, ones(6,1)*v, 2*(0:5)'*ones(1,9) + ones(6,1)*v.^3, mask);
 [~, ~, ~, z] = eval_2dspline(t, [0.5 3.5 4.7], [0.5 1.5 0.1]);
 check_near(z, 2*[0.5 3.5 4.7] + [0.5 1.5 0.1].^3, 1e-11, 'control points go on in a line');

@@ -1,4 +1,4 @@
-% Pictures by the options and helpers of other scripts
+% Plots by the options and helper functions of other scripts
 
 folder = fullfile(getenv('CONTACT_SOURCE'), 'examples', 'profiles');
 run_example('manchester', 'profiles/60E1.prr', 'profiles/S1002.prw');
@@ -105,7 +105,7 @@ plot3d(s, opt, prr, prw);
 h = findobj(gca, 'marker','o');
 check_near([get(h(1), 'xdata') get(h(1), 'ydata')], [out.cp_pos.yr(1) out.cp_pos.zr(1)], 2e-3, 'rail coordinates by our name');
 
-% what is not there is left out
+% missing parts are omitted
 opt = plot3d;
 opt.rw_surfc = 'both';
 lastwarn('');
@@ -152,12 +152,12 @@ check_near(get(h, 'zdata'), side, 1e-9*max(side(:)), 'side view');
 check_near(get(h, 'xdata')(:,1), out.cp_pos.xtr(1) + b.x, 5e-3, 'its places');
 opt.typplot = 'surf';
 plot3d(s, opt, prr, prw, b);
-check(~isempty(strfind(lastwarn(), 'rear and side view only')), 'other views tell that they do not show stresses');
+check(~isempty(strfind(lastwarn(), 'rear and side view only')), 'other views warn that they do not show stresses');
 opt.typplot = 'rw_rear';
 check_error(@() plot3d(s, opt, prr, prw, [b b]), '2 blocks of stresses are given for 1 patches');
 check_error(@() plot3d(s, opt, prr, prw, struct('x',0)), 'a block of loadstrs');
 
-% names, letters, axes, and a struct put together by hand
+% names, letters, axes, and a struct made by the script
 hand = rmfield(s, {'x','y','x_offset','y_offset','kincns'});
 opt = plot3d;
 opt.field    = 'srel_vec';
@@ -168,7 +168,7 @@ hand.kincns  = struct('t_digit',3, 'veloc',1);
 figure(8);   subplot(1,2,1);   plot(1:2);   subplot(1,2,2);   plot(1:2);
 opt.addplot  = -1;
 plot3d(hand, opt);
-check(numel(findobj(gcf, 'type','axes'))>=2 && ~isempty(findobj(gca, 'color',[0 0 1])), 'one of two axes is drawn anew');
+check(numel(findobj(gcf, 'type','axes'))>=2 && ~isempty(findobj(gca, 'color',[0 0 1])), 'one of two axes is redrawn');
 check_near(hand.xl + hand.dx/2, s.x(1), 1e-12, 'the grid of a struct without x');
 
 % letters for yes and no, empty options
@@ -184,7 +184,7 @@ plot3d(hand, opt);
 [az, el] = view();
 check(az==-37.5 && el==30, 'an empty view is the default');
 
-% a profile and what was worn off
+% a profile and its wear
 worn = prr;
 worn.ProfileZ = prr.ProfileZ + 1e-3*(abs(prr.ProfileY)<20);
 figure(9);   [most, l, n] = plot_update(prr, worn, 500, 10);
@@ -201,7 +201,7 @@ before = numel(get(gca, 'children'));
 check(numel(get(gca, 'children'))>before && least<=most+1e-12, 'show_angl, add_plot, force_spline');
 z = get(l(3), 'ydata');
 width = max(worn.ProfileY) - min(worn.ProfileY);
-check(max(abs(z(:)-prr.ProfileZ))<=0.1*width && max(abs(z(:)-prr.ProfileZ))>0.03*width, 'a magnification that fits');
+check(max(abs(z(:)-prr.ProfileZ))<=0.1*width && max(abs(z(:)-prr.ProfileZ))>0.03*width, 'a suitable magnification');
 
 % a flat: pressures in rail coordinates and the outline of another case over them, from which scripts delete the lines of slip
 run_example('cattaneo');
@@ -218,7 +218,7 @@ check(numel(c)==5 && isequal(get(c(1),'color'), opt.eldivcol(1,:)) && isequal(ge
       'two lines each around contact and slip, the last ones around contact');
 delete(c(3:4));
 check(numel(get(gca, 'children'))==3 && ~isempty(findobj(gca, 'type','surface')), 'lines of slip deleted');
-% what was drawn before stays in sight: another case, all patches of one
+% earlier plots stay visible: another case, all patches of one
 half = slips.dx/2;
 ends = [slips.x(1)-half slips.x(end)+half slips.y(1)-half slips.y(end)+half];   % without offsets
 other = slips;   other.x_offset = 6;

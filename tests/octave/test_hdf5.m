@@ -23,7 +23,7 @@ names = {'cattaneo','carter2d','bentall','simplified','layer_element','layer_tra
          'falling_friction','sliding_temperature','groove','wheel_on_rail','conformal_wheel'};
 for k = 1 : numel(names)
    txt = fileread(fullfile(getenv('CONTACT_SOURCE'), 'examples', [names{k} '.inp']));
-   % A-digit: H G I A O W R, in a line of its own behind the other digits
+   % A-digit: H G I A O W R, in a separate line after the other digits
    [txt, n] = with_all_elements(txt);
    run_input(names{k}, txt, '--hdf5', 'profiles/60E1.prr', 'profiles/S1002.prw');
    ncase = 0;
@@ -53,7 +53,7 @@ for icase = 1 : 2
    check(numel(loadcase('sides', icase))==2, 'two patches');
    check_same_struct(loadcase('sides.h5', icase, 2), loadcase('sides', icase, 2), 6, 'second patch');
    [a, b, c] = loadcase('sides.h5', icase, -1);
-   check(a.meta.ipatch==1 && b.meta.ipatch==2 && isempty(c), 'patches in structs of their own');
+   check(a.meta.ipatch==1 && b.meta.ipatch==2 && isempty(c), 'patches in separate structs');
    for ipatch = 1 : 2
       [a1, a2] = loadstrs('sides', icase, ipatch);
       [b1, b2] = loadstrs('sides.h5', icase, ipatch);
@@ -62,7 +62,7 @@ for icase = 1 : 2
    end
 end
 
-% the left side is the mirror image of the right one; points lie where they were asked for
+% the left side is the mirror image of the right one; points are at the requested positions
 for ipatch = 1 : 2
    [~, r] = loadstrs('sides.h5', 1, ipatch);
    [~, l] = loadstrs('sides.h5', 2, ipatch);
@@ -82,11 +82,11 @@ s = loadcase('elements_re002', 1);
 delete('elements_re002.0001.mat');
 check_same_struct(loadcase('elements_re002', 1), s, 6, 'result element without .mat file');
 
-% --- without .mat and .subs files the HDF5 file is taken; hints when nothing is there
+% --- without .mat and .subs files the HDF5 file is used; hints if there are no results
 delete('cattaneo.0002.mat');
-check(loadcase('cattaneo', 2).mx==19, 'HDF5 file in place of a .mat file');
+check(loadcase('cattaneo', 2).mx==19, 'HDF5 file instead of a .mat file');
 delete('sides.0001a.subs');
-check(loadstrs('sides', 1).npoints==24, 'HDF5 file in place of a .subs file');
+check(loadstrs('sides', 1).npoints==24, 'HDF5 file instead of a .subs file');
 d = diffcase(loadcase('cattaneo',2), loadcase('cattaneo.h5',2));
 check(all(d.pn(:)==0), 'difference of cases of an HDF5 file');
 check_error(@() loadcase('cattaneo.h5', 99), 'there are no results of case 99');

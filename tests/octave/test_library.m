@@ -80,7 +80,7 @@ check(tx<0 && ty<0, 'forces oppose creepages');
 eldiv = cntc_getelementdivision(2, 1);
 [carea, harea, sarea, parea] = cntc_getcontactpatchareas(2, 1);
 check_near(area*[sum(eldiv(:)>0) sum(eldiv(:)==1) sum(eldiv(:)==2)], [carea harea sarea], 1e-9, 'areas');
-check(abs(parea)<1e-9, 'nothing is plastic');
+check(abs(parea)<1e-9, 'no plasticity');
 check_near(cntc_getmaximumpressure(2,1), max(pn(:)), 1e-9*max(pn(:)), 'largest pressure');
 check_near(cntc_getmaximumtraction(2,1), max(hypot(px(:),py(:))), 1e-9*max(pn(:)), 'largest traction');
 check_near(cntc_getfielddata(2, 1, CNTC.fld_py), py, 0, 'field by code');
@@ -177,7 +177,7 @@ check_error(@() cntc_settrackdimensions_old(4, 1, [14 0 1435 0.025 0]), 'ztrack 
 cntc_finalize(4);
 check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no complaint of older names: ' lastwarn()]);
 
-% --- what goes wrong is told
+% --- errors are reported
 check_error(@() cntc_getpenetration(2, -1), 'icp must be the number');
 check_error(@() cntc_setflags(2, 1, [1 2], 1), '2 params and 1 values');
 check_error(@() cntc_setextrarigidslip(2, 3, 1:3, 1), 'wx has 3 values');
@@ -187,14 +187,14 @@ check_error(@() cntc_getparameters(2, 1, 7), 'itask must be');
 cntc_initialize(3, 1);
 lastwarn('');
 check(cntc_calculate(3)==CNTC.err_profil, 'no profile');
-check(~isempty(strfind(lastwarn(), 'cntc_calculate: error -32')), 'the reason is told');
+check(~isempty(strfind(lastwarn(), 'cntc_calculate: error -32')), 'the reason is reported');
 lastwarn('');
 cntc_setmaterialparameters(2, 1, 0, [0.28 0.28]);
-check(~isempty(strfind(lastwarn(), 'cntc_setmaterialparameters')), 'too few values are told');
+check(~isempty(strfind(lastwarn(), 'cntc_setmaterialparameters')), 'too few values are reported');
 lastwarn('');
 cntc_calculate(3, [], 0);
 check(isempty(lastwarn()), 'silent with idebug = 0');
-check(cntc_readinpfile(3, CNTC.inp_modul1, 'nosuch.inp')==CNTC.err_input, 'a file that is not there');
+check(cntc_readinpfile(3, CNTC.inp_modul1, 'nosuch.inp')==CNTC.err_input, 'a missing file');
 cntc_finalize(2);
 cntc_finalize(3);
 check(cntc_managelicense()==0, 'no licence');

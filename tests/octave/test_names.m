@@ -1,4 +1,4 @@
-% Functions with their numbers of arguments, options, fields and constants that published_names.txt lists
+% Functions and their numbers of arguments, options, fields and constants agree with published_names.txt
 
 source_folder = getenv('CONTACT_SOURCE');
 run_example('cattaneo');

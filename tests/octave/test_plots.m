@@ -1,4 +1,4 @@
-% Each kind of plot is drawn without a screen to a PNG file; what must be in the picture is checked in its objects
+% Each kind of plot is drawn to a PNG file without a screen; its contents are checked by the graphics objects
 
 1;
 function snap( name )
@@ -40,7 +40,7 @@ check(count('line')==6, 'two columns with both bounds');
 snap('plot2d_columns');
 check(~isempty(findobj(gcf, 'tag','legend')), 'a legend of the columns');
 plot2d(s, setfield(opt,'xslc',0));
-check(isempty(findobj(gcf, 'tag','legend')), 'which the next picture has not');
+check(isempty(findobj(gcf, 'tag','legend')), 'which the next plot does not have');
 check_error(@() plot2d(s, setfield(opt,'orie',3)), 'orie');
 check_error(@() plot2d([s s]), 'one contact patch');
 
@@ -95,7 +95,7 @@ snap('plot3d_one_row');
 opt.field = 'pn';   opt.typplot = 'contourf';   opt.view = 'rail';
 plot3d(w, opt);
 snap('plot3d_contourf');
-% one value everywhere, and none at all
+% a constant field, and one without values
 even = loadcase('cattaneo', 2);
 even.mu(:) = 0.25;
 opt.field = 'mu';   opt.exterval = [];
@@ -119,7 +119,7 @@ check_near(aspect(2)/aspect(1), 2, 1e-12, 'xstretch');
 subplot(1,2,1);
 opt = plot3d;   opt.addplot = 1;   opt.field = 'pn';
 plot3d(w, opt);
-check(numel(findobj(gcf,'type','axes'))>=2 || numel(findall(gcf,'type','axes'))>=1, 'addplot draws into the axes at hand');
+check(numel(findobj(gcf,'type','axes'))>=2 || numel(findall(gcf,'type','axes'))>=1, 'addplot draws into the current axes');
 clf
 check_error(@() plot3d(w, setfield(plot3d,'field','nosuch')), 'there is no field');
 check_error(@() plot3d(w, setfield(plot3d,'typplot','nosuch')), 'typplot');
@@ -129,14 +129,14 @@ check_error(@() plot3d(w, setfield(plot3d,'typplot','rw_rear')), 'needs rw_surf'
 check_error(@() plot3d(w, setfield(plot3d,'rw_surf','prr')), 'needs the rail profile');
 lastwarn('');
 plot3d(w, setfield(plot3d,'external',NaN));
-check(~isempty(strfind(lastwarn(),'there is no option "external"')), 'a name that is no option is told');
+check(~isempty(strfind(lastwarn(),'there is no option "external"')), 'an unknown option is reported');
 
 % --- on the surfaces of rail and wheel, both sides
 opt = plot3d;   opt.field = 'pn';   opt.rw_surf = 'prr';
 for icase = [4 9]
    w = loadcase('wheel_on_rail', icase);
    plot3d(w, opt, prr);
-   % the patch is the surface with the colours; its places must be on the profile
+   % the patch is the surface with the colours; its points must be on the profile
    h = colors_shown();
    side = 1 - 2*(w.config==0);
    on_rail = interp1(side*prr.ProfileY, prr.ProfileZ, get(h,'ydata')(:));
@@ -152,7 +152,7 @@ plot3d(w, opt, prr, prw);
 check_near(xlim(), [-20 20], 0, 'xrange');
 snap('plot3d_both');
 
-% --- slices that are all the same are the rail itself
+% --- equal slices give the rail itself
 if (exist('slices','dir')~=7)
    mkdir('slices');
 end
@@ -196,8 +196,8 @@ overlap = interp1(yw, zw, y) - zr;
 pen = parse_out1('wheel_on_rail').cp_creep.pen(1,9);
 check(max(overlap)>0.3*pen && max(overlap)<2.5*pen, 'wheel and rail overlap by the approach in the rear view');
 
-% --- places and directions: tractions on the rows as drawn add up to the total forces that the program tells. In a conformal
-%     contact the program's surface lies between rail and wheel and not on the rail, hence one percent
+% --- positions and directions: tractions on the rows as drawn add up to the total forces of the program. In a conformal
+%     contact the reference surface is between rail and wheel and not on the rail, hence one percent
 text = fileread('wheel_on_rail.inp');
 f = fopen('curved.inp', 'w');
 fwrite(f, regexprep(text, '\n 0022033 ', "\n 0042033 "));

@@ -1,4 +1,4 @@
-% Profiles: what the scripts read is what the program works with
+% Profiles: the scripts read the same profiles as the program
 1;
 
 function put( name, lines )
@@ -37,7 +37,7 @@ check(all(diff(rail.ProfileY)>0 | diff(rail.ProfileZ)~=0) && rail.ProfileY(1)<0 
 check(wheel.ProfileY(1)>0 && wheel.ProfileY(end)<0 && max(wheel.ProfileZ)>20, 'wheels begin at the field side, flange down');
 check(rail.ProfileS(1)==0 && all(diff(rail.ProfileS)>0), 'length along the profile');
 
-% the contact reference that the program tells lies on the rail, which has its slope there, and below the wheel
+% the contact reference of the program lies on the rail, which has the contact angle there, and below the wheel
 for icase = [2 7]
    s = loadcase('wheel_on_rail', icase);
    m = s(1).meta;
@@ -108,7 +108,7 @@ check_near([q.ProfileY q.ProfileZ], [-8 1; 2 0; 12 1], 1e-12, 'columns and offse
 put('bad.ban', {'XOffset=2','','1 2','Key=3','2 3'});
 check_error(@() read_profile('bad.ban'), 'keyword stands among the numbers');
 
-% a mirrored rail is one, in metres too, and the order follows from the shape whatever the file says of it
+% a mirrored rail is still a rail, also in metres; the order follows from the shape, independent of the file
 files = {rail, struct('ProfileY',flipud(rail.ProfileY), 'ProfileZ',flipud(rail.ProfileZ))};
 for i = 1 : 2
    write_simpack([files{i}.ProfileY, files{i}.ProfileZ], 'order.prr');
@@ -117,7 +117,7 @@ for i = 1 : 2
       f = fopen('order.prr', 'w');
       fwrite(f, strrep(text, "spline.begin\n", ["spline.begin\n  inversion = " inversion "\n"]));
       fclose(f);
-      check(read_simpack('order.prr').inversion==inversion-'0', 'what the file says');
+      check(read_simpack('order.prr').inversion==inversion-'0', 'as stated in the file');
       q = read_profile('order.prr');
       check_near([q.ProfileY q.ProfileZ], [rail.ProfileY rail.ProfileZ], 1e-6, 'order by the shape');
       q = read_profile('order.prr', [], 1, -1, 1000);
@@ -140,7 +140,7 @@ r = resample_slices(r, 1);
 check(all(isnan(r.vy(1,1:10))) && ~any(isnan(r.vy(3,:))), 'a part that two slices do not have');
 check_near(r.vz(5,end), r.vz(1,end)-0.4, 1e-9, 'the rise');
 check_near(hypot(diff(r.vy(3,1:3)),diff(r.vz(3,1:3))), [1 1]*30/31, 5e-3, 'distance of points');
-% the surface of splines is there where the slices are: a part is missing in front, then behind
+% the surface of splines exists where the slices exist: a part is missing at the beginning, then at the end
 [~, ~, y, z] = eval_2dspline(r, [50; 250], [0.05 0.7]);
 check(isequal(isnan(z), [true false; false false]), 'no surface where two slices lack a part');
 check_near(y(2,1), interp1(linspace(0, 1, size(r.vy,2)), mean(r.vy(3:4,:)), 0.05), 1e-2, 'its points');

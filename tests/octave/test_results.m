@@ -1,4 +1,4 @@
-% Results of the program, and published ones, as the loading scripts give them
+% Results of the program, and published ones, loaded by the scripts
 
 % --- module 3: Cattaneo's problem, elements in contact only
 run_example('cattaneo');
@@ -15,12 +15,12 @@ check_near(out.force.fx_true(2)/(0.4*out.force.fn(2)), -7/8, 1e-3, 'tangential f
 check_near(max(s.pn(:)), out.force.pmax(2), 1e-3, 'largest pressure');
 check(sum(s.eldiv(:)>0)==out.stat.ncon(2) && sum(s.eldiv(:)==1)==out.stat.nadh(2), 'numbers of elements');
 check(all(s.pn(s.eldiv==0)==0) && all(s.trcbnd(s.eldiv==0)==0), 'no traction out of contact');
-check(all(isnan(s.h(s.eldiv==0))), 'what is not in the file is not known');
+check(all(isnan(s.h(s.eldiv==0))), 'values that are not in the file are unknown');
 slip = (s.eldiv==2);
 check_near(hypot(s.px(slip),s.py(slip)), s.trcbnd(slip), 1e-4, 'traction at the bound where it slips');
 check_near(s.h(10,10:12), 0.01*s.x(10:12).^2 + 0.01*s.y(10)^2, 1e-8, 'undeformed distance is a parabola');
 
-% --- how the case ended, for scripts of ours; other readers skip that line
+% --- status of the case, for our scripts; other readers skip that line
 check(strcmp(s.meta.status,'solved') && isempty(s.meta.reason), 'the case is solved');
 plain = load('-ascii', 'cattaneo.0002.mat');
 check(size(plain,2)==11 && isequal(plain(1,end),2410), 'the file loads as a table');
@@ -35,14 +35,14 @@ delete('cattaneo.0099.mat');
 
 % --- differences
 d = diffcase(s, loadcase('cattaneo', 2));
-check(all(d.px(:)==0) && isequal(d.eldiv,s.eldiv), 'a case differs by nothing from itself');
+check(all(d.px(:)==0) && isequal(d.eldiv,s.eldiv), 'a case does not differ from itself');
 t = s;
 t.px = s.px + 1;
 d = diffcase(t, s);
 check_near(d.px, ones(19), 1e-12, 'difference of tractions');
 check_error(@() diffcase(s, rmfield(setfield(s,'mx',18),'h')), 'different sizes');
 for name = {'xl','yl','dx','dy'}
-   % a thousandth of an element over the whole grid is a difference, less is none
+   % grids differ if a position differs by more than a thousandth of an element
    for part = [ 3e-2 1e-5 ]
       t = s;
       t.(name{1}) = s.(name{1}) + part*s.dx/(1 + 18*(name{1}(1)=='d'));
@@ -57,7 +57,7 @@ check_error(@() loadcase('nosuch'), 'there are no results');
 % --- temperatures, all elements, rolling
 run_example('sliding_temperature');
 s = loadcase('sliding_temperature');
-check(isfield(s,'temp1') && s.h_digit==3 && s.kincns.t_digit>=2, 'temperatures are there');
+check(isfield(s,'temp1') && s.h_digit==3 && s.kincns.t_digit>=2, 'temperatures are loaded');
 out = parse_out3('sliding_temperature.out');
 check_near(max(max(s.temp1(:)),max(s.temp2(:))), out.force.temp(1), 0.1, 'largest temperature');
 check_near(s.shft, s.srel*s.kincns.dq, 1e-15, 'slip distance');
@@ -77,10 +77,10 @@ end
 check_near(out.tot_forc.fz_tr, 60000*ones(1,10), 60, 'vertical forces');
 check_near(out.ws_pos.y(2:3), [1.5 3.0], 1e-9, 'lateral positions');
 [s1, s2] = loadcase('wheel_on_rail', 2, -1);
-check(isequal(s1.pn, loadcase('wheel_on_rail', 2, 1).pn) && isempty(s2), 'patches in structs of their own');
+check(isequal(s1.pn, loadcase('wheel_on_rail', 2, 1).pn) && isempty(s2), 'patches in separate structs');
 check(numel(parse_out3('wheel_on_rail').force.fn)==10 && all(isnan(parse_out3('wheel_on_rail').force.fn)), ...
       'parse_out3 leaves module 1 cases alone');
-check(all(isnan(parse_out1('cattaneo').config)), 'parse_out1 leaves module 3 cases alone');
+check(all(isnan(parse_out1('cattaneo').config)), 'parse_out1 ignores cases of module 3');
 
 % --- stresses below the surface
 run_example('subsurface');
@@ -129,9 +129,9 @@ if (exist(fullfile(reference,'subsurf.ref_subs'),'file')==2)
    mises = sqrt(((b2.sigma1-b2.sigma2).^2+(b2.sigma2-b2.sigma3).^2+(b2.sigma3-b2.sigma1).^2)/2);
    check_near(mises(:), b2.sigvm(:), 2e-5, 'principal stresses of subsurf');
    d = diffstrs(b2, b2);
-   check(all(d.sigvm(:)==0) && all(d.uz(:)==0), 'a block differs by nothing from itself');
+   check(all(d.sigvm(:)==0) && all(d.uz(:)==0), 'a block does not differ from itself');
    check_error(@() diffstrs(b1, b2), 'points');
-   check(isempty(nthargout(3, @loadstrs, 'subsurf', 1)), 'a block that is not there is empty');
+   check(isempty(nthargout(3, @loadstrs, 'subsurf', 1)), 'a missing block is empty');
    files = [glob(fullfile(reference,'*.ref_out')); glob(fullfile(reference,'..','testbank','*','*.ref_out'))];
    check(numel(files)>=40, 'published outputs');
    for i = 1 : numel(files)

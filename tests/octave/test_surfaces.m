@@ -1,4 +1,4 @@
-% Places and directions on a profile that is an arc, whatever order its points are in: against the circle itself
+% Positions and directions on a circular profile, independent of the order of its points: against the circle itself
 
 addpath(fullfile(fileparts(which('plot3d')), 'private'));
 radius = 13;
@@ -28,7 +28,7 @@ for order = [1 -1]
          check_near(y, 100+radius*sin(at), 1e-3, [name 'y']);
          check_near(z,   5-radius*cos(at), 1e-3, [name 'z']);
       end
-      % beyond the ends there is no profile
+      % no profile beyond the ends
       [y, z] = points_on_surface(c, [-12 0 12]);
       check(isequal(isnan(y), [true false true]) && isequal(isnan(z), isnan(y)), 'NaN beyond the ends');
    end
@@ -51,7 +51,7 @@ c = struct('py', radius*sin(angle)', 'pz', -radius*cos(angle)', 'delta', -0.9, .
 check_near(y,  radius*sin(-0.9+[-3 3]/radius), 1e-3, 'y on a long arc');
 check_near(z, -radius*cos(-0.9+[-3 3]/radius), 1e-3, 'z on a long arc');
 
-% A surface of revolution: a ball of 460 mm, its axis above (wheel) and below (roller), and what does not turn
+% A surface of revolution: a ball of 460 mm, its axis above (wheel) and below (roller), and a surface that does not rotate
 x = -470:47:470;
 for radius = [460 -460]
    z = revolve(-3, x, radius);

@@ -1,4 +1,4 @@
-"""Faults that a slip of the hand could have made: which of them a source has room for.
+"""Mutations of a source that imitate typical mistakes: which of them are possible.
 
 A fault is one line of a source written differently. Only executable statements are touched; texts of messages and
 comments are not.
@@ -8,7 +8,7 @@ import re
 
 Fault = collections.namedtuple("Fault", "file line kind old new")
 
-# Ends of words that are taken for one another
+# Endings of names that are easily confused
 PAIRS = [("fx", "fy"), ("cksi", "ceta"), ("px", "py"), ("sx", "sy"), ("ux", "uy"), ("wx", "wy"), ("mx", "my"), ("nx", "ny"),
          ("dx", "dy"), ("first", "last"), ("lower", "upper"), ("left", "right"), ("wheel", "rail"), ("x", "y"), ("fn", "fx"),
          ("gg", "nu"), ("roll", "yaw"), ("xl", "yl"), ("row", "column"), ("line", "column")]
@@ -118,7 +118,7 @@ def arguments(code):
 
 
 def top_level(code, start, signs):
-    """Places of these signs outside brackets, after a value"""
+    """Positions of these signs outside brackets, after a value"""
     depth, found = 0, []
     for k in range(start, len(code)):
         c = code[k]
@@ -140,7 +140,7 @@ def variants(code, whole, language):
             yield "sign", [(m.start(1), m.end(1), "-" if m[1] == "+" else "+")]
     for m in places(r"[=(,\[*/<>]\s*(-)(?=[a-z(])", code):
         yield "sign", [(m.start(1), m.end(1), "")]
-    # factor: turned over, or left out
+    # factor: inverted, or omitted
     for m in places(r"(?<=[\w)\]])\s?(\.?[*/])\s?(?=[\w(])", code):
         if code[m.start(1) - 1] not in "*/." and code[m.end(1)] not in "*/=":
             yield "factor", [(m.start(1), m.end(1), m[1].replace("*", "#").replace("/", "*").replace("#", "/"))]
@@ -197,7 +197,7 @@ def variants(code, whole, language):
         for a, b in ((one, two), (two, one)):
             for m in places(r"(?<![\w.])%s(?![\w.])" % re.escape(a), code, 0):
                 yield "constant", [(m.start(), m.end(), b)]
-    # what a whole statement does
+    # effects of a whole statement
     if whole:
         if re.match(r"\s*[a-z_][\w%.]*(?:\([^=]*\))?\s*(?:=(?![=>])|\+=)", code, re.IGNORECASE) and (
             fortran or not re.match(r"\s*\w+\s*=", code)
@@ -241,7 +241,7 @@ def variants(code, whole, language):
 
 
 def split_top(code, start, end=None):
-    """Spans of what commas part, from start to the closing bracket or the end of the line"""
+    """Spans between commas, from start to the closing bracket or the end of the line"""
     depth, begin, parts = 0, start, []
     for k in range(start, len(code)):
         c = code[k]
@@ -269,7 +269,7 @@ def balanced(text):
 
 
 def faults_of(file, text):
-    """All faults there is room for in a source"""
+    """All possible faults of a source"""
     language = file.rsplit(".", 1)[1]
     lines = text.split("\n")
     for number, code, whole in statements(text, language):
@@ -278,7 +278,7 @@ def faults_of(file, text):
         for kind, edits in variants(code, whole, language):
             new = old
             for a, b, replacement in sorted(edits, reverse=True):
-                # the code has no texts: what is kept comes from the line itself
+                # texts are masked in the code: unchanged parts come from the line itself
                 new = new[:a] + replacement.replace("KEEP", old[a + 1:b - 1] if language == "f90" else old[a:b]) + new[b:]
             if new != old and new not in seen and "~" not in "".join(edit[2] for edit in edits).replace(" ~(KEEP)", ""):
                 seen.add(new)

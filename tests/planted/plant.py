@@ -45,26 +45,26 @@ TOP = HERE.parent.parent
 ROOMS = {"input": 24, "control": 12, "capi": 30, "output": 22, "hdf5": 10, "experiment": 12, "cases": 20, "cli": 6, "python": 10,
          "matlab": 10, "base": 4, "text": 6, "fft": 2, "numeric": 4, "profile": 8, "grid": 3, "elastic": 7, "normal": 6,
          "friction": 3, "temperature": 2, "subsurface": 5, "tangential": 8, "simplified": 4, "patch": 8, "wheelrail": 14}
-# These look at sources or at pictures, need a static library or the clock, or take long
+# Tests of sources or pictures, and tests that need a static library or the clock, or are slow
 NOT_THESE = re.compile(r"capi_statics|capi_consumer|capi_types|capi_generated|harness|house|performance|make_profiles|planted|"
                        r"octave_figures|force_search|worn_profiles|capi_wheel$|faults_of|fuzz")
-# Scripts are not measured: tests that run them, quickest first
+# Coverage of scripts is not measured: tests that run them, fastest first
 SCRIPTS = {"python": re.compile(r"capi_(?!host)|report_|hdf5_file|campaign|json|doubts"), "matlab": re.compile("octave")}
 # Lines that gcov does not see because the process was ended from outside
 UNSEEN = re.compile("limits|capi_host_traps")
-# What draws, by eye only
+# Drawing, which is judged by eye only
 NOT_THESE_FILES = re.compile(r"private/(draw_|finish_colors|set_colors|is_black|line_options|pick_arrows)|"
                              r"plot|Contents|setup\.py")
 # Tests with other processes, sockets, clocks or threads
 SENSITIVE = re.compile("host|server|threads|limits|command_line|rounds|messages|timers|robust|vtk")
-# Tests that follow many values from one end to the other
+# Tests that compare many values from input to output
 VALUES = re.compile("settings|outputs|linked|published|grids|doubts|capi_python_package")
-LIBRARIES = ["lib/libcontact_all_rooms.so", "lib/libcontact.so", "bin/contact_addon_linux64.so"]  # of links what they lead to
+LIBRARIES = ["lib/libcontact_all_rooms.so", "lib/libcontact.so", "bin/contact_addon_linux64.so"]  # links are followed
 MEMORY = 12 << 30
 
 
 class Store:
-    """The copy of the sources, its build, and what was found"""
+    """The copy of the sources, its build, and the results"""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder).resolve()
@@ -93,7 +93,7 @@ class Store:
 
     # The copy ------------------------------------------------------------------------------------------------------
     def prepare(self, renew, measure):
-        """Copy, build and measure what is not there"""
+        """Copy, build and measure as far as necessary"""
         self.folder.mkdir(parents=True, exist_ok=True)
         if renew or not self.source.exists():
             self.copy_sources()
@@ -106,7 +106,7 @@ class Store:
         self.measure()
 
     def copy_sources(self):
-        """Files under version control as they are committed; newer only where they differ, so that little is compiled"""
+        """Committed files; only changed ones get a new date, so that little is compiled"""
         fresh = self.folder / "fresh"
         shutil.rmtree(fresh, ignore_errors=True)
         fresh.mkdir()
@@ -127,13 +127,13 @@ class Store:
         self.write("commit.json", commit)
 
     def compile(self):
-        """Build program, libraries and tests; keep the libraries as they are without a fault"""
+        """Build program, libraries and tests; keep a copy of the libraries without a fault"""
         configure = ["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, "-DCMAKE_BUILD_TYPE=None",
                      "-DCMAKE_Fortran_FLAGS=-O1",
                      "-DCMAKE_C_FLAGS=-O1", "-DCONTACT_SHARED_ROOMS=ON", "-DCONTACT_REFERENCE=/nonexistent"]
         subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
         if (self.folder / "right").exists():
-            # a library with a fault in it may be left of a campaign that was broken off
+            # a library with a fault may be left by an interrupted campaign
             self.restore()
         subprocess.run(["ninja", "-C", self.build, "-k", "0"], check=True, stdout=subprocess.DEVNULL)
         kept = self.folder / "right"
@@ -158,10 +158,10 @@ class Store:
 
     def list_tests(self):
         """Command, folder and environment of each test"""
-        told = subprocess.run(["ctest", "--test-dir", self.build, "--show-only=json-v1"], check=True, capture_output=True,
+        listing = subprocess.run(["ctest", "--test-dir", self.build, "--show-only=json-v1"], check=True, capture_output=True,
                               text=True).stdout
         tests = {}
-        for test in json.loads(told)["tests"]:
+        for test in json.loads(listing)["tests"]:
             properties = {p["name"]: p["value"] for p in test.get("properties", [])}
             if NOT_THESE.search(test["name"]) or properties.get("WILL_FAIL") or "long" in properties.get("LABELS", []):
                 continue
@@ -171,7 +171,7 @@ class Store:
         return tests
 
     def compile_file(self, file, source, output, extra=()):
-        """Compile a source in place of a file of src; whether that works"""
+        """Compile a source instead of a file of src; True on success"""
         command = self.commands["compile"][file]["command"]
         command = command.split("&&")[0] if "&&" in command else command
         words = list(command.replace("\\(", "(").replace("\\)", ")").split())
@@ -192,7 +192,7 @@ class Store:
         return done.returncode == 0
 
     def link(self, replaced, names):
-        """Link these libraries with other objects in place of some"""
+        """Link these libraries with some objects replaced"""
         for name in names:
             command = self.commands["link"][name]
             for old, new in replaced.items():
@@ -204,20 +204,20 @@ class Store:
 
     @staticmethod
     def needs(test, library):
-        """Whether a test runs something that this library is linked to: each link takes as long as many a test"""
+        """Does a test use this library? Linking takes as long as many tests"""
         host = re.search("capi|library|campaign|report|wheel$", test)
         return bool(host) if "contact.so" in library else bool(re.search("interface|library|wheel$",
                                                                          test)) if "addon" in library else True
 
     def restore(self):
-        """The libraries without a fault"""
+        """Restore the libraries without a fault"""
         for name in self.libraries():
             target = self.build / name
             target.unlink(missing_ok=True)
             shutil.copy2(self.folder / "right" / os.path.basename(name), target)
 
     def load(self):
-        """What was built; a script with a fault in it, of a campaign that was broken off, becomes right again"""
+        """Load the data of the build; a script with a fault, left by an interrupted campaign, is restored"""
         changed = self.read("changed.json")
         if changed:
             pathlib.Path(changed["path"]).write_text(changed["text"], encoding="utf-8", errors="surrogateescape")
@@ -227,7 +227,7 @@ class Store:
         self.work.mkdir(exist_ok=True)
 
     def run_test(self, name, limit, **more):
-        """passed, failed, skipped or late; seconds"""
+        """Run a test; outcome passed, failed, skipped or late, and its time [s]"""
         test = self.tests[name]
         environment = {**os.environ, "OMP_NUM_THREADS": "1", **test["environment"], "CONTACT_REFERENCE": "/nonexistent",
                        "CONTACT_PYTHON": str(self.source / "python"), **{key: str(value) for key, value in more.items()}}
@@ -246,15 +246,15 @@ class Store:
                                        stderr=subprocess.STDOUT, preexec_fn=limits)
             try:
                 status = process.wait(limit)
-                told = {0: "passed", 77: "skipped"}.get(status, "failed")
+                outcome = {0: "passed", 77: "skipped"}.get(status, "failed")
             except subprocess.TimeoutExpired:
-                told = "late"
+                outcome = "late"
             try:
                 os.killpg(process.pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
             process.wait()
-        return told, round(time.monotonic() - started, 2)
+        return outcome, round(time.monotonic() - started, 2)
 
     # Which test reaches which line -----------------------------------------------------------------------------------
     def measure(self):
@@ -283,7 +283,7 @@ class Store:
             counts = self.folder / "counts"
             shutil.rmtree(counts, ignore_errors=True)
             counts.mkdir()
-            told, seconds = self.run_test(name, 600, GCOV_PREFIX=counts, GCOV_PREFIX_STRIP=99)
+            outcome, seconds = self.run_test(name, 600, GCOV_PREFIX=counts, GCOV_PREFIX_STRIP=99)
             reach = collections.defaultdict(list)
             found = sorted(counts.glob("*.gcda"))
             for path in found:
@@ -298,20 +298,20 @@ class Store:
                         if "/source/src/" in file["file"]:
                             short = file["file"].split("/source/", 1)[1]
                             reach[short] += sorted({item["line_number"] for item in file["lines"] if item["count"]})
-            self.write("reach/%s.json" % name, {"told": told, "seconds": seconds, "lines": reach})
-            print("%-40s %-8s %6.1f s, reaches %d files" % (name, told, seconds, len(reach)), flush=True)
+            self.write("reach/%s.json" % name, {"outcome": outcome, "seconds": seconds, "lines": reach})
+            print("%-40s %-8s %6.1f s, reaches %d files" % (name, outcome, seconds, len(reach)), flush=True)
         self.commands["link"] = plain
         self.restore()
         for name in missing:
             found = self.read("reach/%s.json" % name)
-            if found["told"] in ("failed", "late"):
-                # perhaps by the counting only
-                found["told"], found["seconds"] = self.run_test(name, 600)
+            if found["outcome"] in ("failed", "late"):
+                # possibly due to the coverage counters
+                found["outcome"], found["seconds"] = self.run_test(name, 600)
                 self.write("reach/%s.json" % name, found)
-                print("%-40s %-8s %6.1f s without counting" % (name, found["told"], found["seconds"]), flush=True)
+                print("%-40s %-8s %6.1f s without counting" % (name, found["outcome"], found["seconds"]), flush=True)
 
     def read_reach(self):
-        """How each test went without a fault, and the tests that reach each line"""
+        """Outcome of each test without a fault, and the tests that reach each line"""
         self.outcome, self.coverage = {}, collections.defaultdict(lambda: collections.defaultdict(set))
         for name in self.tests:
             found = self.read("reach/%s.json" % name)
@@ -323,7 +323,7 @@ class Store:
 
     # Faults ----------------------------------------------------------------------------------------------------------
     def choose(self, seed, rooms=tuple(ROOMS)):
-        """For each room all of its faults in an order given by the seed: kinds take turns, one fault a line"""
+        """All faults of each room in an order given by the seed, with alternating kinds and one fault a line"""
         order = {}
         for room in rooms:
             if room in SCRIPTS:
@@ -355,7 +355,7 @@ class Store:
         return order
 
     def order_at(self, commit, seed):
-        """The same with the sources of a commit"""
+        """As faults_of, with the sources of a commit"""
         with tempfile.TemporaryDirectory() as folder:
             old = Store(folder)
             old.source.mkdir()
@@ -364,7 +364,7 @@ class Store:
             return old.choose(seed)
 
     def order_of_tests(self, fault, room, caught):
-        """Tests that reach the fault: those first that catch much in little time"""
+        """Tests that reach the fault, ordered by detections per time"""
         if room in SCRIPTS:
             names = [name for name in self.tests if SCRIPTS[room].search(name)]
             reached = True
@@ -380,7 +380,7 @@ class Store:
             reached = bool(names)
             if not reached:
                 names = [name for name in self.tests if UNSEEN.search(name)]
-        names = [name for name in names if self.outcome.get(name, {}).get("told") == "passed"]
+        names = [name for name in names if self.outcome.get(name, {}).get("outcome") == "passed"]
 
         def cost(name):
             kind = self.tests[name]["label"]
@@ -391,7 +391,7 @@ class Store:
         return sorted(names, key=cost), reached
 
     def place_of(self, fault):
-        """Path and number of the line of a fault now: the nearest in its file, or the only one elsewhere; None when it is gone"""
+        """Current path and number of the line of a fault: the nearest in its file, or the only one elsewhere; None if it is gone"""
         path = self.source / fault.file
         if path.exists():
             lines = path.read_text(encoding="utf-8", errors="surrogateescape").split("\n")
@@ -405,11 +405,11 @@ class Store:
         return found[0] if len(found) == 1 else (None, 0)
 
     def judge(self, fault, room, limit, caught):
-        """Plant one fault: how it was caught"""
+        """Plant one fault and run the tests; returns the outcome"""
         result = {"file": fault.file, "line": fault.line, "kind": fault.kind, "old": fault.old, "new": fault.new, "room": room}
         path, number = self.place_of(fault)
         if path is None:
-            return dict(result, told="gone")
+            return dict(result, outcome="gone")
         text = path.read_text(encoding="utf-8", errors="surrogateescape")
         lines = text.split("\n")
         fault = fault._replace(line=number, file=str(path.relative_to(self.source)))
@@ -417,7 +417,7 @@ class Store:
         script = room in SCRIPTS
         self.restore()
         if script:
-            # the right file is kept aside: whoever ends the campaign, the next one begins with it
+            # a copy of the correct file is kept, from which an interrupted campaign is restored
             self.write("changed.json", {"path": str(path), "text": text})
             path.write_text("\n".join(lines), encoding="utf-8", errors="surrogateescape")
         else:
@@ -426,13 +426,13 @@ class Store:
             plain = self.work / (fault.file.replace("/", "__") + ".o")
             output = self.work / "planted.o"
             if not self.compile_file(fault.file, planted, output):
-                return dict(result, told="not compiled")
+                return dict(result, outcome="not compiled")
             if not plain.exists():
-                # compiled from the same place, so that only the code differs
+                # compiled from the same path, so that only the code differs
                 planted.write_text(text, encoding="utf-8")
                 self.compile_file(fault.file, planted, plain)
             if output.read_bytes() == plain.read_bytes():
-                return dict(result, told="same code")
+                return dict(result, outcome="same code")
             replaced = {self.commands["compile"][fault.file]["object"]: output}
         try:
             linked = set()
@@ -443,40 +443,40 @@ class Store:
                 if spent and spent + usual > limit:
                     continue
                 if not script:
-                    wanted = [library for library in self.libraries() if library not in linked and self.needs(name, library)]
-                    linked.update(wanted)
-                    if not self.link(replaced, wanted):
-                        return dict(result, told="not linked")
-                told, seconds = self.run_test(name, 20 + 5*usual)
-                if told != "passed" and (told == "late" or SENSITIVE.search(name)) and not self.passes_without_fault(name, 20
+                    to_link = [library for library in self.libraries() if library not in linked and self.needs(name, library)]
+                    linked.update(to_link)
+                    if not self.link(replaced, to_link):
+                        return dict(result, outcome="not linked")
+                outcome, seconds = self.run_test(name, 20 + 5*usual)
+                if outcome != "passed" and (outcome == "late" or SENSITIVE.search(name)) and not self.passes_without_fault(name, 20
                     + 5*usual, script and path, text):
-                    # the machine, not the fault
-                    told = "passed"
+                    # caused by the machine, not by the fault
+                    outcome = "passed"
                     if script:
                         path.write_text("\n".join(lines), encoding="utf-8", errors="surrogateescape")
                     elif not self.link(replaced, sorted(linked)):
-                        return dict(result, told="not linked")
+                        return dict(result, outcome="not linked")
                 spent, run = spent + seconds, run + 1
-                if told in ("failed", "late"):
+                if outcome in ("failed", "late"):
                     for key in (fault.file, name), (room, name), ("all", name):
                         caught[key] += 1
-                    return dict(result, told="caught", by=name, late=told == "late", tests=run, seconds=round(spent, 1),
+                    return dict(result, outcome="caught", by=name, late=outcome == "late", tests=run, seconds=round(spent, 1),
                                 reached=reached)
-            return dict(result, told="survived", tests=run, of=len(tests), seconds=round(spent, 1), reached=reached)
+            return dict(result, outcome="survived", tests=run, of=len(tests), seconds=round(spent, 1), reached=reached)
         finally:
             if script:
                 path.write_text(text, encoding="utf-8", errors="surrogateescape")
                 (self.folder / "changed.json").unlink()
 
     def passes_without_fault(self, name, limit, path, text):
-        """A second look at a test that may have failed for want of time, threads or sockets"""
+        """Repeat a test that may have failed for lack of time, threads or sockets"""
         self.restore()
         if path:
             path.write_text(text, encoding="utf-8", errors="surrogateescape")
         return self.run_test(name, limit)[0] == "passed"
 
     def campaign(self, options):
-        """Choose and judge until each room has its number"""
+        """Choose and judge faults until each room has its number"""
         self.load()
         self.read_reach()
         name = "order-%d%s.json" % (options.seed, "-" + options.chosen_at if options.chosen_at else "")
@@ -488,7 +488,7 @@ class Store:
         latest = latest_results(self)
         caught = collections.Counter()
         for result in latest.values():
-            if result["told"] == "caught":
+            if result["outcome"] == "caught":
                 for key in (result["file"], result["by"]), (result["room"], result["by"]), ("all", result["by"]):
                     caught[key] += 1
         whole = sum(ROOMS.values())
@@ -497,37 +497,37 @@ class Store:
         try:
             if options.again:
                 for result in list(latest.values()):
-                    if result["told"] == "survived" and result["room"] in quota and not judged_by_hand(result):
-                        self.tell(self.judge(faults.Fault(*[result[k] for k in faults.Fault._fields]), result["room"],
+                    if result["outcome"] == "survived" and result["room"] in quota and not judged_by_hand(result):
+                        self.report(self.judge(faults.Fault(*[result[k] for k in faults.Fault._fields]), result["room"],
                                              options.limit, caught), options)
                 return
             if options.every > 1:
                 listed = [(room, fault) for room in quota for fault in order[room][:quota[room]]]
                 for room, fault in listed[options.every//2::options.every]:
                     if identity(fault._asdict()) not in latest:
-                        self.tell(self.judge(fault, room, options.limit, caught), options)
+                        self.report(self.judge(fault, room, options.limit, caught), options)
                 return
             done = dict.fromkeys(quota, 0)
             places = {room: iter(order[room]) for room in quota}
             while any(done[room] < n for room, n in quota.items()):
-                # all rooms in step, so that a part of a campaign says something on all of them
+                # rooms alternate, so that a part of a campaign covers all of them
                 room = min((r for r in quota if done[r] < quota[r]), key=lambda r: (done[r] + 0.5)/quota[r])
                 fault = next(places[room], None)
                 if fault is None:
                     quota[room] = done[room]
                     continue
                 result = latest.get(identity(fault._asdict()))
-                if result is None or result["told"] == "gone":
+                if result is None or result["outcome"] == "gone":
                     result = self.judge(fault, room, options.limit, caught)
-                    self.tell(result, options)
-                done[room] += result["told"] in ("caught", "survived")
+                    self.report(result, options)
+                done[room] += result["outcome"] in ("caught", "survived")
         finally:
             self.restore()
 
-    def tell(self, result, options):
+    def report(self, result, options):
         result = dict(result, seed=options.seed, commit=self.read("commit.json"))
         self.add_line("results.jsonl", result)
-        print("%-12s %s:%d %s\n   - %s\n   + %s%s" % (result["told"], result["file"], result["line"], result["kind"],
+        print("%-12s %s:%d %s\n   - %s\n   + %s%s" % (result["outcome"], result["file"], result["line"], result["kind"],
                                                       result["old"].strip(),
               result["new"].strip(), "\n   " + result["by"] if "by" in result else ""), flush=True)
 
@@ -537,17 +537,17 @@ def identity(result):
 
 
 def latest_results(store):
-    """The last result of each fault, and with it what the first one told"""
+    """The last result of each fault, with its first outcome"""
     latest = {}
     for result in store.read_lines("results.jsonl"):
         key = identity(result)
-        result["first"] = latest[key]["first"] if key in latest and latest[key]["told"] != "gone" else result["told"]
+        result["first"] = latest[key]["first"] if key in latest and latest[key]["outcome"] != "gone" else result["outcome"]
         latest[key] = result
     return latest
 
 
 def judged_by_hand(result):
-    """Why a fault changes nothing that could be tested, or nothing"""
+    """Reason why a fault cannot be detected by any test; None if there is none"""
     for entry in json.loads((HERE / "equivalent.json").read_text(encoding="utf-8")):
         if entry["file"] == result["file"] and entry["old"] == result["old"].strip() and entry["new"] == result["new"].strip():
             return entry["reason"]
@@ -556,14 +556,14 @@ def judged_by_hand(result):
 
 def table(store):
     """Counts by room and by kind"""
-    results = [r for r in latest_results(store).values() if r["told"] in ("caught", "survived")]
+    results = [r for r in latest_results(store).values() if r["outcome"] in ("caught", "survived")]
     for title, key, names in (("room", "room", list(ROOMS)), ("kind", "kind", sorted({r["kind"] for r in results}))):
         print("| %s | planted | equivalent | caught at first | caught now | survived |\n|---|---|---|---|---|---|" % title)
         total = [0]*5
         for name in names + ["all"]:
             rows = [r for r in results if r[key] == name]
-            equal = [r for r in rows if r["told"] == "survived" and judged_by_hand(r)]
-            counts = [len(rows), len(equal), sum(r["first"] == "caught" for r in rows), sum(r["told"] == "caught" for r in rows)]
+            equal = [r for r in rows if r["outcome"] == "survived" and judged_by_hand(r)]
+            counts = [len(rows), len(equal), sum(r["first"] == "caught" for r in rows), sum(r["outcome"] == "caught" for r in rows)]
             counts.append(counts[0] - counts[1] - counts[3])
             if name == "all":
                 counts = total

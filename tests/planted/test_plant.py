@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The campaign of planted faults on a toy: which faults are found room for, how one is judged, what is counted."""
+"""The campaign of planted faults on a toy: possible faults, outcomes, counts."""
 import collections
 import contextlib
 import io
@@ -43,7 +43,7 @@ contains
    end function length
 end module toy
 """
-# Kind, line and what becomes of it: one of each that the toy has room for
+# Kind, line and its replacement: one possible fault of each kind
 WANTED = [("constant", 12, "error = .true. ! x - y"), ("sign", 13, "r = sqrt(x**2 - y**2)"), ("component", 13,
     "r = sqrt(y**2 + y**2)"),
           ("abs dropped", 13, "r = (x**2 + y**2)"), ("constant", 13, "r = sqrt(x**3 + y**2)"), ("off by one", 14,
@@ -66,7 +66,7 @@ def check(condition, text):
 def room_for_faults():
     found = [(fault.kind, fault.line, fault.new.strip()) for fault in faults.faults_of("src/toy/toy.f90", TOY)]
     for wanted in WANTED:
-        check(wanted in found, "%s is not found room for" % (wanted,))
+        check(wanted in found, "%s is not found" % (wanted,))
     lines = {line for _, line, _ in found}
     check(lines <= {12, 13, 14, 15, 17, 18, 19, 24, 25}, "only what is executed: lines %s" % sorted(lines))
     check(not any('"b' in new or "a + b" in new for _, _, new in found), "texts stay")
@@ -81,7 +81,7 @@ def room_for_faults():
 
 
 class Toy(plant.Store):
-    """The toy and two tests of it, in place of the copy of the sources"""
+    """The toy and two tests of it, instead of the copy of the sources"""
 
     def make(self, compiler):
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -103,7 +103,7 @@ class Toy(plant.Store):
         subprocess.run([compiler, "-c", str(source), "-o", "toy.o"], cwd=self.build, check=True)
         self.link({}, self.libraries())
         shutil.copy2(self.build / "program", self.folder / "right")
-        self.outcome = {"length": {"told": self.run_test("length", 20)[0], "seconds": 0.1}}
+        self.outcome = {"length": {"outcome": self.run_test("length", 20)[0], "seconds": 0.1}}
         self.coverage = collections.defaultdict(lambda: {k: {"length"} for k in range(1, 40)})
 
     def libraries(self):
@@ -118,23 +118,23 @@ def judged():
         return
     toy = Toy("toy_store")
     toy.make(compiler)
-    check(toy.outcome["length"]["told"] == "passed", "the toy without a fault")
+    check(toy.outcome["length"]["outcome"] == "passed", "the toy without a fault")
     known = {(fault.line, fault.new.strip()): fault for fault in faults.faults_of("src/toy/toy.f90", TOY)}
     caught = collections.Counter()
-    for line, new, told in ((13, "r = sqrt(x**2 - y**2)", "caught"), (17, "if (abs(r) < 1000*tolerance) r = 1.0", "caught"),
+    for line, new, outcome in ((13, "r = sqrt(x**2 - y**2)", "caught"), (17, "if (abs(r) < 1000*tolerance) r = 1.0", "caught"),
                             (14, "do k = 1 + 1, n", "survived"), (15, "if (r > tolerance) exit", "survived"),
                             (13, "r = (x**2 + y**2)", "caught"), (17, "if ((r) < tolerance) r = 1.0", "survived")):
         result = toy.judge(known[line, new], "toy", 60, caught)
-        check(result["told"] == told, "%s: %s instead of %s" % (new, result["told"], told))
+        check(result["outcome"] == outcome, "%s: %s instead of %s" % (new, result["outcome"], outcome))
         toy.add_line("results.jsonl", dict(result, seed=1, commit="0"*40))
-    check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(old="gone"), "toy", 60, caught)["told"] == "gone",
+    check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(old="gone"), "toy", 60, caught)["outcome"] == "gone",
           "a line that is not there")
-    check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(file="src/toy/before.f90"), "toy", 60, caught)["told"] == "caught",
-          "a line that moved to another file")
+    check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(file="src/toy/before.f90"), "toy", 60,
+                    caught)["outcome"] == "caught", "a line that moved to another file")
     toy.restore()
     check(toy.run_test("length", 20)[0] == "passed", "the toy is restored")
-    # the second verdict on a fault counts, the first is remembered
-    again = dict(toy.read_lines("results.jsonl")[2], told="caught", by="length")
+    # the second outcome of a fault counts, the first is stored
+    again = dict(toy.read_lines("results.jsonl")[2], outcome="caught", by="length")
     toy.add_line("results.jsonl", again)
     plant.ROOMS["toy"] = 1
     printed = io.StringIO()

@@ -102,7 +102,7 @@ contains
       call case%release()
    end subroutine against_full
 
-   !> SDEC: prescribed force, no energy, and Hertz's tangential problem where both halves are alike
+   !> SDEC: prescribed force, no energy, and Hertz's tangential problem if both halves are equal
    subroutine double_ellipse(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
@@ -144,7 +144,7 @@ contains
       call case%release()
    end subroutine coupled
 
-   !> Methods take turns in sequences of every kind, also with simplified theory and prescribed forces
+   !> Methods alternate in sequences of every kind, also with simplified theory and prescribed forces
    subroutine sequences(suite)
       type(test_suite), intent(inout) :: suite
       integer, parameter :: kinds(3) = [motion%shift, motion%transient_rolling, motion%steady_rolling]
@@ -257,7 +257,7 @@ contains
       call case%run(suite, "no damping")
       plain = [case%result%fn, case%result%fx, case%result%fy]
       call suite%check(.not. allocated(case%result%damping), "no damping, no damping force")
-      call suite%close_to(plain, second, 0.0_wp, "damping leaves the elastic forces alone")
+      call suite%close_to(plain, second, 0.0_wp, "damping does not change the elastic forces")
       call case%release()
    end subroutine damping_in_sequences
 

@@ -147,7 +147,7 @@ contains
       case%spec%material%cfname = file
       case%spec%solver = solver_choice%gauss_seidel
       call case%run(suite, "G = 3")
-      call suite%check(case%result%tangential%asked == "SteadyGS", "the default solver acts, which is said")
+      call suite%check(case%result%tangential%asked == "SteadyGS", "the default solver is used, which is reported")
       warnings = case%log%warnings
       case%spec%classical = .true.
       call case%run(suite, "G = 3, classical")
@@ -283,7 +283,7 @@ contains
       do k = 1, 3
          call write_file(nx(k), my + nx(k) - mx, 1)
          call set_case(case)
-         ! inside the window, so that nothing else is warned of
+         ! inside the window, so that there are no other warnings
          case%spec%kinematics%fn = 6.0_wp
          case%spec%grid%xl = -1.02_wp
          case%spec%kernel = kernel_model%tabulated
@@ -295,7 +295,7 @@ contains
          call case%release()
       end do
       call suite%close_to(approach(2), approach(1), 1.0e-10_wp, "surplus is ignored", relative=.true.)
-      call suite%check(approach(3) < 0.95_wp*approach(1), "what is missing counts as 0")
+      call suite%check(approach(3) < 0.95_wp*approach(1), "missing values are 0")
    end subroutine other_sizes
 
    subroutine refusals(suite)

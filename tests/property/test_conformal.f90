@@ -131,7 +131,7 @@ contains
          call solve(suite, sphere_in_groove(angle(k), contact_location%conformal), side, "side")
          call suite%check(size(side%patches) == 1, "one patch at the side")
          if (size(side%patches) /= 1) cycle
-         ! rows lie elsewhere relative to the deepest point
+         ! rows have other positions relative to the deepest point
          call suite%close_to(norm2(side%force_track), force, 2.0e-3_wp*force, "the same force in any direction")
          call suite%close_to(side%patches(1)%contact%pmax/bottom%patches(1)%contact%pmax, 1.0_wp, 0.01_wp, &
             & "the same largest pressure")
@@ -166,7 +166,7 @@ contains
          call suite%close_to([a%contact%cksi, -a%contact%ceta, -a%contact%cphi], &
             & [b%contact%cksi, b%contact%ceta, b%contact%cphi], 1.0e-6_wp*abs(b%contact%cksi) + 1.0e-9_wp, "creepages")
          call suite%equal(a%contact%nslip, b%contact%nslip, "as many elements slip")
-         ! what is found with the axes of the rows is what the tractions say
+         ! values in the axes of the rows agree with the tractions
          call suite%close_to(a%tilde_fn, a%contact%grid%dx*a%contact%grid%dy*sum(a%contact%pn), 1.0e-9_wp*a%tilde_fn, "plain sum")
       end associate
    end subroutine mirrored
@@ -213,7 +213,7 @@ contains
          call suite%close_to(result(3)%force_track/result(2)%force_track, [1.0_wp, 1.0_wp, 1.0_wp], 0.2_wp*approach(i), &
             & "nearly flat: forces")
          call suite%check(allocated(result(3)%patches(1)%curve) .and. .not. allocated(result(2)%patches(1)%curve), &
-            & "a curve is told for conformal contact only")
+            & "a curve is given for conformal contact only")
       end do
       call suite%close_to(difference(1)/difference(2), 4.0_wp, 0.2_wp, "extended slip decreases with the approach")
       call suite%check(force(2) < 0.4_wp*force(1), "its effect on the force, too")
@@ -236,7 +236,7 @@ contains
          & "bilinear pressures")
       call suite%check(abs(corrected%patches(1)%contact%fn - plain%patches(1)%contact%fn) > 1.0e-6_wp*plain%patches(1)%contact%fn, &
          & "bilinear pressures are others")
-      ! pressures on the other flank act less: cos(alpha) of what they do in a plane
+      ! pressures on the other flank have the effect cos(alpha) of that in a plane
       do variant = 1, 4
          problem = sphere_in_groove(0.0_wp, contact_location%conformal)
          problem%template%model%kernel = kernel_model%conformal
@@ -324,7 +324,7 @@ contains
          call suite%close_to(slip(ix, 2, 1), v*(1.0_wp - cos(angle)), 1.0e-7_wp*v, "slip on a rigid wheel")
       end do
       call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, 0.5_wp, slip)
-      call suite%close_to(slip(2:40, 2, 1), spread(0.0_wp, 1, 39), 1.0e-6_wp*v, "no slip midway between bodies that are alike")
+      call suite%close_to(slip(2:40, 2, 1), spread(0.0_wp, 1, 39), 1.0e-6_wp*v, "no slip midway between equal bodies")
    end subroutine slip_on_interface
 
    !> A ball that rolls obliquely on a plane slips in its direction of rolling, wherever its axle points: the velocity normal
@@ -381,7 +381,7 @@ contains
       curve = new_curve(profile_side%rail, splines(1), splines(2))
    end function plane_rail
 
-   !> Creepages and spin come back, what they do not describe remains
+   !> Creepages and spin are recovered, other components remain
    subroutine fitted_slip(suite)
       type(test_suite), intent(inout) :: suite
       type(potential_contact) :: grid
@@ -402,8 +402,8 @@ contains
       call fit_creepages(grid, inside, slip, motion)
       call suite%close_to([motion%cksi, motion%ceta, motion%cphi], [0.001_wp, -0.002_wp, 0.0003_wp], 1.0e-15_wp, "fitted creepages")
       call suite%close_to(maxval(abs(slip(:, 2:, :))), 0.0_wp, 1.0e-15_wp, "nothing remains")
-      call suite%close_to(slip(:, 1, 1), [(0.1_wp, ix=1, 7)], 1.0e-15_wp, "what was left out remains")
-      ! nothing inside, one element inside: no division by zero
+      call suite%close_to(slip(:, 1, 1), [(0.1_wp, ix=1, 7)], 1.0e-15_wp, "other components remain")
+      ! no element inside, one element inside: no division by zero
       motion = contact_motion()
       motion%cphi = 0.0005_wp
       slip(:, :, :) = 0.01_wp
@@ -414,7 +414,7 @@ contains
       inside(4, 2) = .true.
       call fit_creepages(grid, inside, slip, motion)
       call suite%close_to(slip(4, 2, :), [0.0_wp, 0.0_wp], 1.0e-15_wp, "one element inside")
-      call suite%close_to(motion%cphi, 0.0005_wp, 0.0_wp, "one element does not tell the spin")
+      call suite%close_to(motion%cphi, 0.0005_wp, 0.0_wp, "one element does not determine the spin")
    end subroutine fitted_slip
 
    !> With friction by angle each row has that of its inclination

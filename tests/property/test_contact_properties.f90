@@ -73,7 +73,7 @@ contains
       if (random%whole(0, 2) == 2) call forces(case%spec, size_*cos(angle), size_*sin(angle))
    end subroutine draw
 
-   !> p >= 0, gap >= 0, p gap = 0; |pt| <= g, S = 0 or pt = -g S/|S|; slip formed anew from displacements
+   !> p >= 0, gap >= 0, p gap = 0; |pt| <= g, S = 0 or pt = -g S/|S|; slip recomputed from displacements
    subroutine conditions(suite, random, kind, dissimilar)
       type(test_suite), intent(inout) :: suite
       type(random_numbers), intent(inout) :: random
@@ -106,7 +106,7 @@ contains
          pt = hypot(r%px, r%py)
          tol_p = 1.0e-6_wp*maxval(bound)
          call suite%check(all(pt <= bound*(1.0_wp + 1.0e-12_wp)), "tractions within the bound")
-         ! what particles of these elements had one step before: nothing, or the state of steady rolling
+         ! previous tractions of the particles of these elements: none, or the state of steady rolling
          sx = r%wx + r%ux
          sy = r%wy + r%uy
          if (kind == motion%steady_rolling) then
@@ -237,7 +237,7 @@ contains
       other%spec%kinematics%spinyo = -2.0_wp
       other%spec%rolling%facphi = 0.5_wp
       call other%run(suite, "no spin")
-      call bitwise(suite, other%result, case%result, "spin of zero, whatever its centre")
+      call bitwise(suite, other%result, case%result, "spin of zero, with any centre")
       other%spec = case%spec
       other%spec%material%flxz = 0.0_wp
       other%spec%rolling%veloc = 7.0_wp
@@ -270,7 +270,7 @@ contains
       call other%release()
    end subroutine continuity
 
-   !> The same bits from the same problem and state, whatever was computed before in the session
+   !> Identical results of the same problem and state, independent of earlier computations in the session
    subroutine repetition(suite, random, kind)
       type(test_suite), intent(inout) :: suite
       type(random_numbers), intent(inout) :: random
@@ -321,10 +321,10 @@ contains
          call a2%run(suite, "sequence in turn")
          call next(b2, step)
          call b2%run(suite, "sequence in turn")
-         call bitwise(suite, a2%result, a_alone(step), "first sequence, alone and in turn")
-         call bitwise(suite, b2%result, b_alone(step), "second sequence, alone and in turn")
+         call bitwise(suite, a2%result, a_alone(step), "first sequence, alone and interleaved")
+         call bitwise(suite, b2%result, b_alone(step), "second sequence, alone and interleaved")
       end do
-      call suite%check(any(a_alone(4)%px /= a_alone(1)%px), "the sequence goes on")
+      call suite%check(any(a_alone(4)%px /= a_alone(1)%px), "the sequence continues")
       call a%release()
       call b%release()
       call a2%release()

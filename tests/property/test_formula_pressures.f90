@@ -1,4 +1,4 @@
-!> Pressures by formula (B = 2, 3, 4): the total is the sum of what is printed, and it is the force that was asked for
+!> Pressures by formula (B = 2, 3, 4): the total is the sum of the pressures, and it is the prescribed force
 program test_formula_pressures
    use contact_base_choices, only : material_model, motion, normal_control, pressure_model
    use contact_base_error, only : error_type
@@ -40,13 +40,13 @@ contains
    !> Sums of the fields, as anyone would form them from the printed tractions
    subroutine compare(result, fn, what)
       type(patch_result), intent(in) :: result
-      !> Force that was asked for [N]
+      !> Prescribed force [N]
       real(wp), intent(in) :: fn
       character(len=*), intent(in) :: what
       real(wp) :: area
 
       area = result%grid%dx*result%grid%dy
-      call suite%close_to(result%fn/fn, 1.0_wp, 1.0e-12_wp, what // ": the force that was asked for")
+      call suite%close_to(result%fn/fn, 1.0_wp, 1.0e-12_wp, what // ": the prescribed force")
       call suite%close_to(area*sum(result%pn)/result%fn, 1.0_wp, 1.0e-12_wp, what // ": FN is the sum of the pressures")
       call suite%close_to([area*sum(result%px), area*sum(result%py)]/fn, [result%fx, result%fy]/fn, 1.0e-12_wp, &
          & what // ": FX, FY are the sums of the tractions")
@@ -92,7 +92,7 @@ contains
       call case%release()
    end subroutine windows
 
-   !> Sliding everywhere, the friction force is that of the force that was asked for: full and simplified theory
+   !> Sliding everywhere, the friction force is that of the prescribed force: full and simplified theory
    subroutine saturation()
       type(test_case) :: case
       integer :: i, model
@@ -128,7 +128,7 @@ contains
       call case%release()
    end subroutine approach_and_force
 
-   !> Where no centre of an element lies in the contact there is nothing to scale
+   !> Pressures are not scaled if no centre of an element is in contact
    subroutine nothing_in_sight()
       type(test_case) :: case
       type(error_type), allocatable :: error

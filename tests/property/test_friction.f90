@@ -46,7 +46,7 @@ contains
       spec%iteration%omgslp = 1.0_wp
    end function rolling_case
 
-   !> Parameters that fall by a third over slip velocities of these cases
+   !> Parameters of laws that decrease by a third over the slip velocities of these cases
    pure type(friction_set) function falling() result(set)
       set%fstat = 0.3_wp
       set%fkin = 0.2_wp
@@ -74,7 +74,7 @@ contains
       case%spec%heat%bktemp = [20.0_wp, 60.0_wp]
    end subroutine give_heat
 
-   !> Laws whose strength is zero do what Coulomb friction does, in every motion and with forces
+   !> Laws with zero strength agree with Coulomb friction, in every motion and with forces
    subroutine no_strength(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: plain, case
@@ -108,7 +108,7 @@ contains
       call case%run(suite, "no strength")
       call suite%close_to([case%result%px], [plain%result%px], 1.0e-6_wp*plain%result%pmax, "no change with temperature")
       call suite%check(.not. allocated(plain%result%friction), "Coulomb friction is not iterated")
-      call suite%check(.not. allocated(plain%result%temp1), "no temperatures unless asked for")
+      call suite%check(.not. allocated(plain%result%temp1), "no temperatures unless requested")
       call plain%release()
       call case%release()
    end subroutine no_strength
@@ -375,7 +375,7 @@ contains
       call case%release()
    end subroutine slides_away
 
-   !> An iteration that is cut short says so and returns finite results
+   !> An iteration that reaches its limit reports it and returns finite results
    subroutine too_few_passes(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case

@@ -96,7 +96,7 @@ contains
             call suite%close_to(weighed%result%px, extra%result%px, 1.0e-6_wp*extra%result%pmax, "part of the spin: px")
             call suite%close_to(weighed%result%py, extra%result%py, 1.0e-6_wp*extra%result%pmax, "part of the spin: py")
             call suite%check(index(weighed%result%effects, "part of the spin") > 0, "part of the spin: it is named")
-            ! without spin nothing is cancelled
+            ! without spin there is no cancellation
             call none%run(suite, "no spin")
             weighed%spec%kinematics%cphi = 0.0_wp
             call weighed%run(suite, "part of no spin")
@@ -109,7 +109,7 @@ contains
       call none%release()
    end subroutine spin_parts
 
-   !> M = 6, 7: no slope reduction whatever its parameters are; full sliding opposite to the slip with M = 7 only
+   !> M = 6, 7: no slope reduction for any parameters; full sliding opposite to the slip with M = 7 only
    subroutine original_fastrip()
       type(test_case) :: case, modified
       integer, parameter :: models(2) = [material_model%fastrip_plain, material_model%fastrip_sliding]
@@ -144,7 +144,7 @@ contains
       call modified%release()
    end subroutine original_fastrip
 
-   !> Smallest cosine of the angle between tractions and what opposes the rigid slip
+   !> Smallest cosine of the angle between tractions and the direction opposite to the rigid slip
    real(wp) function opposite(case) result(cosine)
       type(test_case), intent(in) :: case
       real(wp) :: w(2), p(2)
@@ -190,7 +190,7 @@ contains
          call suite%close_to(-back%result%px(n:1:-1, :), ahead%result%px, 1.0e-6_wp*ahead%result%pmax, "memory backwards: px")
          call suite%close_to(back%result%py(n:1:-1, :), ahead%result%py, 1.0e-6_wp*ahead%result%pmax, "memory backwards: py")
          ! pressures build up on the side that the contact moves to
-         call suite%check(ahead%result%my*back%result%my < 0.0_wp, "memory backwards: the load lies on the other side")
+         call suite%check(ahead%result%my*back%result%my < 0.0_wp, "reversed memory: the load is on the other side")
          call ahead%release()
          call back%release()
       end do

@@ -105,7 +105,7 @@ contains
       call previous%release()
    end subroutine products
 
-   !> Equal up to rounding, relative to the largest value
+   !> Equal up to round-off, relative to the largest value
    subroutine near(suite, actual, expected, what)
       type(test_suite), intent(inout) :: suite
       real(wp), intent(in) :: actual(:), expected(:)

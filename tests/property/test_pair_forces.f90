@@ -44,25 +44,25 @@ contains
       call strict%try(error)
       call suite%check(.not. allocated(error) .and. strict%result%status%iteration == missed_iteration%outer, &
          & "two passes are too few from scratch")
-      call suite%equal(strict%log%warnings, 1, "and that is said once")
-      ! Pressures that stay unfinished: said once for each contact patch
+      call suite%equal(strict%log%warnings, 1, "and that is reported once")
+      ! Pressures that do not converge: reported once for each contact patch
       pair%spec%iteration%maxgs = 1
       pair%spec%motion = motion%none
       call pair%try(error)
-      call suite%check(.not. allocated(error), "unfinished pressures are no error")
+      call suite%check(.not. allocated(error), "unconverged pressures are not an error")
       failures = 0
       do k = 1, size(pair%result%patches)
          if (.not. pair%result%patches(k)%contact%normal%succeeded()) failures = failures + 1
       end do
       call suite%check(failures > 0 .and. pair%result%force_evaluations > 1, "pressures are unfinished in several trials")
-      call suite%check(pair%result%status%iteration == missed_iteration%normal, "the status tells the cause")
+      call suite%check(pair%result%status%iteration == missed_iteration%normal, "the status has the cause")
       if (abs(pair%result%force_error) > 1.0e-4_wp*pair%spec%wheel_rail%wheelset%fz) failures = failures + 1
       call suite%equal(pair%log%warnings, failures, "warnings of the last height only")
       call pair%release()
       call strict%release()
    end subroutine quiet_trials
 
-   !> A case that only prepares the geometry stands about where its force would act, and misses nothing
+   !> A case without computation has about the height of the force, and no missed force
    subroutine geometry_alone()
       type(pair_case) :: solved, skipped
 
@@ -78,7 +78,7 @@ contains
       call skipped%release()
    end subroutine geometry_alone
 
-   !> Very stiff springs are no springs
+   !> Very stiff springs have no effect
    subroutine stiff_springs()
       type(pair_case) :: fixed, sprung
       real(wp), parameter :: y(2) = [0.0_wp, 6.5_wp]
@@ -124,13 +124,13 @@ contains
       left%spec%wheel_rail%wheelset%yaw = -0.002_wp
       left%spec%wheel_rail%rail%fy = -700.0_wp
       call left%run(suite, "springs, left side")
-      call suite%close_to(left%result%dy_defl, right%result%dy_defl, tiny(1.0_wp), "the left rail gives way as its mirror image")
+      call suite%close_to(left%result%dy_defl, right%result%dy_defl, tiny(1.0_wp), "the left rail deflects as the mirror image")
       call suite%close_to(left%result%z_ws, right%result%z_ws, tiny(1.0_wp), "the left wheel is as high")
       call right%release()
       call left%release()
    end subroutine soft_springs
 
-   !> The height of the wheelset is prescribed: contact and spring share it
+   !> The height of the wheelset is prescribed: contact and spring divide it
    subroutine springs_at_height()
       type(pair_case) :: fixed, sprung, again
 
@@ -147,7 +147,7 @@ contains
       call suite%close_to(sprung%result%force_track(3), 60000.0_wp, 6.0_wp, "the spring carries what the contact carries")
       call suite%close_to(sprung%result%dz_defl, 1.5_wp, 2.0e-4_wp, "the spring gives way")
       call suite%close_to(sprung%result%z_ws, fixed%result%z_ws + 1.5_wp, 1.0e-12_wp, "the height is the prescribed one")
-      ! a wheel above the rail, which a static force keeps away
+      ! a wheel above the rail, separated by a static force
       again%spec = sprung%spec
       again%spec%wheel_rail%rail%fz = 1.0e6_wp
       call again%run(suite, "rail pulled away")
@@ -158,7 +158,7 @@ contains
       call again%release()
    end subroutine springs_at_height
 
-   !> A rail without lateral stiffness finds the place without lateral force, wherever the wheelset is
+   !> A rail without lateral stiffness moves to the position without lateral force, for any position of the wheelset
    subroutine free_rail()
       type(pair_case) :: pair
       real(wp) :: place(2)
@@ -222,7 +222,7 @@ contains
       call given%release()
    end subroutine longitudinal_force
 
-   !> More than friction can do: the search ends with full sliding and says so
+   !> A force above the friction bound: the search ends with full sliding and reports it
    subroutine beyond_friction()
       type(pair_case) :: pair
       type(error_type), allocatable :: error

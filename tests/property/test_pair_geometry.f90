@@ -1,6 +1,6 @@
-!> Geometry of wheel on rail that does not depend on what else stands beside the contact
+!> Geometry of wheel on rail: independence of other parts beside the contact
 !>
-!> A guard rail, a groove, slices that end, another description of the same bodies: the forces stay what they are.
+!> A guard rail, a groove, slices that end, another description of the same bodies: the forces do not change.
 program test_pair_geometry
    use contact_base_choices, only : contact_location
    use contact_base_kinds, only : wp
@@ -21,7 +21,7 @@ program test_pair_geometry
 
 contains
 
-   !> Points of a rail head with a steep flank, and what stands beside it on the gauge side
+   !> Points of a rail head with a steep flank, and other parts beside it on the gauge side
    function rail_points(beside) result(points)
       integer, intent(in) :: beside
       real(wp), allocatable :: points(:, :)
@@ -69,7 +69,7 @@ contains
       end do
    end function polyline
 
-   !> A wheel on the flank of the rail: what stands beside the contact changes nothing
+   !> A wheel on the flank of the rail: parts beside the contact have no effect
    subroutine parts_beside()
       integer, parameter :: location(4) = [contact_location%locus, contact_location%locus_extended, contact_location%conformal, &
          & contact_location%grid]
@@ -98,7 +98,7 @@ contains
          end do
       end do
       call suite%check(steepest > 1.1_wp, "contact on the flank")
-      call suite%equal(pair%log%warnings, 0, "nothing to warn of")
+      call suite%equal(pair%log%warnings, 0, "no warning")
       call pair%release()
    end subroutine parts_beside
 
@@ -126,7 +126,7 @@ contains
       end associate
    end function flank_case
 
-   !> A rail of equal slices is a plain rail, also where its slices have ended; a warning says that they have
+   !> A rail of equal slices is a plain rail, also beyond its slices, with a warning
    subroutine rail_of_slices()
       real(wp), parameter :: place(4) = [0.0_wp, 100.0_wp, -103.0_wp, 5.0e4_wp]
       type(pair_case) :: plain, sliced
@@ -150,7 +150,7 @@ contains
          sliced%spec%wheel_rail%wheelset%s = place(k)
          warnings = sliced%log%warnings
          call sliced%run(suite, "rail of slices")
-         call suite%equal(sliced%log%warnings - warnings, merge(0, 1, k == 1), "a warning where elements stand beyond the slices")
+         call suite%equal(sliced%log%warnings - warnings, merge(0, 1, k == 1), "a warning if elements are beyond the slices")
          ! slices are sampled every 0.5 mm
          call suite%close_to(sliced%result%force_track, plain%result%force_track, 1.0e-3_wp*norm2(plain%result%force_track), &
             & "forces on a rail of slices")

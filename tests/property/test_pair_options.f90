@@ -23,7 +23,7 @@ program test_pair_options
 
 contains
 
-   !> The larger a roller is, the more it is a track: the difference falls with its radius
+   !> A roller approaches a track with increasing radius: the difference decreases with the radius
    subroutine large_roller()
       type(pair_case) :: track, roller
       real(wp), parameter :: radius(2) = [1.0e5_wp, 1.0e6_wp]
@@ -180,7 +180,7 @@ contains
       call fast%release()
    end subroutine viscoelastic_lag
 
-   !> Mean place of the pressure along the track [mm]
+   !> Mean position of the pressure along the track [mm]
    real(wp) function pressure_place(result) result(x)
       type(wheel_rail_result), intent(in) :: result
       integer :: ix
@@ -214,13 +214,13 @@ contains
       call back%release()
    end subroutine viscoelastic_backwards
 
-   !> The parameters that a patch was solved with are told
+   !> The friction parameters of a patch are in its result
    subroutine friction_in_the_patch()
       type(pair_case) :: one
 
       one%spec = railway_case(0.0_wp, 0.0_wp)
       call one%run(suite, "one friction")
-      call suite%check(.not. allocated(one%result%patches(1)%friction), "nothing is told where friction is the same everywhere")
+      call suite%check(.not. allocated(one%result%patches(1)%friction), "no parameters if friction is the same everywhere")
       one%spec%variation = variation%by_position
       deallocate(one%spec%friction%sets)
       allocate(one%spec%friction%sets(2))
@@ -228,7 +228,7 @@ contains
          & friction_set(position=100.0_wp, fstat=0.4_wp, fkin=0.4_wp)]
       one%spec%wheel_rail%wheelset%s = 25.0_wp
       call one%run(suite, "friction by position")
-      call suite%check(allocated(one%result%patches(1)%friction), "and told where it varies")
+      call suite%check(allocated(one%result%patches(1)%friction), "and given if it varies")
       if (allocated(one%result%patches(1)%friction)) &
          & call suite%close_to(one%result%patches(1)%friction%fstat, [0.25_wp], 1.0e-12_wp, "between the points")
       call suite%check(any(one%result%patches(1)%contact%division > element%exterior), "with contact")

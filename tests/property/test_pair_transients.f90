@@ -20,7 +20,7 @@ program test_pair_transients
 
 contains
 
-   !> A ball on a plane against Hertz's theory: the error falls with the elements
+   !> A ball on a plane against Hertz's theory: the error decreases with the element size
    subroutine hertz()
       type(pair_case) :: pair
       real(wp), parameter :: pen = 0.16_wp, radius = 100.0_wp, modulus = 200.0_wp/(1.0_wp - 0.28_wp)
@@ -91,7 +91,7 @@ contains
       call rolling%release()
    end subroutine rolling_becomes_steady
 
-   !> A steady state that is continued in steps stays what it is; so does one that shifts go on from
+   !> A steady state that is continued in steps or by shifts does not change
    subroutine steady_is_continued()
       type(pair_case) :: pair
       real(wp) :: steady
@@ -119,7 +119,7 @@ contains
       call pair%release()
    end subroutine steady_is_continued
 
-   !> P = 3 repeats a step, P = 2 begins anew, P = 1 forgets the tangential tractions
+   !> P = 3 repeats a step, P = 2 starts a new sequence, P = 1 drops the tangential tractions
    subroutine links()
       type(pair_case) :: pair
       real(wp) :: first, second
@@ -131,7 +131,7 @@ contains
       pair%spec%link = time_link%continue_all
       call pair%run(suite, "second step")
       second = pair%result%force_track(1)
-      call suite%check(abs(second) > 1.5_wp*abs(first), "the second step goes on")
+      call suite%check(abs(second) > 1.5_wp*abs(first), "the second step continues")
       pair%spec%link = time_link%repeat_step
       call pair%run(suite, "second step again")
       call suite%close_to(pair%result%force_track(1), second, 1.0e-12_wp*abs(second), "a step is repeated")
@@ -166,7 +166,7 @@ contains
          call right%run(suite, "right")
          call left%run(suite, "left")
          call suite%check(all(abs(left%result%force_track - right%result%force_track) <= 0.0_wp), &
-            & "left is the mirror image of right to the last bit")
+            & "left is the mirror image of right, bit by bit")
          right%spec%link = time_link%continue_all
          left%spec%link = time_link%continue_all
       end do

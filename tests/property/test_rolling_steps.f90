@@ -46,7 +46,7 @@ contains
       type(test_case) :: case
       integer :: m, step
       character(len=40) :: what
-      !> Errors that steps of one, two and three elements leave, relative; without the correction fx is wrong by 4 and 8 %
+      !> Relative errors with steps of one, two and three elements; without the correction fx is wrong by 4 and 8 %
       real(wp), parameter :: of_fx(3) = [1.0e-3_wp, 5.0e-3_wp, 1.0e-2_wp], of_mz(3) = [1.0e-3_wp, 0.06_wp, 0.12_wp]
 
       do m = 1, 3
@@ -62,7 +62,7 @@ contains
             case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
             call case%run(suite, trim(what))
          end do
-         call suite%equal(case%log%warnings, 0, trim(what) // ": nothing to complain about")
+         call suite%equal(case%log%warnings, 0, trim(what) // ": no warning")
          call suite%close_to(cos(chi)*case%result%fx, steady%result%fx, of_fx(m), trim(what) // ": Fx of steady rolling", &
             & relative=.true.)
          call suite%close_to(case%result%mz, steady%result%mz, of_mz(m), trim(what) // ": Mz of steady rolling", relative=.true.)
@@ -98,7 +98,7 @@ contains
             case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
             call case%run(suite, trim(what))
          end do
-         call suite%equal(case%log%warnings, 0, trim(what) // ": nothing to complain about")
+         call suite%equal(case%log%warnings, 0, trim(what) // ": no warning")
          call suite%close_to(cos(chi)*case%result%cksi, steady%result%cksi, error_of_creepage, trim(what) // &
             & ": creepage of steady rolling", relative=.true.)
          call suite%close_to(case%result%ceta, 0.0_wp, 1.0e-6_wp, trim(what) // ": no lateral creepage")
@@ -108,7 +108,7 @@ contains
 
    !> Steady rolling with ConvexGS in long steps: the forces of steps of one element
    subroutine long_steady_steps(chi, poiss)
-      !> Rolling direction [rad], Poisson ratio of the second body, 0.28 for bodies that are alike
+      !> Rolling direction [rad], Poisson ratio of the second body, 0.28 for equal bodies
       real(wp), intent(in) :: chi, poiss
       type(test_case) :: case
       real(wp) :: fx
@@ -133,7 +133,7 @@ contains
          case%spec%kinematics%cksi = cos(chi)*steady%spec%kinematics%cksi
          case%spec%kinematics%cphi = 0.0_wp
          call case%run(suite, trim(what))
-         call suite%equal(case%log%warnings, 0, trim(what) // ": nothing to complain about")
+         call suite%equal(case%log%warnings, 0, trim(what) // ": no warning")
          if (m == 1) fx = case%result%fx
          call suite%close_to(case%result%fx, fx, of_fx, trim(what) // ": Fx of steps of one element", relative=.true.)
          call case%release()
@@ -171,7 +171,7 @@ contains
       end do
    end subroutine directions
 
-   !> What is not corrected says so, what cannot be done is refused
+   !> Steps without a correction give a warning, impossible ones are refused
    subroutine limits()
       type(test_case) :: case
       type(error_type), allocatable :: error

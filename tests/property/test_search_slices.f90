@@ -1,6 +1,6 @@
-!> The search on profiles that vary misses nothing that its mesh holds: compared with the gap at every point of that mesh
+!> The search on variable profiles finds every contact of its mesh: compared with the gap at every point of that mesh
 !>
-!> Rails with ridges narrower than the coarse mesh, at random places and for some slices only; wheels with and without a
+!> Rails with ridges narrower than the coarse mesh, at random positions and for some slices only; wheels with and without a
 !> flange, round and with a wave; roll and yaw.
 program test_search_slices
    use contact_base_error, only : error_type, full_text
@@ -105,13 +105,13 @@ contains
       do j = 1, gap%n
          if (lowest(j) < here + gap%depth) over = max(over, gap%gap(j) - lowest(j))
       end do
-      call suite%close_to(max(over, 0.0_wp), 0.0_wp, 1.0e-6_wp, trim(name) // ": nothing is nearer than what the search finds")
+      call suite%close_to(max(over, 0.0_wp), 0.0_wp, 1.0e-6_wp, trim(name) // ": no gap is smaller than that of the search")
       call suite%close_to(minval(gap%gap), here, 0.02_wp, trim(name) // ": the smallest gap")
    end subroutine compare
 
    !> Seven slices of a rail 80 mm wide, with ridges in three of them one after the other
    subroutine write_rail(with_waves)
-      !> Does the rail rise and fall along the track as well?
+      !> Does the height of the rail vary along the track as well?
       logical, intent(in) :: with_waves
       character(len=:), allocatable :: text
       real(wp) :: ridge(3, 4), height

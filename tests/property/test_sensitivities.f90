@@ -130,7 +130,7 @@ contains
       call case%run(suite, "ellipse")
       call suite%close_to(case%result%sensitivity(1, 1), 1.5_wp*case%result%fn/case%result%pen, 0.01_wp, &
          & "stiffness of Hertz's contact", relative=.true.)
-      call suite%check(all(abs(case%result%sensitivity(2:, :)) <= 0.0_wp), "nothing but dFn/dpen without friction")
+      call suite%check(all(abs(case%result%sensitivity(2:, :)) <= 0.0_wp), "only dFn/dpen without friction")
       call case%release()
    end subroutine frictionless
 
@@ -162,7 +162,7 @@ contains
       call case%release()
    end subroutine mindlin
 
-   !> What is not asked for stays zero
+   !> Derivatives that are not requested are zero
    subroutine levels(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case

@@ -71,7 +71,7 @@ contains
       call own%release()
    end subroutine pressures
 
-   !> Tractions within the bound, friction takes energy, tractions and displacements belong together
+   !> Tractions within the bound, friction dissipates energy, tractions and displacements are consistent
    subroutine sound(suite, result, what)
       type(test_suite), intent(inout) :: suite
       type(patch_result), intent(in) :: result
@@ -85,7 +85,7 @@ contains
          & what // ": slip in the slip area")
    end subroutine sound
 
-   !> Displacements are those of springs; normal ones of half-spaces; the energy of given pressures is not told
+   !> Displacements are those of springs; normal ones of half-spaces; the energy of given pressures is not reported
    subroutine displacements(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
@@ -104,7 +104,7 @@ contains
       call case%release()
    end subroutine displacements
 
-   !> Forces of the full solution, within what simplified theory is known for
+   !> Forces of the full solution, within the known error of simplified theory
    subroutine against_full_solution(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: sizes(4) = [1.0e-4_wp, 1.0e-3_wp, 3.0e-3_wp, 1.0e-2_wp]
@@ -126,7 +126,7 @@ contains
       call case%release()
    end subroutine against_full_solution
 
-   !> Transient rolling ends in steady rolling, also where steps are no whole elements; shifts add up
+   !> Transient rolling ends in steady rolling, also if steps are not whole elements; shifts add up
    subroutine time(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: steady, case
@@ -163,7 +163,7 @@ contains
       case%spec%link = time_link%continue_all
       call shift(case%spec, x=0.0_wp)
       call case%run(suite, "no shift")
-      call suite%close_to(case%result%fx_rel, force, 1.0e-12_wp, "without a shift nothing changes")
+      call suite%close_to(case%result%fx_rel, force, 1.0e-12_wp, "without a shift there is no change")
       call shift(case%spec, x=-1.0e-5_wp)
       call case%run(suite, "back")
       call suite%check(case%result%fx_rel > force, "back again")

@@ -1,4 +1,4 @@
-!> Small steps of the approach against solutions at the new approach: what is left falls with the square of the step
+!> Small steps of the approach against solutions at the new approach: the error decreases with the square of the step
 program test_small_step
    use contact_base_choices, only : motion, normal_control, sensitivity_choice
    use contact_base_kinds, only : wp
@@ -12,7 +12,7 @@ program test_small_step
    type(test_suite) :: suite
    !> Changes of the approach, relative to it
    real(wp), parameter :: parts(*) = [4.0e-3_wp, 1.0e-3_wp, 2.5e-4_wp, -4.0e-3_wp, -1.0e-3_wp, -2.5e-4_wp]
-   !> What is left over the square of the change: elements that enter or leave the contact
+   !> Error over the square of the change: elements that enter or leave the contact
    real(wp), parameter :: most = 5.0_wp
    !> Approach of the first solution [mm]
    real(wp), parameter :: pen = 0.02_wp

@@ -1,6 +1,6 @@
 !> Differential test: all tangential solvers on the same random problems
 !>
-!> A solver that says in its report that it did not converge does not count for that problem; one
+!> A solver that reports that it did not converge is ignored for that problem; one
 !> that claims success must agree with the Newton-Krylov solver.
 program test_solvers_agree
    use contact_base_choices, only : motion, solver_choice
@@ -26,7 +26,7 @@ program test_solvers_agree
    character(len=16) :: methods(8) = ""
    real(wp) :: worst(2, 8) = 0.0_wp
    integer :: agreed(8) = 0
-   !> Problems in which the default method acted in place of a classical one, and those in which its residual was the larger one
+   !> Problems in which the default method was used instead of a classical one, and those in which its residual was the larger one
    integer :: placed = 0, larger = 0
 
    call suite%start("solvers agree")
@@ -43,8 +43,8 @@ program test_solvers_agree
          & ", of tractions", worst(2, k)
    end do
    call every_iteration(suite)
-   write(*, "(2(a, i0))") "in place of classical methods: ", placed, ", with a larger residual: ", larger
-   ! chosen; 43 of 500 with the share of the tolerance in contact_patch_tangential_step
+   write(*, "(2(a, i0))") "instead of classical methods: ", placed, ", with a larger residual: ", larger
+   ! chosen; 43 of 500 with the fraction of the tolerance in contact_patch_tangential_step
    call suite%check(larger <= placed/5, "residuals as small as those of the classical methods")
    call suite%equal(count(agreed > 0), 4, "TangCG, ConvexGS, SteadyGS and GDsteady took part")
    call suite%equal(refused(solver_choice%default), 0, "Newton-Krylov, with its fall-back, always converges")
@@ -52,7 +52,7 @@ program test_solvers_agree
 
 contains
 
-   !> A solver that is allowed n iterations makes all n of them before it gives up
+   !> A solver that is allowed n iterations makes all n of them before it stops
    subroutine every_iteration(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
@@ -67,10 +67,10 @@ contains
          do n = 1, 3
             case%spec%iteration%maxgs = n
             call case%try(error)
-            call suite%check(.not. allocated(error), "few iterations are no error")
+            call suite%check(.not. allocated(error), "few iterations are not an error")
             if (allocated(error)) cycle
             call suite%equal(case%result%tangential%iterations, n, "iterations of " // trim(case%result%tangential%method))
-            call suite%check(.not. case%result%tangential%succeeded(), "it says that it gave up")
+            call suite%check(.not. case%result%tangential%succeeded(), "the abandoned method is reported")
          end do
       end do
       call case%release()
@@ -186,7 +186,7 @@ contains
       call case%release()
    end subroutine one_problem
 
-   !> Who asks for a classical method gets the default one, to a residual that is as small
+   !> If a classical method is requested the default one is used, to a residual that is as small
    subroutine in_its_place(suite, case, name)
       type(test_suite), intent(inout) :: suite
       !> Solved by the classical method
@@ -207,8 +207,9 @@ contains
          return
       end if
       associate (report => case%result%tangential)
-         call suite%check(report%succeeded() .and. report%residual <= eps, name // ": in place of " // trim(classical))
-         if (report%gave_up == "") call suite%check(report%asked == classical, name // ": is said to stand for " // trim(classical))
+         call suite%check(report%succeeded() .and. report%residual <= eps, name // ": instead of " // trim(classical))
+         if (report%gave_up == "") call suite%check(report%asked == classical, &
+            & name // ": is reported instead of " // trim(classical))
          placed = placed + 1
          if (report%residual > residual) larger = larger + 1
       end associate

@@ -1,4 +1,4 @@
-!> Layers of element centres by transforms: equal to direct sums, and what must hold for any field
+!> Layers of element centres by transforms: equal to direct sums, and relations that hold for any field
 program test_subsurface_layers
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
@@ -107,13 +107,13 @@ contains
       call new_surface_load(load, grid, p(:, :, 3), p(:, :, 1), p(:, :, 2), gg, nu, bilinear)
    end subroutine make_load
 
-   !> Cases that follow each other have the fields of single ones, whatever grows, shrinks, moves, comes or goes
+   !> Consecutive cases have the fields of single ones, for any change of size, position and contents
    subroutine series(suite)
       type(test_suite), intent(inout) :: suite
       !> First and last loaded column and row of each case
       integer, parameter :: loaded(4, 9) = reshape([9, 9, 6, 6,  8, 10, 5, 7,  1, 18, 1, 13,  2, 4, 11, 13,  2, 4, 11, 13, &
          & 5, 12, 3, 9,  5, 12, 3, 9,  1, 18, 1, 13,  7, 7, 2, 12], [4, 9])
-      !> The sixth to the eighth case have pressures only, the eighth has another depth; what was asked for twice keeps spectra
+      !> The sixth to the eighth case have pressures only, the eighth has another depth; spectra are kept for repeated requests
       logical, parameter :: with_tractions(9) = [.true., .true., .true., .true., .true., .false., .false., .false., .true.], &
          & keeps(9) = [.false., .true., .true., .true., .true., .false., .true., .false., .false.]
       integer, parameter :: ix(4) = [1, 7, 15, 18], iy(3) = [1, 2, 13]

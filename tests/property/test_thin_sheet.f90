@@ -164,7 +164,7 @@ contains
          call plain%run(suite, trim(kinds(k)))
          sheet%spec = sheet_case(1.0e-10_wp, 15)
          call choose(sheet%spec, k)
-         call sheet%run(suite, trim(kinds(k)) // ", no sheet to speak of")
+         call sheet%run(suite, trim(kinds(k)) // ", almost rigid sheet")
          call suite%close_to(sheet%result%pn, plain%result%pn, 1.0e-6_wp*plain%result%pmax, trim(kinds(k)) // &
             & ": without flexibility there is no sheet")
          sheet%spec = sheet_case(large, 15)
@@ -223,7 +223,7 @@ contains
       call case%release()
    end subroutine stiffness
 
-   !> Wheel on rail: the force is met, a stiff sheet changes nothing, a soft one lets the wheel down
+   !> Wheel on rail: the force is met, a stiff sheet has no effect, a soft one lowers the wheel
    subroutine wheel_on_rail()
       type(pair_case) :: plain, sheet
       integer :: k

@@ -1,5 +1,5 @@
-!> What a case sets up does not depend on the case before it, of which a session keeps the arrays: nothing of another law, model
-!> or grid stays behind
+!> The problem of a case does not depend on the previous case, whose arrays a session keeps: no data of another law, model or grid
+!> remain
 program test_unrelated_cases
    use contact_base_error, only : error_type, full_text
    use contact_base_log, only : log_type
@@ -54,7 +54,7 @@ contains
       spec%output_level = 0
    end subroutine read_first_case
 
-   !> Set up the second case by itself and behind the first one
+   !> Set up the second case alone and after the first one
    subroutine compare(first, second)
       integer, intent(in) :: first, second
       type(patch_problem) :: alone, behind
@@ -83,7 +83,7 @@ contains
       call suite%check(.false., trim(names(number)) // ": " // full_text(error))
    end subroutine set_up
 
-   !> Which arrays and models a problem has, with their shapes, and what it asks for
+   !> Arrays and models of a problem, with their shapes and requests
    function state_of(problem) result(state)
       type(patch_problem), intent(in) :: problem
       integer :: state(n_states)

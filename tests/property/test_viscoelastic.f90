@@ -1,4 +1,4 @@
-!> Viscoelastic bodies: contact conditions hold whatever the relaxation length, from a hundredth to a thousand elements
+!> Viscoelastic bodies: contact conditions hold for any relaxation length, from a hundredth to a thousand elements
 program test_viscoelastic
    use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_choices, only : material_model, motion, normal_control
@@ -27,7 +27,7 @@ program test_viscoelastic
       if (case%result%normal%method /= "NormCG") other = other + 1
       call case%release()
    end do
-   write(output_unit, "(i0, a, i0, a)") other, " of ", count_, " scenes were left by NormCG"
+   write(output_unit, "(i0, a, i0, a)") other, " of ", count_, " scenes were not solved by NormCG"
    call suite%check(other > 0, "some scenes need more than conjugate gradients")
    call suite%finish()
 

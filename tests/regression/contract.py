@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What scripts for this family of files rely on, checked line by line: contract.py FILE ...
 
-The scripts find sections by text anywhere in a line and read numbers so many lines below; they take every line with
+The scripts find sections by text anywhere in a line and read numbers a fixed number of lines below; they take every line with
 the word Case for a new case; .mat and .subs files go through loaders that want the same number of columns on each line.
 """
 import glob
@@ -10,9 +10,9 @@ import sys
 
 import out_file
 
-# Heading, and how many numbers stand on the line below
+# Heading, and count of the numbers on the line below
 BELOW = {"FX(TR)      FY(TR)": 6, "MX@R(TR)": 6, "XCP(TR)     YCP(TR)": 6, "XCP(W)": 3}
-# Title of a section, and how many numbers stand two lines below it
+# Title of a section, and count of the numbers two lines below it
 SECTIONS = {"KINEMATIC CONSTANTS": 6, "WHEEL-SET POSITION AND VELOCITY": 6, "FLEXIBLE WHEEL-SET DEVIATIONS": 6,
             "RAIL IRREGULARITY": 6, "MASSLESS RAIL DEFLECTION": 6}
 LAYOUT = 2410
@@ -28,7 +28,7 @@ def check_out(path):
         if not condition:
             wrong.append("%s:%d: %s: %s" % (path, k + 1, text, lines[k] if k < len(lines) else ""))
 
-    demand(len(lines) > 1 and "detailed investigation of 3D" in lines[1], 1, "the second line does not tell the kind of file")
+    demand(len(lines) > 1 and "detailed investigation of 3D" in lines[1], 1, "the second line does not have the kind of file")
     announced = patches = 0
     for k, line in enumerate(lines):
         def count(below, k=k):
@@ -38,7 +38,7 @@ def check_out(path):
                 return -1
 
         if "Case" in line:
-            demand(re.match(r" Case +\d+", line), k, "the word Case in a line that is none")
+            demand(re.match(r" Case +\d+", line), k, "the word Case in a line that does not begin a case")
             demand(announced in (0, patches), k, "%d patches announced, %d described before" % (announced, patches))
             announced = patches = 0
         title = re.search(r"WHEEL-(RAIL|ROLLER) CONTACT, (LEFT|RIGHT) WHEEL, +(\d+) CONTACT PATCH", line)
@@ -53,7 +53,7 @@ def check_out(path):
                 demand(count(1) == n, k + 1, "%d numbers expected" % n)
         for heading, n in SECTIONS.items():
             if heading in line:
-                # shifts have the time step in place of direction and step
+                # shifts have the time step instead of direction and step
                 n -= lines[k + 1].split()[0] == "DT"
                 demand(count(2) == n, k + 2, "%d numbers expected" % n)
         if "WHEEL-SET POSITION AND VELOCITY" in line:
@@ -139,7 +139,7 @@ def check_subs(path):
 
 
 def check_files(pattern):
-    """Complaints about all files of a pattern, and how many files there are"""
+    """Complaints about all files of a pattern, and the number of files"""
     wrong, found = [], 0
     for ending, check in (("out", check_out), ("mat", check_mat), ("subs", check_subs)):
         for path in sorted(glob.glob(pattern)):

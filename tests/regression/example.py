@@ -25,7 +25,7 @@ def main(name):
             os.remove(old)
     run = subprocess.run([program, "--quiet", "--output-dir", ".", "2", os.path.join(source, "examples", name)],
                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    # debug builds tell array temporaries on the error stream
+    # debug builds report array temporaries on the error stream
     if run.returncode != 0 or run.stdout:
         print(run.stdout, run.stderr[-3000:], sep="")
         print("FAILED: exit status %d, or output in spite of --quiet" % run.returncode)

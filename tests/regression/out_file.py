@@ -1,20 +1,20 @@
 """Read the results of an .out file as the public scripts for this family of files do.
 
-They search for a heading anywhere in a line, skip lines, and split what stands there at blanks.
+They search for a heading anywhere in a line, skip lines, and split the line there at blanks.
 """
 
 TOTALS = ("FN", "FX", "FY", "MZ", "ENERGY", "POWER")
 
 
 def read(path):
-    """Return {case number: {quantity: value}}; X and Y are what the heading of case says they are.
+    """Return {case number: {quantity: value}}; X and Y depend on the heading of the case.
 
     An extreme of subsurface block 2 is the quantity "2 SIGVM", its place is "2 SIGVM x", ... y and z.
     """
     with open(path) as file:
         lines = file.read().splitlines()
     if len(lines) < 2 or "detailed investigation of 3D" not in lines[1]:
-        raise ValueError("%s: the second line does not tell that this is an .out file" % path)
+        raise ValueError("%s: the second line is not that of an .out file" % path)
     cases = {}
     values = None
     for k, line in enumerate(lines):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Published totals of cases that are described here anew: published.py [SCENE ...]
+"""Published totals of cases with new descriptions: published.py [SCENE ...]
 
 published/figures.json holds numbers of the outputs that are published with the established program (revision 2707,
 July 2025): for each scene its origin, and for each case quantity, value as printed and allowed difference. The inputs are
-written here from the physical data of the cases, so that nothing else than these numbers is needed.
+written here from the physical data of the cases, so that only these numbers are needed.
 """
 import json
 import math
@@ -80,7 +80,7 @@ def heated_sliding():
 
 
 def heated_friction():
-    """The same with friction that falls, then rises with temperature"""
+    """The same with friction that decreases, then increases with temperature"""
     yield heated("203100 022020 3002431", (-0.03333, 0, 0), [iteration(1e-5)], (0, 0))
     for change in -0.18, 0.18:
         yield case(3, "203100 600000 1102431", (100000, -0.03333, 0, 0), (0.3, 0, change, 400), (0, 1))
@@ -106,7 +106,7 @@ def yielding_ball():
 
 
 def two_branches():
-    """Carter's problem with friction that falls with slip velocity: steady, then steps from below and from above"""
+    """Carter's problem with friction that decreases with slip velocity: steady, then steps from below and from above"""
     friction = ((0.18, 0.12, 100, 0, 0), (0, 1))
     steady = [(5000, 2000, 30, 1, 1e-7), (0.5, 1, 1, 1.1), (622216, -0.0009999, 0, 0)]
     yield case(3, "203100 422020 0201331", *steady, *friction, (0, 0.1, 45000), STEEL, (3,), (92, 1, -4.6, 0, 0.1, 200), (2, 1),

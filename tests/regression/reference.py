@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 
-# inputs of which every case agrees; the others stand in doc/validation/deviations.md. The comparison stops
+# inputs of which every case agrees; the others are listed in doc/validation/deviations.md. The comparison stops
 # at a case of tractcurv in which energy and power are both 0
 INPUTS = ["examples/" + name for name in (
     "cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35", "subsurf", "veldep_fric", "ertz_temperature", "fastsim",

@@ -1,8 +1,8 @@
 !> Hard cases: how they are run, checked and written to the table
 !>
-!> Every case has a right answer or ends with a clear statement. A right answer is recognised by
-!> the contact conditions themselves, evaluated from the fields of the result by direct sums over
-!> the influence coefficients: no FFT, and nothing that a solver computed on its way.
+!> Every case has a correct result or ends with a clear message. A result is checked by the contact
+!> conditions themselves, evaluated from the fields of the result by direct sums over the influence
+!> coefficients: without FFT, and without data of the solvers.
 module hard_case
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : motion, normal_control, pressure_model, time_link
@@ -29,16 +29,16 @@ module hard_case
    type :: hard_run
       type(contact_session) :: session
       type(log_type) :: log
-      !> Present and previous moment
+      !> Present and previous time step
       type(patch_result) :: result, before
-      !> Is there a previous moment that the present one is linked to?
+      !> Does the present time step continue a previous one?
       logical :: linked = .false.
       type(error_type), allocatable :: error
       !> Seconds of the last case, warnings of the last case
       real(wp) :: seconds = 0.0_wp
       integer :: warnings = 0
    contains
-      !> Free what the session holds
+      !> Free the memory of the session
       procedure :: release
       !> The same at the end of a scope; one call there compiles faster than the release of all components
       final :: finish
@@ -134,7 +134,7 @@ contains
       close(table)
    end subroutine close_table
 
-   !> Solve one case and keep the moment before it
+   !> Solve one case and keep the previous time step
    subroutine run_case(run, spec)
       type(hard_run), intent(inout) :: run
       type(case_spec), intent(in) :: spec
@@ -171,7 +171,7 @@ contains
       real(wp), intent(in), optional :: slack
       !> Without a line in the table; default no
       logical, intent(in), optional :: silent
-      !> Are distances so rough that every third one is another surface, which no estimate can be judged by? Default no
+      !> Are distances so rough that a grid of every third one is a different surface, unsuitable to check estimates? Default no
       logical, intent(in), optional :: sampled
       type(findings) :: found
       real(wp) :: allowed, gap_allowed
@@ -212,7 +212,7 @@ contains
       if (is_judged .and. .not. run%linked) call judge_estimate(suite, run%session%problem, run%session%state, run%result, name)
    end subroutine expect_solution
 
-   !> The case must end: with a right answer, or with a report and a message that say otherwise
+   !> The case must end with a correct result, or with a report and a message about its failure
    subroutine expect_statement(suite, run, spec, name, slack)
       type(test_suite), intent(inout) :: suite
       type(hard_run), intent(inout) :: run
@@ -241,13 +241,13 @@ contains
          call suite%close_to(max(found%gap, found%penetration), 0.0_wp, allowed, name // ": gap")
          call suite%close_to(found%normal_force, 0.0_wp, 1.0e-12_wp, name // ": normal force")
       else
-         call suite%check(run%warnings > 0, name // ": a message tells that the normal problem did not converge")
+         call suite%check(run%warnings > 0, name // ": a message reports that the normal problem did not converge")
       end if
       if (run%result%tangential%succeeded()) then
          call suite%close_to(found%friction, 0.0_wp, allowed, name // ": friction law")
          call suite%close_to(found%forces, 0.0_wp, allowed, name // ": prescribed forces")
       else
-         call suite%check(run%warnings > 0, name // ": a message tells that friction did not converge")
+         call suite%check(run%warnings > 0, name // ": a message reports that friction did not converge")
       end if
    end subroutine expect_statement
 
@@ -325,7 +325,7 @@ contains
          coupled = material%coupled()
          call fill_table(now, material, res%grid%dx, res%grid%dy, mx, my)
 
-         ! normal gaps; Johnson's process solves them without tangential tractions
+         ! normal gaps; the Johnson process solves them without tangential tractions
          johnson = spec%iteration%maxout <= 1
          if (spec%pressure == pressure_model%full) then
             scale = max(abs(res%pen - minval(res%h)), tiny(scale))
@@ -412,7 +412,7 @@ contains
 
    contains
 
-      !> Tangential displacements by all tractions of this moment
+      !> Tangential displacements due to all tractions of this time step
       subroutine add_displacements(kernel, factor)
          type(kernel_table), intent(in) :: kernel
          real(wp), intent(in) :: factor
@@ -435,7 +435,7 @@ contains
          end do
       end subroutine add_displacements
 
-      !> Displacements of the same particles at the previous moment, on its own window
+      !> Displacements of the same particles at the previous time step, on its window
       subroutine subtract_previous()
          integer :: a, jx, jy, kx, ky, mx_old, my_old
          real(wp) :: shift_x, shift_y, q(3)
@@ -501,7 +501,7 @@ contains
       end associate
    end subroutine write_row
 
-   !> How both problems ended
+   !> Outcome of both problems
    function endings(normal, tangential, is_solved) result(text)
       type(solve_report), intent(in) :: normal, tangential
       !> Is the case solved? If not, although both problems converged, the outer iteration did not

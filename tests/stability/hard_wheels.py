@@ -118,17 +118,17 @@ def main():
     parser.add_argument("--order", default="2")
     parser.add_argument("--list", action="store_true", help="name the cases whose estimates lie")
     parser.add_argument("--check", action="store_true", help="a small share")
-    asked = parser.parse_args()
-    if asked.check:
+    arguments = parser.parse_args()
+    if arguments.check:
         # among them a rough profile whose estimate was once a twelfth of the error
-        asked.count, asked.seed = 120, 77
+        arguments.count, arguments.seed = 120, 77
     program, folder = os.environ["CONTACT_PROGRAM"], os.getcwd()
     with tempfile.TemporaryDirectory() as name:
         os.chdir(name)
         lines = pairs()
-        source = random.Random(asked.seed)
-        cases = [case(source, sorted(lines)[k % len(lines)]) for k in range(asked.count)]
-        options = ("--order", asked.order)
+        source = random.Random(arguments.seed)
+        cases = [case(source, sorted(lines)[k % len(lines)]) for k in range(arguments.count)]
+        options = ("--order", arguments.order)
         coarse = solve(program, "coarse", cases, lines, 1.0, ("--errors", *options))
         fine = solve(program, "fine", cases, lines, FINER, options)
         os.chdir(folder)
@@ -159,7 +159,7 @@ def main():
         wrong = sum(lie[1]["group"] == group for lie in lies)
         print(f"| {group} | {count['cases']} | {count['patches']} | {count['no contact']} | {count['refused']} | "
               f"{count['not converged']} | {count['judged']} | {ratio[0]:.2g} | {ratio[len(ratio) // 2]:.2g} | {wrong} |")
-    for number, c, quantity, estimate, true in lies if asked.list else ():
+    for number, c, quantity, estimate, true in lies if arguments.list else ():
         print(f"case {number}, {c['group']}, y {c['y']:.2f}, yaw {c['yaw']:.4f}, Fz {c['fz']:.0f}, elements {c['size']:.2f}: "
               f"{quantity} estimated {estimate:.1e}, true {true:.1e}")
     if silent:

@@ -1,7 +1,7 @@
 !> Estimated errors of hard cases against true ones, without grids finer than that of the case
 !>
 !> The case is solved with elements three times as long, by the coarse level of the estimates, and the errors of that solution are
-!> estimated: from a level nine times as coarse. The solution of the case itself tells what they are.
+!> estimated: from a level nine times as coarse. The true errors follow from the solution of the case itself.
 module judged_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : time_link
@@ -17,9 +17,9 @@ module judged_estimate
 
    public :: judge_estimate
 
-   !> An estimate below this part of the true error lies
+   !> An estimate below this fraction of the true error is wrong
    real(wp), parameter :: least = 0.1_wp
-   !> Errors below these parts of what they are relative to are no matter: rounding, and tolerances of the cases
+   !> Relative errors below these values are ignored: round-off, and tolerances of the cases
    real(wp), parameter :: small = 1.0e-4_wp
 
 contains
@@ -27,7 +27,7 @@ contains
    !> Solve a solved case on elements three times as long, and judge the errors that are estimated there
    subroutine judge_estimate(suite, problem, state, result, name)
       type(test_suite), intent(inout) :: suite
-      !> A problem that continues no other one, and its solution
+      !> A problem without a previous one, and its solution
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(patch_result), intent(in) :: result

@@ -36,7 +36,7 @@ contains
                spec%kinematics%cphi = 3.0e-4_wp
                write(label, "(a, f6.3, a, i0, a, i0)") "K ", material%ak, ", T=", t, ", MAXOUT ", passes(m)
                if (passes(m) == 10) then
-                  ! ten passes may be too few; then a message says so
+                  ! ten passes may be too few, which a message reports
                   call expect_passes(run, spec, trim(label))
                else
                   call expect_solution(suite, run, spec, trim(label), slack=50.0_wp)
@@ -74,7 +74,7 @@ contains
       call run%release()
    end subroutine extremes
 
-   !> The outer iteration either reaches its tolerance or says that it did not
+   !> The outer iteration reaches its tolerance or reports that it did not
    subroutine expect_passes(run, spec, name)
       type(hard_run), intent(inout) :: run
       type(case_spec), intent(in) :: spec

@@ -138,7 +138,7 @@ contains
             call expect_refusal(suite, run, spec, "F=2, " // trim(label), "friction bound")
          end do
       end do
-      ! the first component alone is within the limit, creepage in y beside it
+      ! the first component alone is within the limit, with creepage in y
       spec = rolling(0.0_wp, 1.0e-3_wp, 0.0_wp)
       spec%force = 1
       spec%kinematics%fx = -0.7_wp
@@ -151,7 +151,7 @@ contains
       call run%release()
    end subroutine forces
 
-   !> Friction coefficients and Poisson ratios at their ends
+   !> Friction coefficients and Poisson ratios at their bounds
    subroutine parameters()
       type(case_spec) :: spec
       type(hard_run) :: run
@@ -202,7 +202,7 @@ contains
          spec%motion = t
          spec%iteration%eps = 1.0e-9_wp
          call expect_solution(suite, run, spec, "chi 0, " // label)
-         ! x -> -x turns the signs of x vectors and of rotations
+         ! x -> -x changes the signs of x components and of rotations
          spec%rolling%chi = pi
          spec%kinematics%cksi = -spec%kinematics%cksi
          spec%kinematics%cphi = -spec%kinematics%cphi

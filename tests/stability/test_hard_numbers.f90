@@ -1,4 +1,4 @@
-!> Numbers that are none, or not finite, must never travel silently
+!> NaN and infinite numbers must never be used silently
 program test_hard_numbers
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_negative_inf, ieee_positive_inf, &
       & ieee_quiet_nan, ieee_value
@@ -39,7 +39,7 @@ contains
                call run_case(run, spec)
                call suite%check(has_message(run), trim(label) // " is refused with a message")
             end do
-            ! the session is still good
+            ! the session is still usable
             spec = given_case(t, 7, 7)
             spec%kinematics%cksi = 1.0e-4_wp
             write(label, "(a, i0, a, i0)") "after value ", kind, ", T=", t
@@ -65,7 +65,7 @@ contains
       end if
    end function matters
 
-   !> Put a bad number in one place
+   !> Replace one value by a bad number
    subroutine spoil(spec, place, value)
       type(case_spec), intent(inout) :: spec
       integer, intent(in) :: place

@@ -1,7 +1,7 @@
 !> Wheel on rail through long sequences in which patches appear, vanish, join and separate
 !>
 !> Every step must end with a solution, tractions must obey friction, and forces must not jump where the
-!> number of patches changes: friction forces change there by no more than where it stays.
+!> number of patches changes: friction forces change there by no more than elsewhere.
 program test_hard_pairs
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, full_text
@@ -242,7 +242,7 @@ contains
       call pair%release()
    end subroutine hopping_wheel
 
-   !> Tractions within the friction bound in every element, and numbers that are numbers
+   !> Tractions within the friction bound in every element, and no NaN
    subroutine obeys_friction(pair, name)
       type(pair_case), intent(in) :: pair
       character(len=*), intent(in) :: name

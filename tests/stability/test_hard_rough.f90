@@ -1,4 +1,4 @@
-!> Rough surfaces: many islands of contact, several draws, given element by element
+!> Rough surfaces: many small contact areas, several random surfaces, given element by element
 program test_hard_rough
    use contact_base_choices, only : motion, normal_control
    use contact_base_kinds, only : wp

@@ -1,4 +1,4 @@
-!> Long sequences, windows that move, patches that split and merge, two problems in turn
+!> Long sequences, windows that move, patches that split and merge, two interleaved problems
 program test_hard_sequences
    use contact_base_choices, only : estimate_choice, motion, normal_control, time_link
    use contact_base_kinds, only : wp
@@ -21,7 +21,7 @@ program test_hard_sequences
 
 contains
 
-   !> Does this step go into the table, and is it checked by direct sums?
+   !> Is this step written to the table and checked by direct sums?
    pure logical function looked_at(step)
       integer, intent(in) :: step
       looked_at = step <= 5 .or. mod(step, 100) == 0
@@ -49,7 +49,7 @@ contains
          & name // ", step " // trim(label) // " converges")
    end subroutine take_step
 
-   !> 1000 shifts with a tangential force that swings, as in fretting
+   !> 1000 shifts with an alternating tangential force, as in fretting
    subroutine oscillating_force()
       type(case_spec) :: spec
       type(hard_run) :: run
@@ -71,11 +71,11 @@ contains
          if (step == 90) first = run%result%cksi
          if (step == 970) last = run%result%cksi
       end do
-      call suite%close_to(last, first, 1.0e-3_wp, "the cycle of a swinging force repeats itself", relative=.true.)
+      call suite%close_to(last, first, 1.0e-3_wp, "the cycle of an alternating force repeats itself", relative=.true.)
       call run%release()
    end subroutine oscillating_force
 
-   !> The normal force swings as well: the contact area grows and shrinks
+   !> The normal force alternates as well: the contact area grows and shrinks
    subroutine growing_load()
       type(case_spec) :: spec
       type(hard_run) :: run
@@ -106,7 +106,7 @@ contains
       do step = 1, 1000
          spec%kinematics%cksi = 1.0e-3_wp*(1.0_wp + sin(2.0_wp*pi*step/50.0_wp))
          spec%kinematics%ceta = 4.0e-4_wp*cos(2.0_wp*pi*step/70.0_wp)
-         ! the bodies are described in axes that stay: the contact moves on by a step of one element
+         ! the bodies are described in fixed axes: the contact moves by one element per step
          if (step > 1) then
             spec%grid%xl = spec%grid%xl + merge(spec%grid%dx, 0.0_wp, mod(step, 5) == 0)
             spec%grid%yl = spec%grid%yl + merge(spec%grid%dy, 0.0_wp, mod(step, 50) == 0) &
@@ -121,7 +121,7 @@ contains
       call run%release()
    end subroutine rolling_windows
 
-   !> Two bumps under a sphere that presses harder and softer: one patch, two, three, one
+   !> Two bumps under a sphere with varying force: one patch, two, three, one
    subroutine split_and_merge()
       type(case_spec) :: spec
       type(hard_run) :: run
@@ -153,7 +153,7 @@ contains
       call run%release()
    end subroutine split_and_merge
 
-   !> Two problems in turn give what each gives alone, bit for bit
+   !> Two interleaved problems give the results of each alone, bit by bit
    subroutine two_sessions()
       type(case_spec) :: a, b
       type(hard_run) :: alone(2), turn(2)
@@ -181,13 +181,13 @@ contains
          call run_case(turn(2), b)
       end do
       do k = 1, 2
-         call suite%check(.not. (allocated(alone(k)%error) .or. allocated(turn(k)%error)), "two problems in turn have no error")
+         call suite%check(.not. (allocated(alone(k)%error) .or. allocated(turn(k)%error)), "two interleaved problems have no error")
          call suite%check(all(alone(k)%result%px == turn(k)%result%px) .and. all(alone(k)%result%py == turn(k)%result%py) &
             & .and. all(alone(k)%result%pn == turn(k)%result%pn) .and. alone(k)%result%cksi == turn(k)%result%cksi, &
-            & "two problems in turn are the same as each alone")
+            & "two interleaved problems have the results of each alone")
       end do
       call examine(turn(1), a, found)
-      call suite%close_to(found%friction, 0.0_wp, 1.05e-6_wp, "the first of two problems in turn is solved")
+      call suite%close_to(found%friction, 0.0_wp, 1.05e-6_wp, "the first of two interleaved problems is solved")
       do k = 1, 2
          call alone(k)%release()
          call turn(k)%release()

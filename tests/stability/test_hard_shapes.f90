@@ -177,7 +177,7 @@ contains
             call expect_solution(suite, run, spec, trim(label) // ", F=2")
             spec%force = 0
          end if
-         ! and back again in the next case of the same session
+         ! contact again in the next case of the same session
          spec%link = 0
          spec%parts%grid = part_source%kept
          spec%parts%geometry = part_source%kept

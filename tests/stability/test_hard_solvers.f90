@@ -1,4 +1,4 @@
-!> All named solvers on a smaller set of hard cases: they end with a solution, or say what they reached
+!> All named solvers on a smaller set of hard cases: they end with a solution, or report the residual that they reached
 program test_hard_solvers
    use contact_base_choices, only : motion, solver_choice
    use contact_base_kinds, only : wp
@@ -12,7 +12,7 @@ program test_hard_solvers
    call suite%start("hard cases for all solvers")
    call open_table("All solvers")
    call all_solvers()
-   write(*, "(2(i0, a))") converged, " of ", ended, " cases converged, the others say so"
+   write(*, "(2(i0, a))") converged, " of ", ended, " cases converged, the others report it"
    call close_table()
    call suite%finish()
 
@@ -36,7 +36,7 @@ contains
                spec%classical = .true.
                spec%iteration%eps = 1.0e-5_wp
                write(label, "(2a, i0, 2a)") what, ", T=", t, ", ", names(s)
-               ! sweeps end when the tractions no longer change, which is not yet the residual
+               ! sweeps end when the tractions no longer change, which does not bound the residual
                call expect_statement(suite, run, spec, trim(label), slack=merge(1.05_wp, 200.0_wp, s == 1))
                ended = ended + 1
                if (.not. allocated(run%error)) then

@@ -46,12 +46,12 @@ program test_hostile_input
 
 contains
 
-   !> Read until the end or an error, and make all messages
+   !> Read until the end or an error, and produce all messages
    subroutine read_all(text, cases, complete)
       character(len=*), intent(in) :: text
-      !> Number of cases that were handed out
+      !> Number of cases that were read
       integer, intent(out) :: cases
-      !> Was the end regular?
+      !> Was the end of the input reached without an error?
       logical, intent(out) :: complete
       type(experiment_reader) :: reader
       type(input_case) :: this
@@ -75,7 +75,7 @@ contains
       complete = .not. allocated(error) .and. length >= 0
    end subroutine read_all
 
-   !> The input cut off behind each of its characters
+   !> The input truncated after each of its characters
    subroutine prefixes(suite, valid)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: valid

@@ -1,7 +1,8 @@
 !> Dissimilar bodies: passes of the outer iteration, from little coupling to much
 !>
 !> The strength of the coupling is the product of friction and the difference parameter K. Up to mu K = 1.5 every
-!> case converges, up to mu = 1 within the passes that the plain iteration needs at most; beyond, cases that do not say so.
+!> case converges, up to mu = 1 within the passes that the plain iteration needs at most; beyond, cases may fail to
+!> converge and report it.
 program test_outer_iteration
    use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_choices, only : motion

@@ -47,13 +47,13 @@ def worn_wheel(points, hollow, flange):
 
 def uneven(points, least, most, rng):
     """Points at random distances [mm] along the polyline"""
-    chosen, s, wanted = [points[0]], 0.0, rng.uniform(least, most)
+    chosen, s, next_s = [points[0]], 0.0, rng.uniform(least, most)
     for (ya, za), (yb, zb) in zip(points, points[1:]):
         length = math.hypot(yb - ya, zb - za)
-        while wanted < s + length:
-            t = (wanted - s)/length
+        while next_s < s + length:
+            t = (next_s - s)/length
             chosen.append((ya + t*(yb - ya), za + t*(zb - za)))
-            wanted += rng.uniform(least, most)
+            next_s += rng.uniform(least, most)
         s += length
     return chosen[:-1] + [points[-1]]
 
@@ -165,7 +165,7 @@ def main():
             status, results = solve("%s_%d" % (name, side), pairs[name], side, 1, cases)
             check(status == 0 and len(results) == len(cases), "%s: %d of %d cases end" % (name, len(results), len(cases)))
             for (y, yaw, force), result in zip(cases, results):
-                check(abs(result[3] - force) <= 1e-3*force, "%s: y %g, yaw %g: the force is %g, wanted %g"
+                check(abs(result[3] - force) <= 1e-3*force, "%s: y %g, yaw %g: the force is %g instead of %g"
                       % (name, y, yaw, result[3], force))
             both.append(results)
         mirrored = all(a[0] == b[0] and [abs(f) for f in a[1:]] == [abs(f) for f in b[1:]] for a, b in zip(*both))

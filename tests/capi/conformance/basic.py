@@ -91,9 +91,9 @@ def variations():
             cntc.setflags(1, 1, CNTC["ic_force"], 0)
             for given_creepages, reached in ((found, 0.9999), (creepages, 0.9951)):
                 cntc.setcreepages(1, 1, *given_creepages, 4e-4)
-                same(cntc.calculate(1, 1), 0, "creepages in place of forces: error code")
+                same(cntc.calculate(1, 1), 0, "creepages instead of forces: error code")
                 close(np.hypot(*cntc.getcontactforces(1, 1)[1:3]) / (0.3 * fn), reached, 5e-5,
-                      f"creepages {given_creepages} in place of forces")
+                      f"creepages {given_creepages} instead of forces")
     cntc.setflags(1, 1, CNTC["ic_force"], 0)
     cntc.setnormalforce(1, 1, 42083)
     same(cntc.calculate(1, 1), 0, "normal force given: error code")
@@ -159,11 +159,11 @@ def stresses():
     close(table[2], [356.12, 371.76, 416.60, 412.90], 0.005 * 416, "von Mises stress")
     close(table[3], [-675.66, -634.96, -578.13, -502.48], 0.005 * 676, "stress on the axis")
     # points between the centres of elements, too near to the surface
-    told = "points lie less than DX/4"
-    check(told not in log_text(), "no warning of points on the axis")
+    warning = "points lie less than DX/4"
+    check(warning not in log_text(), "no warning of points on the axis")
     cntc.subs_addblock(1, 1, 1, 9, [0.11, 0.22], [0.0], [0.001])
     same(cntc.subs_calculate(1, 1), 0, "subs_calculate near the surface")
-    check(told in log_text(), "a warning of points near the surface")
+    check(warning in log_text(), "a warning of points near the surface")
 
 
 def points_below():
@@ -212,7 +212,7 @@ def points_below():
     cntc.subs_addblock(1, 1, 1, 1, [], [], [2, 0.0, 0.0])
     same(cntc.subs_calculate(1, 1), 0, "a step of zero is raised")
     cntc.subs_addblock(1, 1, 1, 3, [0, 2, 2], [1], [1, 0.5, 1.0])
-    check("2 of the 3 numbers of IX are dropped" in last_error(1, 1)[1], "what is dropped is reported")
+    check("2 of the 3 numbers of IX are dropped" in last_error(1, 1)[1], "dropped values are reported")
 
 
 def sensitivities():
@@ -265,7 +265,7 @@ def sensitivities():
 
 
 def codes():
-    """Wrong numbers of elements and problems: codes where a routine has one, outputs as they were"""
+    """Wrong numbers of elements and problems: codes if a routine has one, unchanged outputs"""
     start()
     start(2, 1)
     case_a(1)
@@ -331,7 +331,7 @@ def wrong_counts():
         same(len(log_text().splitlines()) - lines, 1, f"{name}{tuple(shown)}: lines in the log")
         same(cntc.getflags(1, 1, [CNTC[f"ic_{digit}"] for digit in ("frclaw", "mater", "heat", "bound")]).tolist(),
              flags, f"{name}{tuple(shown)}: digits")
-    same(cntc.calculate(1, 1), -99, "what was refused is missing")
+    same(cntc.calculate(1, 1), -99, "the refused setting is missing")
     case_a(1)
     cntc.settemperaturedata(1, 1, 0, [])
     cntc.setundeformeddistc(1, 1, 1, [0.001, 0, 0.001, 0, 0, 0])
@@ -355,10 +355,10 @@ def clamps():
             (1, 1, "ic_bound", 11, 6, 0), (1, 1, "ic_exrhs", 2**31 - 1, 3, 0), (1, 1, "ic_exrhs", -2**31, 0, 0)):
         lines = len(log_text().splitlines())
         cntc.setflags(ire, icp, CNTC[flag], value)
-        told = [line for line in log_text().splitlines()[lines:] if "**" in line]
+        warnings = [line for line in log_text().splitlines()[lines:] if "**" in line]
         words = (f"flag {CNTC[flag]} = {value} ", f"replaced by {stored}")
-        check(len(told) == 1 and "Warning" in told[0] and all(part in told[0] for part in words),
-              f"{flag} = {value} is told: {told}")
+        check(len(warnings) == 1 and "Warning" in warnings[0] and all(part in warnings[0] for part in words),
+              f"{flag} = {value} is reported: {warnings}")
         for place in ((ire, icp), (0, -1)):
             code, text = last_error(*place)
             check(code == 0 and "Warning" in text and all(part in text for part in words), f"{flag} = {value}, {place}: {text}")
@@ -367,7 +367,7 @@ def clamps():
         if (flag, value) in (("ic_tang", 9), ("ic_matfil", 9), ("ic_sbsout", 7), ("ic_ifvari", 0)):
             same(cntc.calculate(ire, icp), 0, f"{flag} = {value} is calculated with {stored}")
         cntc.setflags(ire, icp, CNTC[flag], good)
-        same(last_error(ire, icp), (0, ""), f"{flag} = {good} needs no word")
+        same(last_error(ire, icp), (0, ""), f"{flag} = {good} gives no warning")
     for ire, icp, flag, value, good in (
             (2, -1, "ic_force", 2, 0), (1, 1, "if_units", 1, 1934), (1, 1, "ic_inflcf", 9, 2), (2, -1, "ic_discns", 10, 2),
             (1, 1, "if_wrtinp", 3, 0), (1, 1, "ic_xflow", -1, 0)):
@@ -397,15 +397,15 @@ def clamps():
     close([acting["fstat"][0], acting["fkin"][0]], [0.2, 0.2], 1e-15, "the smaller coefficient acts")
     for values in ([0.3, 0.3], [0.3, 0.30000001]):
         cntc.setfrictionmethod(1, 1, 0, values)
-        same(last_error(1, 1), (0, ""), f"L = 0, {values} needs no word")
+        same(last_error(1, 1), (0, ""), f"L = 0, {values} gives no warning")
     # a value that is clamped to the range ends the refusal as well
     cntc.setflags(1, 1, CNTC["ic_inflcf"], 9)
     cntc.setflags(1, 1, [CNTC["ic_inflcf"], CNTC["ic_tang"]], [2, 9])
-    same(cntc.calculate(1, 1), 0, "refused, made anew, and another one replaced")
+    same(cntc.calculate(1, 1), 0, "refused, made again, and another one replaced")
     lines = len(log_text().splitlines())
     cntc.setflags(1, 1, [0, 4711], [1, 1])
-    check(len(log_text().splitlines()) > lines, "an unknown flag is told")
-    same(cntc.calculate(1, 1), 0, "an unknown flag is no setting")
+    check(len(log_text().splitlines()) > lines, "an unknown flag is reported")
+    same(cntc.calculate(1, 1), 0, "an unknown flag changes nothing")
     for flag, cure in (("ic_mater", lambda: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.28, 82e3, 82e3])),
                        ("ic_frclaw", lambda: cntc.setfrictionmethod(1, 1, 0, [0.3, 0.3])),
                        ("ic_heat", lambda: cntc.settemperaturedata(1, 1, 0, []))):
@@ -413,11 +413,11 @@ def clamps():
         cntc.setflags(1, 1, CNTC[flag], before)
         same(cntc.calculate(1, 1), 0, f"{flag} with the value it has")
         cntc.setflags(1, 1, CNTC[flag], 1)
-        same(int(cntc.getflags(1, 1, CNTC[flag])[0]), before, f"{flag} has a routine of its own")
+        same(int(cntc.getflags(1, 1, CNTC[flag])[0]), before, f"{flag} has a separate routine")
         same(cntc.calculate(1, 1), -99, f"{flag} was refused")
         cure()
         same(cntc.calculate(1, 1), 0, f"{flag} is cured by its routine")
-    same(cntc.getflags(1, 1, [0, 4711]).tolist(), [0, 0], "codes that cannot be read leave the values")
+    same(cntc.getflags(1, 1, [0, 4711]).tolist(), [0, 0], "unreadable codes do not change the values")
 
 
 def refusals():
@@ -490,7 +490,7 @@ def refusals():
     cntc.settemperaturedata(1, 1, 0, [])
     cntc.setsolverflags(1, 1, 6, [0], [1e-4])
     cntc.setsolverflags(1, 1, 0, [999, 30, 30, 1], [1e-4])
-    same(cntc.calculate(1, 1), -99, "sensitivities and solvers are settings of their own")
+    same(cntc.calculate(1, 1), -99, "sensitivities and solvers are separate settings")
     cntc.setsolverflags(1, 1, 6, [20], [1e-4])
     same(cntc.calculate(1, 1), 0, "both are good")
     cntc.subs_addblock(1, 1, 1, 9, [nan], [0.0], [1.0])
@@ -509,7 +509,7 @@ def refusals():
 
 
 def separate():
-    """Problems of one run keep their own values: interleaved they give the same bits as alone"""
+    """Problems of one run keep their own values: interleaved they give the same results as alone, bit by bit"""
     def cases(ire, module):
         """The steps of one problem: everything new, then only creepages"""
         if module == 3:
@@ -615,9 +615,9 @@ def grids():
             start(number)
             case_a(number)
             same(solve(number, 0.4, 0.35, fresh)[0], 0, f"{case}: the first case")
-            code, told = solve(number, dx, dy, digits)
-            same(code, 0 if good else -34, f"{case}, elements of {dx} x {dy}: {told}")
-            check(good or "element" in told or "differs" in told, f"{case}, elements of {dx} x {dy}: {told}")
+            code, message = solve(number, dx, dy, digits)
+            same(code, 0 if good else -34, f"{case}, elements of {dx} x {dy}: {message}")
+            check(good or "element" in message or "differs" in message, f"{case}, elements of {dx} x {dy}: {message}")
             cntc.finalize(number)
     # a window that moves by whole elements is accepted, along each side; by whole millimetres it is not
     for x, y, good in ((0.8, 0.0, True), (0.0, 0.7, True), (-0.4, 1.05, True), (1.0, 0.0, False), (0.0, 1.0, False),
@@ -648,7 +648,7 @@ def grids():
         _, _, aa, bb, _, cp, _, _, _, _ = cntc.gethertzcontact(1, 1)
         close(cp, np.sqrt(aa * bb), 1e-9, f"{units}: size in a window")
         cntc.finalize(1)
-        # two half ellipses have no width of their own
+        # two half ellipses have no separate width
         start(1)
         case_a(1, 1, units)
         cntc.sethertzcontact(1, 1, -6, [13, 11, 4.2 * big, 3.1 * big, 5.1 * big, 1.25])
@@ -723,7 +723,7 @@ def timers():
 
 
 def array_lengths():
-    """Arrays of results that are too short are filled, the surplus of longer ones is left or zero"""
+    """Arrays of results that are too short are filled, the surplus of longer ones is unchanged or zero"""
     start()
     case_a(1)
     cntc.calculate(1, 1)

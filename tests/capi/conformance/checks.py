@@ -1,4 +1,4 @@
-"""What the Python conformance programs share: counting checks, and the package of the checkout."""
+"""Common part of the Python conformance programs: counting checks, and the package of the checkout."""
 import os
 import sys
 
@@ -24,14 +24,14 @@ def check(condition, what):
 
 
 def close(got, expected, tolerance, what):
-    """Claim that numbers or arrays agree within an absolute tolerance"""
+    """Check that numbers or arrays agree within an absolute tolerance"""
     got, expected = np.asarray(got, float), np.asarray(expected, float)
     good = got.shape == expected.shape and bool(np.all(np.abs(got - expected) <= tolerance))
     check(good, f"{what}: got {got}, expected {expected} within {tolerance}" if not good else what)
 
 
 def same(got, expected, what):
-    """Claim that two things are equal"""
+    """Check that two values are equal"""
     check(got == expected, f"{what}: got {got!r}, expected {expected!r}")
 
 
@@ -55,6 +55,6 @@ def profiles():
 
 
 def finish():
-    """Tell the counts; exit status 0 passed, 1 failed"""
+    """Print the counts; exit status 0 passed, 1 failed"""
     print(f"{_counts['checks']} checks, {_counts['failed']} failed")
     sys.exit(1 if _counts["failed"] or not _counts["checks"] else 0)

@@ -48,7 +48,7 @@ def coefficients(ratio):
 
 
 def set_up(ire):
-    """What all entries share"""
+    """Common settings of all entries"""
     cntc.initialize(ire, 3)
     cntc.setflags(ire, 1, [CNTC[name] for name in ("if_units", "ic_tang", "ic_output", "ic_flow")], [CNTC["un_cntc"], 3, 0, 0])
     cntc.setmaterialproperties(ire, 1, 1.0, NU, 1.0, NU)
@@ -84,7 +84,7 @@ def main():
     spins = np.concatenate([-creepages[::-1], creepages])
     cntc.initlibrary(expnam="book")
     cntc.setglobalflags([CNTC["if_idebug"], CNTC["if_openmp"]], [0, 1])
-    # an element that stays keeps the run going
+    # a remaining element keeps the run active
     cntc.initialize(999, 3)
     with ThreadPoolExecutor(max_workers=max(1, min(4, cntc.getmaxnumthreads()))) as pool:
         jobs = [pool.submit(fill, ire, ratio, creepages, creepages, spins) for ire, ratio in enumerate(ratios, 1)]
@@ -96,7 +96,7 @@ def main():
         label = f"a/b = {ratio:.4g}"
         check(bool(np.all(np.isfinite(table))), f"{label}: all entries are numbers")
         check(np.hypot(table[..., 0], table[..., 1]).max() <= 1 + 1e-6, f"{label}: forces within the friction bound")
-        close(table[zero, zero, [n - 1, n]], np.zeros((2, 3)), 5e-7, f"{label}: nothing without creepage")
+        close(table[zero, zero, [n - 1, n]], np.zeros((2, 3)), 5e-7, f"{label}: no force without creepage")
         close(table[huge, zero, [n - 1, n], 0], [1, 1], 1e-4, f"{label}: sliding along x")
         close(table[zero, huge, [n - 1, n], 1], [1, 1], 1e-4, f"{label}: sliding along y")
         # eta and psi change sign together: Fy and Mz do, Fx does not

@@ -21,7 +21,7 @@ FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (
          "own_errors": (0, 1, "keep"), "own_accuracy": (0, 1000000, "keep")}
 # Flags that belong to wheel and rail: module 3 does not store them
 OF_PAIRS = {"ic_config", "ic_discns", "own_angle"}
-# Values within the range that no digit has, and that are not available, where they are stored
+# Values within the range that are not digits or not available, but are stored
 UNKNOWN = {"ic_config": (2, 3), "ic_bound": (2, 3, 4)}
 
 
@@ -36,10 +36,10 @@ def values_of(low, high):
 
 
 def documents():
-    """The manual names the flags that take another value than the one that is given"""
+    """The manual lists the flags that store another value than the given one"""
     with open(os.path.join(SOURCE, "doc/user/library.md"), encoding="utf-8") as file:
-        told = file.read().split("replaced by the nearest valid value", 1)[1].split(".", 1)[0].split(":", 1)[1]
-    near, zero = (re.sub(r", 3 becomes 2", "", part).replace(" and ", ", ").split(",") for part in told.split(";"))
+        listed = file.read().split("replaced by the nearest valid value", 1)[1].split(".", 1)[0].split(":", 1)[1]
+    near, zero = (re.sub(r", 3 becomes 2", "", part).replace(" and ", ", ").split(",") for part in listed.split(";"))
     with open(os.path.join(SOURCE, "src/capi/interface.txt"), encoding="utf-8") as file:
         letters = dict(re.findall(r"^CNTC_(ic_\w+) = \d+  ([A-Z]\d?): ", file.read(), re.MULTILINE))
     # E of module 3 cannot be read, see ranges
@@ -84,10 +84,10 @@ def ranges():
             # a refused value does not keep the others back
             cntc.finalize(ire)
             cntc.initialize(ire, module)
-    # one entry after the other, those of code 0 are skipped, those that are not known do not stop the rest
+    # one entry after the other, those of code 0 are skipped, unknown ones do not stop the rest
     cntc.initialize(3, 3)
     cntc.setflags(3, 1, [CNTC["ic_tang"], 0, 4711, CNTC["ic_norm"]], [2, 5, 6, 1])
-    check("4711" in last_error(3, 1)[1], "a flag that is not known is named")
+    check("4711" in last_error(3, 1)[1], "an unknown flag is named")
     same([read(3, 1, "ic_tang"), read(3, 1, "ic_norm")], [2, 1], "others of the list")
     values = np.array([-5, -6, -7], np.intc)
     call("cntc_getflags", 3, 1, 3, np.array([CNTC["ic_tang"], 0, CNTC["ic_norm"]], np.intc), values)
@@ -156,7 +156,7 @@ def rollers():
     pair(5)
     cntc.setflags(5, -1, [CNTC["ic_config"]], [5])
     check(cntc.calculate(5, -1) < 0, "a roller without a radius is refused")
-    check("nominal radius of the roller" in last_error(5, -1)[1], "the radius is asked for")
+    check("nominal radius of the roller" in last_error(5, -1)[1], "the radius is required")
     cntc.settrackdimensions(5, 3, [14.0, 0.0, 1435.0, 0.0, 500.0] + 6 * [0.0])
     same(cntc.calculate(5, -1), 0, f"a roller with its radius: {last_error(5, -1)}")
 
@@ -183,7 +183,7 @@ def threads():
         openmp.omp_set_num_threads(number)
         same(call("cntc_getmaxnumthreads"), number, "threads of OpenMP")
     openmp.omp_set_num_threads(1)
-    same(call("cntc_getmaxnumthreads"), first + 5, "what there was once stays")
+    same(call("cntc_getmaxnumthreads"), first + 5, "earlier threads remain")
 
 
 documents()

@@ -126,7 +126,7 @@ int main(int argc, char **argv) {
   cntc_setglobalflags(&two, flags, values);
   basic(7, 0, "Coulomb friction");
   file = fopen("contact_addon.out", "r");
-  check(file != NULL, "implicit initialisation", "contact_addon.out is there");
+  check(file != NULL, "implicit initialisation", "contact_addon.out exists");
   if (file != NULL) fclose(file);
   basic(8, 1, "layer and falling friction");
   wheel_on_rail(9, argv[1], "wheel on rail");

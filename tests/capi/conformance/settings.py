@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every value that is set arrives: in each unit convention, in the input that is written, and in the program.
+"""Every value that is set has its effect: in each unit convention, in the written input, and in the program.
 
 usage: settings.py contact | pair
 """
@@ -37,7 +37,7 @@ def with_force(ire, icp):
     cntc.setnormalforce(ire, icp, 33000)
 
 
-# Module 3: what is set on top of a small problem of rolling, and rows of the input that is written for it [mm, N, rad, s]
+# Module 3: settings in addition to a small problem of rolling, and rows of the input written for it [mm, N, rad, s]
 CONTACT = {
     "IPOTCN = -1": (lambda ire, icp, big, body: cntc.sethertzcontact(ire, icp, -1, [13, 11, 0.0021 / big, 0.0013 / big, 1.25]),
                     {"MX MY A1 B1 SCALE": [13, 11, 0.0021, 0.0013, 1.25], "IPOTCN": [-1]}),
@@ -158,7 +158,7 @@ def rows_of(path):
 
 
 def compare_rows(found, expected, label):
-    """The rows are there with these values"""
+    """The rows exist with these values"""
     for names, values in expected.items():
         label_of_row = f"{label}: {names}"
         if isinstance(values, (float, int)):
@@ -185,7 +185,7 @@ def compare_rows(found, expected, label):
 
 
 def program_cases(name):
-    """What the program finds for an input file: totals of the first patch of each case"""
+    """Results of the program for an input file: totals of the first patch of each case"""
     os.makedirs("program", exist_ok=True)
     subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--json", "--hdf5", "--output-dir", "program", "2", name], check=True)
     with open(f"program/{name}.jsonl", encoding="utf-8") as file:
@@ -196,7 +196,7 @@ def program_cases(name):
 OF_BODIES = {"M = 1": {"poiss": [0.28, 0.31], "gg": [82e3, 75e3], "fg": [0.3, 0.4], "tc": [1e-4, 2e-4]},
              "L = 6": {f"{name}{body + 1}": values[body] for body in range(2) for name, values in {
                  "bktemp": [15, 95], "heatcp": [450, 460], "lambda": [0.051, 0.052], "dens": [7.8e-6, 7.9e-6]}.items()}}
-told = set()
+reported = set()
 
 
 def compare_results(name, expected, label):
@@ -217,12 +217,12 @@ def compare_results(name, expected, label):
         if re.match(r" +(ALPHA|SVF) ", line) and "rows" in expected:
             close([[float(word) for word in row.split()] for row in lines[k + 1:k + 1 + len(expected["rows"])]], expected["rows"],
                   6e-4 * np.abs(expected["rows"]), f"{label}: rows of friction in the .out file")
-            told.add("rows")
+            reported.add("rows")
     recorded = {}
     with h5py.File(f"program/{name}.h5") as file:
         file.visititems(lambda path, item: recorded.update({path.split("/")[-1]: item[()]})
                         if "/inputs/" in path and isinstance(item, h5py.Dataset) else None)
-    check("D_TURN" not in " ".join(lines) or "pair" not in name, f"{label}: D_TURN is told only where it was chosen")
+    check("D_TURN" not in " ".join(lines) or "pair" not in name, f"{label}: D_TURN is printed only where it was chosen")
     for key, values in OF_BODIES.get(label, {}).items():
         close(recorded[key], values, 1e-9 * np.abs(values), f"{label}: {key} of both bodies in the HDF5 file")
     for k, line in enumerate(lines):
@@ -231,19 +231,19 @@ def compare_results(name, expected, label):
                 close([float(word) for word in row.split()], values, 6e-4 * np.abs(values), f"{label}: heat in the .out file")
     for names, values in expected.items():
         if names == "rows":
-            check("rows" in told, f"{label}: a table of friction")
+            check("rows" in reported, f"{label}: a table of friction")
         for key, value in zip(names.lstrip("~").split(), np.atleast_1d(values)):
             if "," in names or names[:-1] == "BKTEMP " or names == "rows":
                 continue
             if key in printed:
-                told.add("out " + key)
+                reported.add("out " + key)
                 # rail and wheel have the same names
                 nearest = min(printed[key], key=lambda number: abs(number - value))
                 close(nearest, value, 6e-4 * abs(value) + 1e-9, f"{label}: {key} in the .out file")
             key = key.lower()
             # a library writes the window that it has made for itself
             if key in recorded and len(names.split()) > 2 and not label.startswith("window by"):
-                told.add("h5 " + key)
+                reported.add("h5 " + key)
                 found = np.atleast_1d(recorded[key])
                 close(found[-1] if label.startswith("friction") else found[0], value, 1e-9 * abs(value),
                       f"{label}: {key} in the HDF5 file")
@@ -330,7 +330,8 @@ PAIR = {
         2, -0.2, 0.2, 0.11, 101 * big, 0.05, 51 * big, 0.002 * big, 11 * big,
         0.2, 0.3, 0.12, 102 * big, 0.06, 52 * big, 0.002 * big, 11 * big]),
         {"": [0.2, 0.3, 0.12, 102, 0.06, 52], "MEMDST MEM_S0": [0.002, 11]}),
-    "friction by place": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 20, [2, -100.0 * big, 0.1, 0.1, 100.0 * big, 0.4, 0.4]),
+    "friction by position": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 20,
+                                                                          [2, -100.0 * big, 0.1, 0.1, 100.0 * big, 0.4, 0.4]),
                           {"": [100, 0.4, 0.4], "rows": [[-100, 0.1, 0.1], [100, 0.4, 0.4]]}),
     "damping": (lambda ire, big: cntc.setmaterialparameters(ire, -1, 12, [1.1e-3, 1.2e-3, 1.3e9, 1.4e9]),
                 {"CDAMPN CDAMPT DFNMAX DFTMAX": [1.1e-3, 1.2e-3, 1.3e9, 1.4e9]}),
@@ -410,7 +411,7 @@ def pair_settings():
         last = program_cases(f"pair{number}_un_cntc")[-1]
         totals, effects = last["totals"], " ".join(patch["effects"] for patch in last["patches"])
         for words, labels in (("by inclination", ("friction by angle", "friction by angle and slip")), ("by position",
-            ("friction by place",))):
+            ("friction by position",))):
             same(words in effects, label in labels, f"{label}: {effects}")
         compare_results(f"pair{number}_un_cntc", expected, label)
         if label != "damping":
@@ -420,7 +421,7 @@ def pair_settings():
 
 def main():
     {"contact": contact_settings, "pair": pair_settings}[sys.argv[1]]()
-    check(len(told) >= {"contact": 60, "pair": 40}[sys.argv[1]], f"names of values in the results: {sorted(told)}")
+    check(len(reported) >= {"contact": 60, "pair": 40}[sys.argv[1]], f"names of values in the results: {sorted(reported)}")
     finish()
 
 

@@ -16,12 +16,12 @@ def ask(task, length, kind, method=1, reals=(1.0,)):
     """The first entries of an array that is longer than requested"""
     room = np.full(length + 5, NOTHING)
     call("cntc_getprofilevalues", 1, task, 2, np.array([kind, method]), len(reals), np.array(reals), length, room)
-    check(bool(np.all(room[length:] == NOTHING)), f"task {task}: nothing behind an array of {length}")
+    check(bool(np.all(room[length:] == NOTHING)), f"task {task}: nothing beyond an array of {length}")
     return room[:length]
 
 
 def lengths(task, kind, full, label, **how):
-    """Arrays that are shorter hold the beginning of the whole list, longer ones nothing more"""
+    """Arrays that are shorter have the beginning of the whole list, the rest of longer ones is unchanged"""
     n = len(full)
     for length in sorted({2, 3, n // 3 - 1, n // 3, n // 3 + 1, n // 2, 2 * n // 3, 2 * n // 3 + 1, n - 1,
                           n} & set(range(2, n + 1))):
@@ -32,7 +32,7 @@ def lengths(task, kind, full, label, **how):
 
 
 def plain():
-    """Rail and wheel: points, arc lengths and slopes belong together"""
+    """Rail and wheel: points, arc lengths and slopes are consistent"""
     same(cntc.initialize(1, 1)[1], 0, "initialize")
     for name, kind in zip(profiles(), (0, 1)):
         cntc.setprofileinputfname(1, name, [kind], [1.0, 0.0])
@@ -45,7 +45,7 @@ def plain():
                 check(bool(np.all(np.isfinite(lists[task]))), f"task {task}")
                 lengths(task, kind, lists[task], f"body {kind}, sampling {method}", **how)
             y, z = lists[1].reshape(2, n)
-            # chords: as long as the arc, nearly, and inclined as the curve half way
+            # chords: nearly as long as the arc, and with the inclination of the curve at the middle
             steps = np.hypot(np.diff(y), np.diff(z))
             close(np.diff(lists[4]), steps, 1e-2 * steps + 2e-3, f"body {kind}, sampling {method}: arc lengths")
             turn = np.abs((np.diff(lists[5]) + math.pi) % (2 * math.pi) - math.pi)
@@ -95,11 +95,11 @@ def surface():
     on_y = ask(8, 3, 1, reals=(1.0, crossing[1], 0.01, 0.01))
     close(on_y[1:], crossing[1:], 1e-6, "lines u and y cross")
     check(cntc.getprofilevalues(1, 6, [0, 1], [0.5, 0.0]) is not None, "a rail that does not vary")
-    check("does not vary" in last_error(1, -1)[1], "a rail that does not vary is told")
+    check("does not vary" in last_error(1, -1)[1], "a rail that does not vary is refused with the reason")
 
 
 def states():
-    """Why a profile cannot be used: not given, no such file, or a file that is none"""
+    """Why a profile cannot be used: not given, no such file, or not a profile"""
     same(cntc.initialize(1, 1)[1], 0, "initialize")
     same(ask(-1, 2, 0)[1], 1.0, "not given")
     cntc.setprofileinputfname(1, "no_such_file.prr", [0], [1.0, 0.0])
@@ -107,7 +107,7 @@ def states():
     with open("nonsense.prr", "w", encoding="utf-8") as file:
         file.write("nothing\nof\nuse\n")
     cntc.setprofileinputfname(1, "nonsense.prr", [0], [1.0, 0.0])
-    same(ask(-1, 2, 0)[1], 99.0, "a file that is no profile")
+    same(ask(-1, 2, 0)[1], 99.0, "a file that is not a profile")
     cntc.setprofileinputfname(1, profiles()[0], [0], [1.0, 0.0])
     same(list(ask(-1, 2, 0)), [0.0, 0.0], "a good one")
 

@@ -60,7 +60,7 @@ EXPECTED = {
         "largest": [745.70, 223.71], "pen": 0.0247755, "V": 2000.876, "z": 0.152844},
 }
 
-# The same on the profiles of the examples: figures of this program, which gives the ones above where their profiles are at hand
+# The same on the profiles of the examples: figures of this program, which gives the ones above if their profiles are available
 OWN = {
     0: {"forces": [-130.49, -3639.75, 9999.98, 122342.2, -34436.2, -10858.2, -147.97, -3640.21, 9999.57, 66962.2, 1240.86,
                    1521.81],
@@ -124,7 +124,7 @@ def conventions():
         close(cntc.getpenetration(ire, 1) / big, expected["pen"], 2e-5, f"{label}: approach")
         close(cntc.getreferencevelocity(ire, 1) / big, expected["V"], 0.01, f"{label}: velocity")
         close(cntc.getwheelsetposition(ire)[2] / big, expected["z"], 1e-4, f"{label}: height")
-        same(cntc.getgriddiscretization(ire, -1), (0.4 * big, 0.4 * big), f"{label}: asked element")
+        same(cntc.getgriddiscretization(ire, -1), (0.4 * big, 0.4 * big), f"{label}: prescribed element")
         flags = [CNTC[name] for name in ("ic_norm", "ic_force", "ic_output", "ic_iestim", "ic_tang")]
         same(cntc.getflags(ire, 1, flags).tolist(), [0, 0, 0, 1, 3], f"{label}: digits of the patch")
         same(cntc.getflags(ire, -1, flags[0]).tolist(), [1], f"{label}: N of the whole")
@@ -141,7 +141,7 @@ def rail_points():
 
 
 def patch_as_in_matlab():
-    """A patch as Matlab's loadcase has it"""
+    """A patch as returned by Matlab's loadcase"""
     points, gauge = rail_points()
     set_up(1, 1)
     patch = cntc.getcpresults(1, 1)
@@ -249,7 +249,7 @@ def slices():
     cntc.setflags(1, -1, CNTC["ic_norm"], 0)
     same(cntc.calculate(1, -1), 0, "error code")
     close(cntc.getglobalforces(1, -1)[:3], [2814.0, -915.0, 10110.0], 0.002 * 10110, "forces")
-    # lines u = 0.5 mm, v = line 40, y = 0.5 mm of the surface; v counts lines across the rail, which fall apart at most 0.5 mm
+    # lines u = 0.5 mm, v = line 40, y = 0.5 mm of the surface; v counts lines across the rail, whose distances are at most 0.5 mm
     across, on_line, along = (cntc.getprofilevalues(1, task, [0, 1], [step, place])
                               for task, step, place in ((6, 0.25, 0.5), (7, 0.5, 40.0), (8, 0.5, 0.5)))
     check(bool(np.all(across[:, 0] == 0.5)) and across.shape[1] == 3, "a line across the rail at x = 0.5")
@@ -342,7 +342,7 @@ def replay_values():
     cntc.setprofileinputvalues(1, cntc.getprofilevalues(1, 1, [0, -1]) + [0.0, 0.0], [0], [1.0, 0.0])
     same(cntc.calculate(1, -1), 0, "error code")
     forces.append(cntc.getglobalforces(1, -1)[:3])
-    check(os.path.isfile("dumps/caddon_re001.0004.rail.txt"), "a new table gets a file of its own")
+    check(os.path.isfile("dumps/caddon_re001.0004.rail.txt"), "a new table is written to a separate file")
     check(not os.path.isfile("dumps/caddon_re001.0004.wheel.txt"), "the wheel keeps its file")
     cntc.finalize(1)
     compare_replay("values", forces, "profiles by values", "dumps")
@@ -400,7 +400,7 @@ def forces_without_damping(ire):
 
 
 def options():
-    """Every choice for wheel and rail acts, and is written into input files as it acts"""
+    """Every choice for wheel and rail acts, and is written into input files with the same effect"""
     set_up(999, 0)
     plain = cntc.getglobalforces(999, -1)[:3]
     cntc.finalize(999)
@@ -431,7 +431,7 @@ def options():
 
 
 def _cases_of(name):
-    """The cases of an input file of module 1 as texts of their own, with full names of the profiles"""
+    """The cases of an input file of module 1 as separate texts, with full names of the profiles"""
     bank = os.path.join(os.path.dirname(REFERENCE), "testbank")
     if not os.path.isdir(bank):
         print("skipped: the reference files are not here")
@@ -525,9 +525,10 @@ def from_inputs():
             open(os.path.join(SOURCE, "examples/wheel_on_rail.toml"), encoding="utf-8") as right:
         file.write(right.read().replace("cant = 0.025", "cant = 25.0", 1))
     same(cntc.readinpfile(1, CNTC["inp_modul1"], "wrong.toml"), CNTC["err_input"], "a cant of 25 rad")
-    check(re.search(r"wrong.toml:\d+:\d+: cant = 25.0 is above", last_error(1, -1)[1]), "a cant of 25 rad is told with its place")
-    same(cntc.readinpfile(1, CNTC["inp_modul1"], "no_such_file.inp"), CNTC["err_input"], "a file that is not there")
-    same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "a kind that is not there")
+    check(re.search(r"wrong.toml:\d+:\d+: cant = 25.0 is above", last_error(1, -1)[1]),
+          "a cant of 25 rad is reported with its position")
+    same(cntc.readinpfile(1, CNTC["inp_modul1"], "no_such_file.inp"), CNTC["err_input"], "a missing file")
+    same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "an unknown kind")
 
 
 if __name__ == "__main__":

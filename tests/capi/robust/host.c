@@ -1,4 +1,4 @@
-/* Unusual hosts: each must get the forces of a usual one, or a code, and continue.
+/* Unusual hosts: each must get the forces of a usual one or an error code, and continue.
  *
  * usage: host PROFILES_FOLDER traps | stack | folder | de_DE | tr_TR | fork | memory */
 #define _GNU_SOURCE
@@ -119,10 +119,10 @@ static void traps(void) {
   calculate(12, -1);
   const double limits[] = {NAN, -NAN, INFINITY, -INFINITY, 1e300, -1e300, -1e-300, 1e12};
   for (int k = 0; k < 3*(int)(sizeof limits/sizeof limits[0]); k++) {
-    double asked[3] = {0};
-    asked[k % 3] = limits[k/3];
-    check(contact_run_limited("no_such_experiment", CONTACT_RUN, NULL, 1, 0, 0, asked[0], asked[1], asked[2], NULL, 0) == 1,
-          "a limit that is none is a wrong call");
+    double limit[3] = {0};
+    limit[k % 3] = limits[k/3];
+    check(contact_run_limited("no_such_experiment", CONTACT_RUN, NULL, 1, 0, 0, limit[0], limit[1], limit[2], NULL, 0) == 1,
+          "an invalid limit is a wrong call");
   }
   check(fegetexcept() == (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW), "the traps of the host are as they were");
   fedisableexcept(FE_ALL_EXCEPT);
@@ -158,7 +158,7 @@ static void folder(void) {
   check(basic(11, 9, force) == 0, "input and .mat files that cannot be written are no failure of the case");
 }
 
-/* A host of another language: decimals with a comma, in Turkish also an i that has no capital of one byte. 0 when there is no
+/* A host with another locale: decimals with a comma, in Turkish also an i without an upper-case form of one byte. 0 if there is no
  * such language here. Python sets the language of letters (LC_CTYPE) by itself. */
 static int language(const char *name) {
   char command[200], made[40];
@@ -235,7 +235,7 @@ static void memory(void) {
   cntc_sethertzcontact(INT(15), INT(1), INT(-3), INT(5), REALS(1400, 1400, 4.25, 7.0, 1.2));
   code = calculate(15, 1);
   check(code == -99, "two million elements do not fit");
-  check(contact_last_error(15, 1, text, sizeof text) == -99 && strstr(text, "MB of memory") != NULL, "the reason is told");
+  check(contact_last_error(15, 1, text, sizeof text) == -99 && strstr(text, "MB of memory") != NULL, "the reason is reported");
   for (int k = 0; k < 6; k++) {
     cntc_sethertzcontact(INT(15), INT(1), INT(-3), INT(5), REALS(sizes[k], sizes[k], 4.25, 7.0, 1.2));
     check(contact_last_error(15, 1, text, sizeof text) == -99, "an ellipse with more elements than any");

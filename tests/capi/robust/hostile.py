@@ -1,6 +1,6 @@
 """Every routine of the library with invalid arguments: null pointers, numbers out of range, NaN, lengths that do
-not fit. The process must survive, memory behind the arrays must stay as it is, and a
-good case must still be solved afterwards. No call may take longer than a minute, and memory may not grow.
+not fit. The process must survive, memory beyond the arrays must not change, and a
+valid case must still be solved afterwards. No call may take longer than a minute, and memory may not grow.
 
 The list of routines is src/capi/interface.txt. With more than one thread all of them call at the same time, on the same
 result elements. usage: hostile.py ROUNDS [SEED [THREADS]]
@@ -18,7 +18,7 @@ import threading
 ROOM, GUARD = 64, 16
 # [s]; the signal ends the process
 LONGEST_CALL = 60
-# Memory may be larger in the last quarter than in the one before it by so much [kB]
+# Allowed increase of memory in the last quarter over the third one [kB]
 GROWTH = 20000
 MARK = 123456789
 
@@ -75,11 +75,11 @@ def call(generator, name, with_null):
             arguments.append(ctypes.create_string_buffer(bytes(generator.choice(b" abc\x00\xff") for _ in range(300))))
         else:
             kind_of = ctypes.c_int if kind == "int" else ctypes.c_double
-            # lengths are at most ROOM, so that honest arrays are never too short; products need more
+            # lengths are at most ROOM, so that correct arrays are never too short; products need more
             array = (kind_of * (ROOM * ROOM + GUARD if is_array else 1 + GUARD))()
             if is_array:
                 for k in range(ROOM):
-                    # thousands of depths would only take long
+                    # thousands of depths would only be slow
                     array[k] = generator.choice(INTEGERS if kind == "int" else REALS[:-3 if name == "subs_addblock" else None])
             else:
                 array[0] = value(generator, argument) if kind == "int" else generator.choice(REALS)
@@ -91,7 +91,7 @@ def call(generator, name, with_null):
     getattr(LIBRARY, name)(*arguments)
     for array in arrays:
         if any(array[len(array) - k] != MARK for k in range(1, GUARD + 1)):
-            sys.exit(f"{name} wrote behind the end of an array")
+            sys.exit(f"{name} wrote beyond the end of an array")
 
 
 def pointer(value):
@@ -175,7 +175,7 @@ def resident():
 
 
 def attack(generator, rounds, alone, sizes):
-    """Random calls, with something that can be solved from time to time"""
+    """Random calls, with a solvable problem from time to time"""
     names = sorted(ROUTINES)
     for k in range(rounds):
         if k % 100 == 0:
@@ -217,7 +217,7 @@ def main():
         for thread in at_work:
             thread.join()
     quarter = rounds // 4
-    # the address sanitizer keeps what was freed
+    # the address sanitizer keeps freed memory
     keeps = "asan" in os.environ.get("LD_PRELOAD", "")
     if threads == 1 and rounds >= 4000 and not keeps and max(sizes[3 * quarter:]) > max(sizes[2 * quarter:3 * quarter]) + GROWTH:
         sys.exit(f"memory grows: {sizes[::quarter]} kB")

@@ -1,7 +1,7 @@
 /* Locks and critical sections of OpenMP in a form that the thread sanitizer follows
  *
  * The run time library of OpenMP is not instrumented: accesses ordered by its locks look like races. A program of an
- * instrumented build that links this file takes these in their place, its library too. */
+ * instrumented build that links this file uses these instead, in its library too. */
 #include <sched.h>
 
 /* 0 free, 1 taken */

@@ -1,4 +1,4 @@
-/* Calls that must do no harm: codes of wrong calls, many rounds without growth, threads.
+/* Robustness of calls: codes of wrong calls, many rounds without growth of memory, threads.
  *
  * usage: robust codes | rounds COUNT | threads | messages | pairs FOLDER_OF_PROFILES | turns | mixed FOLDER_OF_PROFILES COUNT */
 #define _GNU_SOURCE
@@ -15,7 +15,7 @@
 
 #include "pair.h"
 
-/* Exported, in no header */
+/* Exported, but not in a header */
 extern void cntc_calculate1(const int *ire, int *ierror);
 extern void cntc_calculate3(const int *ire, const int *icp, int *ierror);
 
@@ -117,12 +117,12 @@ static void codes(void) {
   /* the reason is reported */
   set_up(2, 1, 7, 1e-3);
   same(calculate(2, 1), 0, "a good case");
-  check(contact_last_error(2, 1, text, sizeof text) == 0 && !*text, "nothing to tell after a good case");
+  check(contact_last_error(2, 1, text, sizeof text) == 0 && !*text, "no error after a good case");
   f[0] = NAN;
   ire = 2;
   cntc_setpenetration(&ire, &one, f);
   check(contact_last_error(2, 1, text, sizeof text) == -99 && strstr(text, "not a number"), "not a number is refused");
-  check(contact_last_error(2, 1, text, sizeof text) == 0, "what was told is forgotten");
+  check(contact_last_error(2, 1, text, sizeof text) == 0, "a reported error is cleared");
   check(contact_last_error(77, 1, text, 5) == 0 && !*text, "no such element");
   contact_last_error(0, 0, NULL, 0);
 
@@ -131,7 +131,7 @@ static void codes(void) {
   same(start(107, 3), -12, "element 101");
   ire = 10;
   cntc_finalize(&ire);
-  same(start(107, 3), 0, "a place was free again");
+  same(start(107, 3), 0, "a freed element can be used again");
   cntc_finalizelast();
 
   /* freeing one element leaves the others alone */
@@ -216,7 +216,7 @@ static void threads(void) {
 
   for (k = 0; k < workers; k++) start(k + 1, 3);
   cntc_getmaxnumthreads(&most);
-  check(most >= workers, "OMP_NUM_THREADS tells how many calculations may run");
+  check(most >= workers, "OMP_NUM_THREADS limits the number of simultaneous calculations");
   for (k = 0; k < workers; k++) solve_all(k, alone[k]);
   for (k = 0; k < workers; k++) cntc_finalize((number[k] = k + 1, &number[k]));
   for (k = 0; k < workers; k++) start(k + 1, 3);
@@ -297,19 +297,19 @@ static void pairs(void) {
 }
 
 /* Messages to each worker: one line per wrong call, and per valid one in between */
-enum { talkers = 8, tries = 400, told_length = 200 };
-typedef char transcript[tries][told_length];
-static transcript alone_told[talkers], together_told[talkers];
+enum { talkers = 8, tries = 400, text_length = 200 };
+typedef char transcript[tries][text_length];
+static transcript texts_alone[talkers], texts_together[talkers];
 
 /* Code and text of the last error in a problem */
-static void note(int ire, char *told) {
-  char text[told_length - 12];
+static void note(int ire, char *text_out) {
+  char text[text_length - 12];
   int code = contact_last_error(ire, 1, text, sizeof text);
-  snprintf(told, told_length, "%d %s", code, text);
+  snprintf(text_out, text_length, "%d %s", code, text);
 }
 
 /* Wrong calls, whose texts have other numbers and lengths for each worker and attempt, among valid ones */
-static void complain_all(int worker, transcript told) {
+static void complain_all(int worker, transcript texts) {
   int ire = worker + 1, icp = 1, k, n;
   for (k = 0; k < tries; k++) {
     int one = 1, two = 2, flag[2], value[2], codes[1], limits[4] = {0, 0, 0, 0}, hertz = -3;
@@ -350,26 +350,26 @@ static void complain_all(int worker, transcript told) {
         list[0] = -1.0 - k;
         cntc_setsolverflags(&ire, &icp, &n, &n, limits, &one, list);
     }
-    note(ire, told[k]);
+    note(ire, texts[k]);
   }
 }
 
 static void *complain_together(void *number) {
   int worker = *(int *)number;
-  complain_all(worker, together_told[worker]);
+  complain_all(worker, texts_together[worker]);
   return NULL;
 }
 
 /* Messages of many problems at the same time are those of each of them alone */
 static void messages(void) {
   pthread_t thread[talkers];
-  int number[talkers], k, i, round, told = 0, other = 0;
+  int number[talkers], k, i, round, reported = 0, other = 0;
 
   for (k = 0; k < talkers; k++) start(k + 1, 3);
-  for (k = 0; k < talkers; k++) complain_all(k, alone_told[k]);
+  for (k = 0; k < talkers; k++) complain_all(k, texts_alone[k]);
   for (k = 0; k < talkers; k++)
-    for (i = 0; i < tries; i++) told += strlen(alone_told[k][i]) > 10;
-  check(told >= talkers * tries * 3 / 4, "wrong calls are told");
+    for (i = 0; i < tries; i++) reported += strlen(texts_alone[k][i]) > 10;
+  check(reported >= talkers * tries * 3 / 4, "wrong calls are reported");
   for (round = 0; round < 10; round++) {
     for (k = 0; k < talkers; k++) {
       number[k] = k;
@@ -378,14 +378,14 @@ static void messages(void) {
     for (k = 0; k < talkers; k++) pthread_join(thread[k], NULL);
     for (k = 0; k < talkers; k++)
       for (i = 0; i < tries; i++)
-        if (strcmp(alone_told[k][i], together_told[k][i]) && other++ < 10)
-          printf("alone:    %s\ntogether: %s\n", alone_told[k][i], together_told[k][i]);
+        if (strcmp(texts_alone[k][i], texts_together[k][i]) && other++ < 10)
+          printf("alone:    %s\ntogether: %s\n", texts_alone[k][i], texts_together[k][i]);
   }
   same(other, 0, "messages that differ");
   cntc_finalizelast();
 }
 
-/* More callers than calculations may run: each waits for its turn, none for long, and nothing is refused */
+/* More callers than simultaneous calculations: each waits for a short time, and nothing is refused */
 enum { callers = 6, rounds_of_caller = 30 };
 static _Atomic int done_by[callers], in_line, first_end[callers], somebody_ended;
 static double of_callers[callers][4];
@@ -427,9 +427,9 @@ static void turns(void) {
     same(code_of_caller[k], 0, "a caller who waits gets results");
     check(memcmp(of_callers[k], alone_force, sizeof alone_force) == 0, "and the same as alone");
     /* the system may delay a thread as well, but not for long */
-    check(first_end[k] >= 3, "nobody is left behind");
+    check(first_end[k] >= 3, "each caller finishes");
   }
-  /* a child has no other thread to wait for */
+  /* a child process has no other threads */
   const pid_t child = fork();
   if (child == 0) {
     alarm(60);

@@ -19,7 +19,7 @@ EDITS = [
       result%fricpow = (result%px*result%sx + result%py*result%sy)/(1000.0_wp*result%dt)
 """),
 ]
-MOST_FILES, MOST_PLACES = 2, 4
+MAX_FILES, MAX_PLACES = 2, 4
 SIBLING = r"\btaucrt\b"
 WORDS = "has words of its own for it; others appear by their names"
 KNOWING = {"matlab/private/field_values.m": WORDS, "matlab/private/read_mat_file.m": WORDS,
@@ -33,7 +33,7 @@ EXAMPLE = pathlib.Path(__file__).resolve().parents[3] / "examples/carter2d.inp"
 
 
 def prove(program, folder):
-    """Complaints when an output has not the field"""
+    """Complaints if an output lacks the field"""
     text = EXAMPLE.read_text(encoding="utf-8").replace("\n0001541 ", "\n0002551 ")
     (folder / "field.inp").write_text(text)
     run = subprocess.run([program, "--json", "--hdf5", "--vtk", "2", "field"], cwd=folder, check=False, capture_output=True,

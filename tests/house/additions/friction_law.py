@@ -57,7 +57,7 @@ EDITS = [
          if (a%is_reading) set%fstat = set%fkin + set%coef1
 """),
 ]
-MOST_FILES, MOST_PLACES = 4, 7
+MAX_FILES, MAX_PLACES = 4, 7
 SIBLING = r"friction_model%rational|\brational_law\b"
 KNOWING = {}
 
@@ -66,7 +66,7 @@ TOP = pathlib.Path(__file__).resolve().parents[3]
 
 
 def prove(program, folder):
-    """Complaints when the law does not act as its formula says, or a door does not know it"""
+    """Complaints if the law does not follow its formula, or is unknown to an interface"""
     def answer(*arguments):
         return subprocess.run([program, *arguments], cwd=folder, check=False, capture_output=True, text=True)
 
@@ -90,7 +90,7 @@ def prove(program, folder):
         yield "the report does not name the law"
     for name in ("law.out", "law.0001.mat"):
         if (folder / name).exists() and not all(word in (folder / name).read_text() for word in ("FEXP1", "SABSH1")):
-            yield f"{name} does not tell the parameters"
+            yield f"{name} does not have the parameters"
     if answer("convert", "law.inp").returncode or 'law = "stribeck"' not in (folder / "law.toml").read_text():
         yield "it is not written to .toml"
     else:
@@ -103,7 +103,7 @@ def prove(program, folder):
 
 
 def prove_library(program, folder):
-    """The routine of the library takes the values of the description, and tells how many they are"""
+    """The routine of the library accepts the values of the description, and reports their number"""
     library = program.parents[1] / "lib/libcontact.so"
     script = ("from contact import _library, cntc\ncntc.initialize(1, 3)\n"
               "cntc.setfrictionmethod(1, 1, 9, [0.15, 0.21, 8000, 0, 5])\nprint(next(iter(cntc.getparameters(1, 1, 3).values())))\n"

@@ -44,7 +44,7 @@ EDITS = [
       & form_row("IBASE", distance_form%wavy, "wavy", "a paraboloid with waves along x"), &
 """),
 ]
-MOST_FILES, MOST_PLACES = 2, 6
+MAX_FILES, MAX_PLACES = 2, 6
 SIBLING = r"distance_form%quadratic_and_sines|\bfill_sines\b"
 KNOWING = {}
 
@@ -52,7 +52,7 @@ TOP = pathlib.Path(__file__).resolve().parents[3]
 
 
 def prove(program, folder):
-    """Complaints when the geometry is not read, not the one of its formula, or a format does not know it"""
+    """Complaints if the geometry is not read, does not follow its formula, or is unknown to a format"""
     def approach(name, form, numbers):
         """The approach [mm] of a roller, IBASE and its numbers"""
         text = (TOP / "examples/bentall.inp").read_text(encoding="utf-8").split("\n\n")[1]
@@ -79,7 +79,7 @@ def prove(program, folder):
     except (RuntimeError, subprocess.CalledProcessError) as error:
         yield f"a case does not run: {error}"
         return
-    # gaps of both formulas differ by rounding, and so do the solutions
+    # gaps of both formulas differ by round-off, and so do the solutions
     if abs(flat - smooth) > 1e-12 * smooth:
         yield f"without waves the approach is {flat}, not {smooth}"
     if abs(lifted - smooth - 0.01) > 1e-6:

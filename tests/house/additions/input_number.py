@@ -1,4 +1,4 @@
-"""A number of the input: FNOISE behind OMGSLP of the slip velocity iteration (G = 4)"""
+"""A number of the input: FNOISE after OMGSLP of the slip velocity iteration (G = 4)"""
 import pathlib
 import subprocess
 
@@ -19,7 +19,7 @@ EDITS = [
 """),
 ]
 #: Files and places that may be changed
-MOST_FILES, MOST_PLACES = 3, 3
+MAX_FILES, MAX_PLACES = 3, 3
 #: What exists already of this kind
 SIBLING = r'"OMGSLP"|%\s*omgslp\b'
 #: Files that name it and need not name the next one, with the reason
@@ -29,7 +29,7 @@ EXAMPLE = pathlib.Path(__file__).resolve().parents[3] / "examples/falling_fricti
 
 
 def prove(program, folder):
-    """Complaints when the number is not read, not checked or not written, in either format"""
+    """Complaints if the number is not read, not checked or not written, in either format"""
     def answer(*arguments):
         return subprocess.run([program, *arguments], cwd=folder, check=False, capture_output=True, text=True)
 

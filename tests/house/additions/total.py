@@ -16,7 +16,7 @@ EDITS = [
       result%ptmax = maxval(hypot(result%px, result%py))
 """),
 ]
-MOST_FILES, MOST_PLACES = 2, 3
+MAX_FILES, MAX_PLACES = 2, 3
 SIBLING = r"\bborder_elements\b"
 KNOWING = {"src/patch/border.f90": "counts them",
            "src/capi/calculate3.f90": "hands the number to callers as an error code",
@@ -27,19 +27,19 @@ EXAMPLE = pathlib.Path(__file__).resolve().parents[3] / "examples/carter2d.inp"
 
 
 def prove(program, folder):
-    """Complaints when an output has not the total"""
+    """Complaints if an output lacks the total"""
     (folder / "total.inp").write_text(EXAMPLE.read_text(encoding="utf-8"))
     run = subprocess.run([program, "--json", "--hdf5", "2", "total"], cwd=folder, check=False, capture_output=True, text=True)
     if run.returncode:
         yield "a case does not run: " + run.stdout + run.stderr
         return
     record = json.loads((folder / "total.jsonl").read_text().splitlines()[0])
-    told = record["patches"][0]["totals"].get("ptmax", {})
-    if told.get("unit") != "N/mm2" or not told["value"] > 0:
-        yield f"JSON tells {told}"
+    total = record["patches"][0]["totals"].get("ptmax", {})
+    if total.get("unit") != "N/mm2" or not total["value"] > 0:
+        yield f"JSON has {total}"
     if b"largest tangential traction" not in (folder / "total.h5").read_bytes():
         yield "the HDF5 file has no column of it"
     lines = (folder / "total.out").read_text().splitlines()
     values = [after.split()[-1] for line, after in zip(lines, lines[1:]) if line.endswith("PTMAX")]
-    if not values or abs(float(values[0]) / told["value"] - 1) > 1e-3:
-        yield f"the .out file tells {values}"
+    if not values or abs(float(values[0]) / total["value"] - 1) > 1e-3:
+        yield f"the .out file has {values}"

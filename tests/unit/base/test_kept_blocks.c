@@ -1,4 +1,4 @@
-/* Blocks that an owner keeps: each is found again by requests of its size, and no more are kept than allowed */
+/* Blocks kept by an owner: each is reused by requests of its size, and no more are kept than allowed */
 #include "kept_blocks.h"
 #include <malloc.h>
 #include <stdint.h>
@@ -38,7 +38,7 @@ int main(void) {
     check(contact_kept_take(kept, n) == NULL, "it does not serve the request", n);
     check(contact_kept_put(kept, twice, malloc_usable_size(twice)), "a block of twice the size is kept", n);
     check(contact_kept_take(kept, n) == twice, "it serves the request", n);
-    check(contact_kept_take(kept, 4*n) == more, "the other one serves a request of its own size", n);
+    check(contact_kept_take(kept, 4*n) == more, "the other one is used for a request of its size", n);
     free(twice);
     free(more);
   }

@@ -48,7 +48,7 @@ contains
       call log%begin_case()
       call log%warning("first")
       call finish(log, lines)
-      call suite%check(count_of(lines, " Warning: first") == 2, "a new case says it anew")
+      call suite%check(count_of(lines, " Warning: first") == 2, "a new case repeats the message")
    end subroutine warnings
 
    !> Warnings of trials
@@ -72,7 +72,7 @@ contains
       call suite%check(index(lines, "of the last trial") < index(lines, "and a second one") .and. &
          & index(lines, "and a second one") < index(lines, "after it") &
          & .and. index(lines, "of the last trial") > 0, "in their order")
-      call suite%check(index(lines, new_line("a") // new_line("a")) == 0, "each on a line of its own, and nothing between")
+      call suite%check(index(lines, new_line("a") // new_line("a")) == 0, "each on a separate line, and nothing between")
 
       call begin(log)
       log%level = 4
@@ -107,7 +107,7 @@ contains
       close(unit)
    end subroutine finish
 
-   !> How often a text comes
+   !> Number of occurrences of a text
    pure integer function count_of(text, part) result(n)
       character(len=*), intent(in) :: text, part
       integer :: k

@@ -9,7 +9,7 @@ program test_accuracy_plan
    use contact_cases_spec, only : case_spec
    use contact_test_harness, only : test_suite
    implicit none (type, external)
-   real(wp), parameter :: asked = 1.0e-3_wp
+   real(wp), parameter :: required = 1.0e-3_wp
    type(test_suite) :: suite
 
    call suite%start("accuracy_plan")
@@ -25,13 +25,14 @@ contains
    subroutine ends(suite)
       type(test_suite), intent(inout) :: suite
 
-      call suite%check(is_near_enough(0.6_wp*asked, 0.0_wp, asked), "the first grid, well below")
-      call suite%check(.not. is_near_enough(0.8_wp*asked, 0.0_wp, asked), "the first grid, narrowly below")
-      call suite%check(is_near_enough(0.8_wp*asked, 0.5_wp*asked, asked), "two samples of which one is narrowly below")
-      call suite%check(.not. is_near_enough(0.8_wp*asked, 1.2_wp*asked, asked), "two samples, the other one above")
-      call suite%check(.not. is_near_enough(0.95_wp*asked, 0.1_wp*asked, asked), "an estimate that is too near, whatever else")
-      call suite%check(.not. is_near_enough(0.1_wp*asked, 2.0_wp*asked, asked), "an estimate that is small by accident")
-      call suite%check(.not. is_near_enough(-1.0_wp, 0.1_wp*asked, asked), "no estimate")
+      call suite%check(is_near_enough(0.6_wp*required, 0.0_wp, required), "the first grid, well below")
+      call suite%check(.not. is_near_enough(0.8_wp*required, 0.0_wp, required), "the first grid, narrowly below")
+      call suite%check(is_near_enough(0.8_wp*required, 0.5_wp*required, required), "two samples of which one is narrowly below")
+      call suite%check(.not. is_near_enough(0.8_wp*required, 1.2_wp*required, required), "two samples, the other one above")
+      call suite%check(.not. is_near_enough(0.95_wp*required, 0.1_wp*required, required), &
+         & "an estimate that is too close, independent of the other")
+      call suite%check(.not. is_near_enough(0.1_wp*required, 2.0_wp*required, required), "an estimate that is small by accident")
+      call suite%check(.not. is_near_enough(-1.0_wp, 0.1_wp*required, required), "no estimate")
    end subroutine ends
 
    subroutine orders(suite)
@@ -51,7 +52,8 @@ contains
       call suite%close_to(observed_order(law, before, 0.0_wp, 0.0_wp), 2.1_wp, 1.0e-12_wp, "of the first grid")
       law = first_order_alone(law)
       call suite%close_to(observed_order(law, before, 0.0_wp, 0.0_wp), 1.0_wp, 1.0e-12_wp, "where the first order acts")
-      call suite%check(finer_across(30.0_wp, 2.0_wp*asked, asked, 1.0_wp) > finer_across(30.0_wp, 2.0_wp*asked, asked, 2.0_wp), &
+      call suite%check(finer_across(30.0_wp, 2.0_wp*required, required, 1.0_wp) &
+         & > finer_across(30.0_wp, 2.0_wp*required, required, 2.0_wp), &
          & "a lower order needs more elements")
    end subroutine orders
 
@@ -60,7 +62,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(case_spec) :: spec
       !> With fewer elements all kinds have the same first grid
-      real(wp), parameter :: sharp = 0.1_wp*asked
+      real(wp), parameter :: sharp = 0.1_wp*required
       real(wp) :: plain, spinning
 
       spec%motion = motion%steady_rolling
@@ -105,15 +107,16 @@ contains
       grid%counts = 24
       grid%lengths = 10.0_wp
       grid%eps = 1.0e-4_wp
-      call series%take(spec, grid, 0.5_wp*asked)
-      call suite%close_to(series%sample(spec, grid), 0.0_wp, 0.0_wp, "a case that starts anew has no previous one")
+      call series%take(spec, grid, 0.5_wp*required)
+      call suite%close_to(series%sample(spec, grid), 0.0_wp, 0.0_wp, "a new sequence has no previous case")
       spec%link = time_link%continue_all
-      call suite%close_to(series%sample(spec, grid), 0.5_wp*asked, 0.0_wp, "the previous case on the same grid")
+      call suite%close_to(series%sample(spec, grid), 0.5_wp*required, 0.0_wp, "the previous case on the same grid")
       finer = grid
       finer%counts = 36
       call suite%close_to(series%sample(spec, finer), 0.0_wp, 0.0_wp, "none on a finer grid")
-      call suite%check(is_near_enough(0.8_wp*asked, series%sample(spec, grid), asked), "a second case narrowly below")
-      call suite%check(.not. is_near_enough(0.8_wp*asked, series%sample(spec, finer), asked), "a single sample narrowly below")
+      call suite%check(is_near_enough(0.8_wp*required, series%sample(spec, grid), required), "a second case narrowly below")
+      call suite%check(.not. is_near_enough(0.8_wp*required, series%sample(spec, finer), required), &
+         & "a single sample narrowly below")
    end subroutine samples
 
    !> Expected sides of the contact, and a next grid with more elements in one direction

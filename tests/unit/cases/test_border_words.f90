@@ -17,7 +17,7 @@ program test_border_words
 
 contains
 
-   !> Every choice of sides: on the left the low and the high side in y change places
+   !> Every choice of sides: on the left the low and the high side in y are exchanged
    subroutine sides(suite)
       type(test_suite), intent(inout) :: suite
       character(len=6), parameter :: right(4) = ["x low ", "x high", "y low ", "y high"]
@@ -25,7 +25,7 @@ contains
       type(case_spec) :: spec
       type(border_contact) :: border
       character(len=:), allocatable :: words, expected
-      logical :: told(4)
+      logical :: is_named(4)
       integer :: choice, kind, k
 
       do kind = 0, 2
@@ -33,11 +33,11 @@ contains
          if (kind > 0) spec%wheel_rail%left = kind == 2
          do choice = 0, 15
             border%side = [(btest(choice, k), k=0, 3)]
-            told = border%side
-            if (kind == 2) told = told(mirrored)
+            is_named = border%side
+            if (kind == 2) is_named = is_named(mirrored)
             expected = ""
             do k = 1, 4
-               if (.not. told(k)) cycle
+               if (.not. is_named(k)) cycle
                if (len(expected) > 0) expected = expected // ", "
                expected = expected // trim(right(k))
             end do

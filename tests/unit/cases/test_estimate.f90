@@ -1,4 +1,4 @@
-!> Estimates of cost: how they grow with elements, and with what makes a case dear
+!> Estimates of cost: dependence on the number of elements, and on effects that make a case expensive
 program test_estimate
    use contact_base_choices, only : motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
@@ -56,7 +56,7 @@ contains
       spec%motion = motion%none
       normal = seconds(spec, 100)
       call suite%close_to(seconds(spec, 200)/normal, 4.0_wp, 1.0e-9_wp, "pressures: by elements")
-      ! a megaelement takes seconds, not milliseconds or hours
+      ! a million elements take seconds, not milliseconds or hours
       call suite%close_to(seconds(spec, 1000), 5.0_wp, 4.5_wp, "pressures: order of magnitude")
       do kind = 1, 4
          other = spec
@@ -69,10 +69,10 @@ contains
          end select
          tangential = seconds(other, 100) - normal
          if (kind >= 3) then
-            ! the default solver in place of a classical one
+            ! the default solver instead of a classical one
             other%classical = .false.
             call suite%close_to((seconds(other, 200) - 4.0_wp*normal)/(seconds(other, 100) - normal), 4.0_wp, 1.0e-9_wp, &
-               & "in place of a classical one")
+               & "instead of a classical one")
             other%classical = .true.
          end if
          call suite%check(tangential > normal, "tractions take more than pressures")
@@ -131,7 +131,7 @@ contains
       call suite%check(approach%elements == 1000 .and. approach%at_most, "without a force the size is not known")
       ! eight trials
       call suite%close_to((cost%seconds - 2.1e-3_wp)/(approach%seconds - 2.1e-3_wp), 9.0_wp, 1.0e-6_wp, "trials for a force")
-      ! steps of transient rolling: elements stand on the rail, whatever NPOT_MAX is, up to what is refused
+      ! steps of transient rolling: elements are fixed to the rail, independent of NPOT_MAX, up to the limit of refusal
       spec%normal = normal_control%force
       spec%motion = motion%transient_rolling
       spec%iteration%npot_max = 5000

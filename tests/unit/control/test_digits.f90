@@ -111,15 +111,15 @@ contains
       type(case_digits) :: digits
 
       call decode_words(7203100, 0, 0, 3, digits)
-      call suite%check(digits%p == 2, "what stands left of P is ignored")
+      call suite%check(digits%p == 2, "digits to the left of P are ignored")
       call decode_words(0, 12022020, 0, 3, digits)
-      call suite%check(digits%v == 12, "what stands left of V stays in V")
+      call suite%check(digits%v == 12, "digits to the left of V belong to V")
       call decode_words(0, 0, 210000001, 3, digits)
-      call suite%check(digits%x == 21, "what stands left of X stays in X")
+      call suite%check(digits%x == 21, "digits to the left of X belong to X")
       call decode_words(0, 0, 0, 3, digits, 25)
       call suite%check(digits%gapwgt == 2 .and. digits%m2 == 2, "second number: weighting and damping")
       call decode_words(0, 0, 0, 3, digits)
-      call suite%check(digits%gapwgt == 2 .and. digits%m2 == 1, "the weighting stays when there is no second number")
+      call suite%check(digits%gapwgt == 2 .and. digits%m2 == 1, "the weighting is kept without a second number")
       call decode_words(0, 0, 0, 3, digits, -3)
       call suite%check(digits%m2 == 0, "a negative second number switches damping off")
    end subroutine surplus_digits
@@ -135,9 +135,9 @@ contains
       call suite%check(digit_text("L", 5, 1) == "unknown", "an unknown value has no meaning")
       call suite%check(is_built("B", 1, 3), "an elastic thin sheet is built")
       call suite%equal(digit_of("B", 1, 3), 1, "digit of a choice")
-      call suite%check(allowed_text("B", 1) == "0, 1, 5, 6", "module 1 has values of its own")
-      call suite%check(is_known("D", 7, 1) .and. .not. is_known("D", 7, 3), "a value of module 1 alone")
-      call suite%equal(digit_of("B", 77, 3), -1, "no digit for what is no choice")
+      call suite%check(allowed_text("B", 1) == "0, 1, 5, 6", "module 1 has different values")
+      call suite%check(is_known("D", 7, 1) .and. .not. is_known("D", 7, 3), "a value of module 1 only")
+      call suite%equal(digit_of("B", 77, 3), -1, "no digit for an unknown choice")
    end subroutine questions
 
    !> The manual lists every row with its words: `| P | 0 | text |`, marked when it is not built
@@ -156,11 +156,11 @@ contains
    end subroutine manual
 
    !> Look for the rows of one page
-   subroutine look_for_rows(suite, page, wanted, seen)
+   subroutine look_for_rows(suite, page, required, seen)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: page
       !> Rows that belong on the page, and those that are there
-      logical, intent(in) :: wanted(:)
+      logical, intent(in) :: required(:)
       logical, intent(inout) :: seen(:)
       character(len=:), allocatable :: expected
       character(len=300) :: folder, line
@@ -175,7 +175,7 @@ contains
          read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          do k = 1, size(digit_table)
-            if (.not. wanted(k)) cycle
+            if (.not. required(k)) cycle
             associate (row => digit_table(k))
                expected = "| " // trim(row%name) // " | " // achar(iachar("0") + row%digit) // " | " // trim(row%text)
                if (.not. row%built) expected = expected // " (not built)"

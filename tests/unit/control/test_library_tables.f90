@@ -47,7 +47,7 @@ contains
       call suite%check(.not. known .and. simpack%code == own%code, "an unknown convention changes nothing")
    end subroutine factors
 
-   !> What comes in goes out again as it was
+   !> Input and output conversions are inverse
    subroutine there_and_back(suite)
       type(test_suite), intent(inout) :: suite
       type(unit_convention) :: units
@@ -96,7 +96,7 @@ contains
       call suite%check(abs(outward(units, quantity%force, along, left) - sign) <= 0.0_wp, what)
    end subroutine expect_sign
 
-   !> Values out of range: the nearest one where that is documented, else nothing is stored
+   !> Values out of range: the nearest one is stored if that is documented, otherwise nothing
    subroutine ranges(suite)
       type(test_suite), intent(inout) :: suite
 
@@ -115,7 +115,7 @@ contains
       call expect_range(suite, flag%units, 1, 3, -1)
    end subroutine ranges
 
-   !> Stored value, -1 when nothing is stored
+   !> Stored value, -1 if nothing is stored
    subroutine expect_range(suite, code, number, module_number, stored)
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: code, number, module_number, stored
@@ -127,7 +127,7 @@ contains
       call suite%check(got == stored, "range of a flag")
    end subroutine expect_range
 
-   !> Each code stands once, and flags of digits reach their digit
+   !> Each code is listed once, and flags of digits refer to their digit
    subroutine every_flag(suite)
       type(test_suite), intent(inout) :: suite
       type(case_digits) :: digits
@@ -146,7 +146,7 @@ contains
       call suite%check(row_of_flag(1) == 0, "unknown flag")
    end subroutine every_flag
 
-   !> Codes have texts of their own
+   !> Codes have unique texts
    subroutine texts(suite)
       type(test_suite), intent(inout) :: suite
       integer, parameter :: codes(*) = [library_code%success, library_code%in_use, library_code%not_allowed, &

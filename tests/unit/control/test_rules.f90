@@ -1,4 +1,4 @@
-!> The rules of choices that go together: each can be broken and told, and stands in the manual
+!> The rules between choices: each can be violated, is reported, and is listed in the manual
 program test_rules
    use contact_cases_rules, only : choice_rule, choice_rules, demand_text, describe_number, is_broken, is_missed, number_rule, &
       & number_rules, refuse_broken_rules, value_of
@@ -25,7 +25,7 @@ program test_rules
 
 contains
 
-   !> Cases with all values of the digits that rules know: whatever breaks a rule is told with both digits, and each rule is met
+   !> Cases with all values of the digits of the rules: violations are reported with both digits, and each rule occurs
    subroutine break_all(suite)
       type(test_suite), intent(inout) :: suite
       integer, parameter :: kernels(4) = [2, 3, 4, 9], laws(5) = [0, 2, 3, 4, 6], slips(4) = [0, 2, 3, 9]
@@ -55,7 +55,7 @@ contains
                                  & h=heats(h), r=1)
                               spec = case_spec()
                               call apply_digits(digits, module_number, spec)
-                              ! no form where there is none yet, or where a wheel brings its grid
+                              ! no form before the first one, or if the grid is that of a wheel
                               spec%grid%form = merge(0, forms(mod(t + l + 3*h + m, size(forms)) + 1), module_number == 1)
                               call refuse_broken_rules(spec, error)
                               call count_broken(spec, digits, broken, met, wrong)
@@ -71,7 +71,7 @@ contains
             end do
          end do
       end do
-      call suite%equal(wrong, 0, "rules that are not told, or digits that do not come back")
+      call suite%equal(wrong, 0, "rules that are not reported, or digits that are not recovered")
       do k = 1, size(choice_rules)
          call suite%check(met(k), "a case breaks the rule: " // trim(choice_rules(k)%subject) // " " // trim(choice_rules(k)%claim))
       end do
@@ -117,7 +117,7 @@ contains
          call suite%check(is_missed(number_rules(k), bad), "missed: " // trim(number_rules(k)%number))
          call suite%check(.not. is_missed(number_rules(k), good), "kept: " // trim(number_rules(k)%number))
          call refuse_broken_rules(good, error)
-         call suite%check(.not. allocated(error), "nobody refuses: " // trim(number_rules(k)%number))
+         call suite%check(.not. allocated(error), "not refused: " // trim(number_rules(k)%number))
          call refuse_broken_rules(bad, error)
          call describe_number(number_rules(k), bad, text)
          call suite%check(allocated(error), "refused: " // text)
@@ -167,7 +167,7 @@ contains
       end select
    end subroutine example
 
-   !> Choices in messages become digits; what is no choice stays
+   !> Choices in messages are converted to digits; other text is unchanged
    subroutine terms(suite)
       type(test_suite), intent(inout) :: suite
 

@@ -391,7 +391,7 @@ contains
       r(3, :) = [0.0_wp, sin(angle), cos(angle)]
    end function rotation
 
-   !> Constant inclination is no curvature: the same as flat bodies
+   !> Constant inclination is not a curvature: the same as flat bodies
    subroutine flat_limit(suite)
       type(test_suite), intent(inout) :: suite
       type(elastic_model) :: flat, even
@@ -460,7 +460,7 @@ contains
             call old%tangential(p(:, :, 1), p(:, :, 2), none, u(:, :, 1), u(:, :, 2))
             call old_layered%tangential(p(:, :, 1), p(:, :, 2), none, v(:, :, 1), v(:, :, 2))
             w = flexibility*((1.0_wp - share)*p + share*ahead)
-            call suite%close_to(reshape(v - u, [size(u)]), reshape(w, [size(u)]), 1.0e-13_wp, "layer, previous moment")
+            call suite%close_to(reshape(v - u, [size(u)]), reshape(w, [size(u)]), 1.0e-13_wp, "layer, previous time step")
          end do
       end do
       call a%release()

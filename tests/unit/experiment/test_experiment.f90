@@ -44,7 +44,7 @@ contains
       end do
    end subroutine letters
 
-   !> From what a user types to the names of files
+   !> From the argument of the user to the names of files
    subroutine places(suite)
       type(test_suite), intent(inout) :: suite
 
@@ -76,11 +76,11 @@ contains
       call suite%check(place%results == results, typed // ": results are " // place%results)
    end subroutine check_place
 
-   !> Time that is left, in the words of the line
+   !> Remaining time in the text of the progress line
    subroutine progress(suite)
       type(test_suite), intent(inout) :: suite
 
-      call suite%check(progress_text(0, 20, 1.0_wp) == " case 1 of 20", "nothing is done")
+      call suite%check(progress_text(0, 20, 1.0_wp) == " case 1 of 20", "no case is finished")
       call suite%check(progress_text(10, 20, 65.0_wp) == " case 11 of 20, 1:05 left", "a half is done")
       call suite%check(progress_text(1, 3, 5000.0_wp) == " case 2 of 3, 2:46:40 left", "hours")
       call suite%check(progress_text(20, 20, 65.0_wp) == " case 20 of 20, 0:00 left", "all is done")

@@ -1,5 +1,5 @@
 /* Both versions of src/fft/four_lines.c, for all processors and for those with FMA, against the definition of a transform and its
- * inverse: all factors, with half and more of a line given and wanted */
+ * inverse: all factors, with half and more of a line given and count_out */
 #include "four_lines.c"
 
 #include <complex.h>
@@ -60,15 +60,15 @@ static void forward(int kind, const line_plan *plan, int used) {
   transform_anywhere(plan, x, x, y, used);
 }
 
-static void backward(int kind, const line_plan *plan, int wanted) {
+static void backward(int kind, const line_plan *plan, int count_out) {
 #ifdef __x86_64__
   if (kind) {
-    transform_back_fma(plan, x, back, y, wanted);
+    transform_back_fma(plan, x, back, y, count_out);
     return;
   }
 #endif
   (void)kind;
-  transform_back_anywhere(plan, x, back, y, wanted);
+  transform_back_anywhere(plan, x, back, y, count_out);
 }
 
 /* Largest error of transforms forward and back of lines with some numbers given */
@@ -78,7 +78,7 @@ static double error_of(int kind, const line_plan *plan, int used) {
   for (int k = 0; k < n; k++)
     for (int l = 0; l < 4; l++) {
       line[l][k] = k < used ? rand() / (double)RAND_MAX + I * rand() / (double)RAND_MAX : 0.0;
-      /* what is not given is not read */
+      /* data beyond the given ones are not read */
       x[8 * k + l] = k < used ? creal(line[l][k]) : NAN;
       x[8 * k + 4 + l] = k < used ? cimag(line[l][k]) : NAN;
     }

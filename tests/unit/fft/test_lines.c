@@ -36,7 +36,7 @@ static double *reals(double complex *z) { return (double *)z; }
 
 enum { ONE, TURN, OPPOSITES, PAIR, TURN_PAIR, KINDS };
 
-/* What is tried, with n numbers; true if it takes a line of that length, as those of real rows are even or 1 */
+/* Test with n numbers; true if it takes a line of that length, as those of real rows are even or 1 */
 static int takes(int kind, int n) { return kind < PAIR || n == 1 || n % 2 == 0; }
 
 static void try_loop(const loops *l, int kind, int n, buffers *z) {

@@ -1,4 +1,4 @@
-!> Transforms of padded windows are the sums that define them, with whatever library they are made
+!> Transforms of padded windows agree with the sums that define them, for all libraries
 program transforms
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp

@@ -66,7 +66,7 @@ contains
       set = two_terms()
       do k = 1, size(falling)
          call make(suite, falling(k), [set], law)
-         call suite%equal(law%driver(), friction_driver%slip_speed, "falls with slip")
+         call suite%equal(law%driver(), friction_driver%slip_speed, "decreases with slip")
          call suite%close_to(mu_at(law, 0.0_wp), 0.34_wp, closed, "all of it at rest")
       end do
       set%coef2 = 0.0_wp
@@ -76,7 +76,7 @@ contains
          call suite%close_to(mu_at(law, 80.0_wp), 0.21_wp, closed, "half of the term at its velocity")
       end do
       call make(suite, friction_model%linear, [set], law)
-      call suite%close_to(mu_at(law, 160.0_wp), 0.15_wp, closed, "linear: nothing left at twice the velocity")
+      call suite%close_to(mu_at(law, 160.0_wp), 0.15_wp, closed, "linear: zero at twice the velocity")
       call suite%close_to(mu_at(law, 1.0e9_wp), 0.15_wp, closed, "linear: never below the kinetic coefficient")
       call make(suite, friction_model%exponential, [set], law)
       call suite%close_to(mu_at(law, 240.0_wp), 0.165_wp, closed, "exponential: an eighth at three times the velocity")
@@ -123,7 +123,7 @@ contains
       call suite%check(.not. law%varies_by_row(), "one set does not vary")
    end subroutine rows
 
-   !> Coefficients never rise with slip and lie between the limits
+   !> Coefficients never increase with slip and are between the limits
    subroutine monotone(suite)
       type(test_suite), intent(inout) :: suite
       class(friction_law), allocatable :: law
@@ -197,7 +197,7 @@ contains
       set%sabsh1 = 0.0_wp
       call refused(suite, friction_model%linear, [set], "a velocity of zero")
       set%sabsh1 = ieee_value(1.0_wp, ieee_quiet_nan)
-      call refused(suite, friction_model%rational, [set], "a velocity that is no number")
+      call refused(suite, friction_model%rational, [set], "a velocity of NaN")
       set%sabsh1 = 1.0_wp
       set%fkin = -0.1_wp
       call refused(suite, friction_model%exponential, [set], "negative friction")

@@ -24,12 +24,12 @@ contains
       type(friction_memory) :: memory
 
       call suite%check(.not. memory%acts(), "none by default")
-      call suite%close_to(memory%weight(3.0_wp, 0.1_wp), 0.0_wp, 0.0_wp, "without distance nothing is remembered")
+      call suite%close_to(memory%weight(3.0_wp, 0.1_wp), 0.0_wp, 0.0_wp, "without distance there is no memory")
       memory = friction_memory(distance=0.5_wp, lowest_speed=0.0_wp)
       call suite%check(memory%acts(), "a distance acts")
       call suite%close_to(memory%weight(0.0_wp, 0.1_wp), 1.0_wp, closed, "without slip nothing changes")
       call suite%close_to(memory%weight(5.0_wp, 0.1_wp), 0.5_wp, closed, "half after the memory distance")
-      call suite%close_to(memory%weight(1.0e12_wp, 0.1_wp), 0.0_wp, 1.0e-10_wp, "fast slip forgets")
+      call suite%close_to(memory%weight(1.0e12_wp, 0.1_wp), 0.0_wp, 1.0e-10_wp, "fast slip erases the memory")
       memory%lowest_speed = 5.0_wp
       call suite%close_to(memory%weight(0.0_wp, 0.1_wp), 0.5_wp, closed, "the lowest velocity acts at rest")
    end subroutine limits
@@ -93,7 +93,7 @@ contains
       error = abs(mu(1, 1) - (0.2_wp + 0.2_wp*exp(-2.0_wp)))
    end function decay_error
 
-   !> Constant slip, second order: the decay is exact for any step, also with the lowest velocity in place of the slip
+   !> Constant slip, second order: the decay is exact for any step, also with the lowest velocity instead of the slip
    subroutine exact_decay(suite)
       type(test_suite), intent(inout) :: suite
       type(friction_memory) :: memory

@@ -1,4 +1,4 @@
-!> The description of the input: what a group writes it reads back, through every form of every group, and every number has bounds
+!> The description of the input: every form of every group is read back as it was written, and every number has bounds
 module description_archives
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive
@@ -23,7 +23,7 @@ module description_archives
       character(len=16) :: names(2000) = ""
       !> Rows of the table of bounds that were met
       logical :: met(size(bounds_table)) = .false.
-      !> Was there a number without bounds, although nobody else checks it?
+      !> Was there a number without bounds that is not checked elsewhere?
       logical :: without_bounds = .false.
    contains
       procedure :: end_line => collect_line
@@ -175,7 +175,7 @@ program test_description
 
 contains
 
-   !> Numbers of profile and coefficient files, of calls, and of lines that the readers of blocks have of their own
+   !> Numbers of profile and coefficient files, of calls, and of special lines of the readers of blocks
    pure logical function is_elsewhere(name)
       character(len=*), intent(in) :: name
       character(len=*), parameter :: others(*) = [character(len=11) :: "MXSENS", "EPSENS", "EXRHS", "POLACH_A", "POLACH_B", "CZZ", &
@@ -193,7 +193,7 @@ contains
       if (form >= first_law) law = laws(1 + mod(form - first_law, size(laws)))
    end function law_of
 
-   !> A law that was read is made, and without slip and in the cold it is what it says to be at rest
+   !> A law that was read is created, and its value without slip and temperature is the coefficient at rest
    subroutine laws_at_rest(suite, label, choice, sets)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: label
@@ -292,7 +292,7 @@ contains
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: form
       logical, intent(inout) :: met(:)
-      type(case_spec), target :: asked, found
+      type(case_spec), target :: written, found
       type(filler) :: random
       type(collector) :: before, after
       type(output_file), target :: file
@@ -309,16 +309,16 @@ contains
 
       write(label, '("form ", I0)') form
       if (form >= first_law) write(label, '("L = ", I0, ", V = ", I0)') law_of(form), (form - first_law)/size(laws)
-      allocate(asked%wheel_rail, source=wheel_rail_spec())
+      allocate(written%wheel_rail, source=wheel_rail_spec())
       allocate(found%wheel_rail, source=wheel_rail_spec())
-      allocate(asked%friction%sets(3))
-      asked%friction%sets = friction_set()
-      asked%wheel_rail%rail_profile%name = "a name"
+      allocate(written%friction%sets(3))
+      written%friction%sets = friction_set()
+      written%wheel_rail%rail_profile%name = "a name"
       random%given = 17*form
-      call fill(random, form, asked)
+      call fill(random, form, written)
       call file%open_file("written.txt", reason)
       writer%file => file
-      call visit(writer, form, asked)
+      call visit(writer, form, written)
       call file%close_file(complete)
       call suite%check(complete, trim(label) // " is written")
       open(newunit=unit, file="written.txt", action="read", status="old")
@@ -336,7 +336,7 @@ contains
       call suite%check(reader%is_good, trim(label) // " is read: " // text)
       call suite%check(problems%count == 0, trim(label) // " has no problems: " // first_problem(problems) // text)
       call suite%check(lexer%at_end(), trim(label) // " is read to its end: " // text)
-      call visit(before, form, asked)
+      call visit(before, form, written)
       call visit(after, form, found)
       call suite%equal(after%n, before%n, trim(label) // ": numbers")
       call suite%check(before%n > 0 .and. all(abs(before%values - after%values) <= 1.0e-14_wp*abs(before%values)), &

@@ -1,4 +1,4 @@
-!> Elements that the input tells by itself are those that are computed with
+!> Elements predicted from the input alone are those of the computation
 program test_frames
    use contact_base_choices, only : normal_control
    use contact_base_error, only : error_type

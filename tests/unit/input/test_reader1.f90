@@ -1,4 +1,4 @@
-!> Reading of cases of module 1: what is stored, what is kept, and faulty input
+!> Reading of cases of module 1: stored and kept values, and faulty input
 program test_reader1
    use contact_base_choices, only : contact_location, normal_control, variation
    use contact_base_constants, only : pi
@@ -94,7 +94,7 @@ contains
             & [1.0_wp, 2.0_wp, 0.003_wp, 4.0_wp, 5.0_wp, 0.006_wp], closed, "deviations of the rail")
          call suite%check(pair%rail_profile%name == "rail.prr" .and. pair%wheel_profile%name == "wheel.prw", "profile names")
          call suite%check(pair%rail_profile%smoothing_method == 0 .and. pair%rail_profile%mirror_z == 0, &
-            & "the text behind four profile items is a comment")
+            & "the text after four profile items is a comment")
          call suite%check(pair%wheel_profile%mirror_y == 1 .and. pair%wheel_profile%mirror_z == -1 .and. &
             & pair%wheel_profile%smoothing_method == 1, "options of the wheel profile")
          call suite%close_to([pair%wheel_profile%smoothing, pair%wheel_profile%zigzag, pair%wheel_profile%kink_high, &
@@ -167,7 +167,7 @@ contains
       call suite%close_to([spec%friction%sets%position], [-pi/9.0_wp, -pi/18.0_wp], closed, "their angles")
       call suite%close_to([spec%friction%sets%fstat], [0.2_wp, 0.3_wp], closed, "their coefficients")
       call read_text(new_case(), next, problems, error, previous=spec)
-      call suite%check(.not. allocated(error), "one set behind several")
+      call suite%check(.not. allocated(error), "one set after several")
       if (allocated(error)) return
       call suite%check(size(next%friction%sets) == 1, "the control points of the case before are gone")
 
@@ -209,10 +209,10 @@ contains
       call has_problem(suite, problems, "no rail profile has been given", "first case without profiles")
       call read_text(new_case(wheelset="1360. -70. 460.;wheel.prw 0 1. 0."), spec, problems, error)
       call suite%check(allocated(error), "a name without quotes ends the reading")
-      if (allocated(error)) call suite%check(index(full_text(error), "test:12:1") > 0, "with its place")
+      if (allocated(error)) call suite%check(index(full_text(error), "test:12:1") > 0, "with its position")
    end subroutine faulty_cases
 
-   !> What the format knows and no method computes is refused at its digit, also when it is kept
+   !> Choices of the format that are not implemented are refused at their digit, also when they are kept
    subroutine unbuilt_cases(suite)
       type(test_suite), intent(inout) :: suite
       type(case_spec) :: spec, later
@@ -220,12 +220,12 @@ contains
       type(error_type), allocatable :: error
 
       call read_text(new_case(), spec, problems, error)
-      call suite%equal(problems%number_of(severity%unsupported), 0, "a plain case asks for nothing that is missing")
+      call suite%equal(problems%number_of(severity%unsupported), 0, "a plain case requests nothing that is not implemented")
       call read_text(new_case(word2="0082033"), spec, problems, error)
       call suite%equal(problems%number_of(severity%unsupported), 1, "an oblique view is refused")
       call has_problem(suite, problems, "test:2:1: D = 8, contact locus in an oblique view that fits few profiles, " // &
          & "is known but not built", &
-         & "by its name, with its place", severity%unsupported)
+         & "by its name, with its position", severity%unsupported)
       call read_text(new_case(word2="0024033", friction="0.3 0.3;0 4"), spec, problems, error)
       call has_problem(suite, problems, "C = 4, the angle correction for conformal contact, has no effect with D = 2", &
          & "flat patches have no inclination", severity%warning)
@@ -243,13 +243,13 @@ contains
       !> Member of severity, default error
       integer, intent(in), optional :: kind
       logical :: found
-      integer :: k, wanted
+      integer :: k, expected
 
       found = .false.
-      wanted = severity%error
-      if (present(kind)) wanted = kind
+      expected = severity%error
+      if (present(kind)) expected = kind
       do k = 1, problems%count
-         if (problems%items(k)%severity /= wanted) cycle
+         if (problems%items(k)%severity /= expected) cycle
          if (index(problem_text(problems%items(k)), words) > 0) found = .true.
       end do
       call suite%check(found, what)

@@ -1,4 +1,4 @@
-!> Reading of cases of module 3: what is stored, what is kept, and one faulty input per check
+!> Reading of cases of module 3: stored and kept values, and one faulty input per check
 program test_reader3
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
@@ -233,7 +233,7 @@ contains
       call suite%check(.true., what)
    end subroutine no_problem
 
-   !> Reading cannot go on
+   !> Reading cannot continue
    subroutine fails(suite, changes, phrase)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: changes, phrase
@@ -317,7 +317,7 @@ contains
       call wrong(suite, "2=0022010|11=|12=", "Z = 1 forms the undeformed distance from the values in store, but this is the first")
    end subroutine all_groups
 
-   !> What digits keep
+   !> Values kept by digits
    subroutine kept_values(suite)
       type(test_suite), intent(inout) :: suite
       character(len=*), parameter :: kept = "1=203100|2=0100000|3=0100001|4=|6=|7=|8=|9=|10=|11=|12="
@@ -332,7 +332,7 @@ contains
       call suite%check(spec%rolling%dq == 0.1_wp .and. spec%material%gg(1) == 82000.0_wp, "materials are kept")
       call suite%check(spec%grid%mx == 10 .and. spec%geometry%b(1) == 0.01_wp, "grid and geometry are kept")
       call suite%check(spec%kinematics%fn == 10.0_wp, "kinematics are new")
-      call suite%check(all([spec%parts%grid, spec%parts%geometry, spec%parts%material] /= part_source%given), "nothing is new")
+      call suite%check(all([spec%parts%grid, spec%parts%geometry, spec%parts%material] /= part_source%given), "no value is new")
 
       call read_two("", "1=202100|5=10 0 0 0 1 2|7=0 0.3 100", spec, problems, error)
       call suite%check(spec%kinematics%spinxo == 1.0_wp .and. spec%kinematics%spinyo == 2.0_wp, "spin centre")
@@ -399,7 +399,7 @@ contains
       call wrong(suite, start // "0 0;1;1 0 0;0", "DZ = 0 is below its lower bound")
    end subroutine subsurface_blocks
 
-   !> Ranges of digits, and what digits of a first case demand
+   !> Ranges of digits, and requirements of digits of a first case
    subroutine digits_of_one_case(suite)
       type(test_suite), intent(inout) :: suite
       character(len=*), parameter :: blocks = "12=0.01 0 0.01 0 0 0;0 0"
@@ -631,7 +631,7 @@ contains
       call right(suite, "1=253000")
    end subroutine combinations
 
-   !> A new grid and what is kept from the old one
+   !> A new grid and values kept from the old one
    subroutine grids_of_two_cases(suite)
       type(test_suite), intent(inout) :: suite
       character(len=*), parameter :: old = "2=0020020|8=|7="

@@ -37,7 +37,7 @@ program test_approximate
 
 contains
 
-   !> Pressures by KPEC follow the gap without jumps: where the deepest place changes from a hump to a wider one, and while an
+   !> Pressures by KPEC follow the gap without jumps: where the deepest point changes from a hump to a wider one, and while an
    !> overlap of several rows grows. The force then changes in 400 small steps by much the same amount
    subroutine no_jumps(suite)
       type(test_suite), intent(inout) :: suite
@@ -76,7 +76,7 @@ contains
       end do
    end subroutine no_jumps
 
-   !> Surfaces that overlap and get no pressure anywhere are told: here they are flatter than the least curvature of ANALYN
+   !> Overlapping surfaces without any pressure are reported: here they are flatter than the smallest curvature of ANALYN
    subroutine missed_overlap(suite)
       type(test_suite), intent(inout) :: suite
       type(potential_contact) :: grid
@@ -85,13 +85,13 @@ contains
 
       grid = window(4, 6, 92.0_wp, 147.0_wp)
       pn = pressure_of(pressure_model%analyn, grid, quadratic_gap(grid, 1.9e-6_wp, 8.9e-7_wp, 5.0e-3_wp), warnings)
-      call suite%check(any(pn > 0.0_wp) .or. warnings > 0, "no contact in spite of overlap is told")
+      call suite%check(any(pn > 0.0_wp) .or. warnings > 0, "missing contact in spite of overlap is reported")
       pn = pressure_of(pressure_model%analyn, grid, quadratic_gap(grid, 1.9e-6_wp, 8.9e-7_wp, -5.0e-3_wp), warnings)
-      call suite%equal(warnings, 0, "surfaces that do not overlap are no reason for a warning")
+      call suite%equal(warnings, 0, "no warning for surfaces that do not overlap")
    end subroutine missed_overlap
 
    !> Mirrored surfaces have mirrored pressures, on grids of odd and even size that are coarse, with humps of equal height, and
-   !> wherever rounding puts the smallest gap
+   !> wherever the smallest gap is due to round-off
    subroutine mirrors(suite)
       type(test_suite), intent(inout) :: suite
       type(potential_contact) :: grid
@@ -133,7 +133,7 @@ contains
                   if (shape_ /= 1 .and. shape_ /= 3) cycle
                   call suite%close_to(maxval(abs(pn(mx:1:-1, :) - pn)), 0.0_wp, 1.0e-7_wp*maxval(pn), name_of(i) // &
                      & ": symmetric in x as the gap is")
-                  ! rounding chooses the smallest gap
+                  ! round-off determines the position of the smallest gap
                   image = gap*(1.0_wp + 1.0e-15_wp*spread([(real(mod(7*ix, 5), wp), ix=1, mx)], 2, my))
                   image = pressure_of(methods(i), grid, image)
                   call suite%close_to(maxval(abs(image - pn)), 0.0_wp, 1.0e-6_wp*maxval(pn), name_of(i) // ": rounding")
@@ -227,7 +227,7 @@ contains
       end do
    end function quadratic_gap
 
-   !> Hertz's solution is exact for both methods; what is left are errors of the grid
+   !> Hertz's solution is exact for both methods; remaining errors are those of the grid
    subroutine quadratic_surfaces(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: a1 = 2.5e-3_wp, pen = 0.03_wp
@@ -394,7 +394,7 @@ contains
       end do
    end subroutine press
 
-   !> The warning comes when, and only when, overlap reaches the edge
+   !> The warning is given if and only if overlap reaches the edge
    subroutine warning_at_edge(suite)
       type(test_suite), intent(inout) :: suite
       type(potential_contact) :: grid

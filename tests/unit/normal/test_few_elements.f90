@@ -28,7 +28,7 @@ program test_few_elements
          & 0.020_wp + 0.012_wp*sin(3.0_wp*turn))
    end do
    call suite%check(by_factor > steps/2, "most of the contacts are solved by the factor")
-   ! another material asks for another factor
+   ! another material needs another factorisation
    model%material = combine([0.28_wp, 0.28_wp], [41000.0_wp, 82000.0_wp])
    call solve(17, 15, 8.3_wp, 7.6_wp, 0.02_wp)
    call release_normal(workspace)
@@ -40,7 +40,7 @@ contains
 
    !> One contact with the factor of those before it as estimate and without
    subroutine solve(mx, my, x, y, pen)
-      !> Size of the window, and place of the lowest point in elements
+      !> Size of the window, and position of the lowest point in elements
       integer, intent(in) :: mx, my
       real(wp), intent(in) :: x, y
       !> Approach [mm]

@@ -55,7 +55,7 @@ program test_overlap_window
    problem%force_prescribed = .false.
    pen = minval(problem%h) + 0.5_wp
    p = 0.0_wp
-   call suite%check(solve(p, pen) > 0, "a large overlap takes the whole window")
+   call suite%check(solve(p, pen) > 0, "a large overlap fills the whole window")
    pen = minval(problem%h) - 1.0e-3_wp
    call suite%equal(solve(p, pen), 0, "no overlap")
    call suite%check(.not. any(p > 0.0_wp), "and no pressures")

@@ -62,7 +62,7 @@ program test_repeated_questions
 
 contains
 
-   !> Products that a solution takes
+   !> Number of products of a solution
    integer function products(p, pen, given)
       real(wp), intent(out) :: p(n, n), pen
       real(wp), intent(in), optional :: given

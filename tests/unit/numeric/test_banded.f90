@@ -60,7 +60,7 @@ contains
          do i = max(1, j - width), min(n, j + width)
             call random_number(full(i, j))
             if (i == j .and. width > 0) full(i, j) = 0.0_wp
-            ! far from singular: pairs of rows change places
+            ! far from singular: pairs of rows are exchanged
             if (width > 0 .and. abs(i - j) == 1 .and. max(i, j) == 2*(max(i, j)/2)) full(i, j) = 5.0_wp
             if (i == j .and. (i == n .and. mod(n, 2) == 1)) full(i, j) = 5.0_wp
             band(2*width + 1 + i - j, j) = full(i, j)

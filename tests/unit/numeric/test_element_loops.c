@@ -12,7 +12,7 @@
 /* Longest vector, and numbers of a buffer: two components, and one more that must stay as it is */
 enum { LONGEST = 19, ROOM = 2 * LONGEST + 1, FIELDS = 7 };
 
-/* Fields of two components, flags, sums; what a loop may change comes first */
+/* Fields of two components, flags, sums; data that a loop may change come first */
 typedef struct {
   double a[ROOM], b[ROOM], c[ROOM], sums[4];
 } buffers;
@@ -54,7 +54,7 @@ LOOPS(anywhere)
 LOOPS(avx2)
 #endif
 
-/* P: vectors cut off at the bound; what is left of their length */
+/* P: vectors reduced to the bound; their remaining length */
 static double share_of(double x, double y, double bound) {
   const double length = hypot(x, y);
   return length > bound ? bound / length : 1.0;
@@ -212,7 +212,7 @@ int main(void) {
         }
 #endif
       }
-  /* what is no number is not overlooked */
+  /* NaN is not ignored */
   for (int k = 0; k < LONGEST; k++) {
     buffers z;
     memset(&z, 0, sizeof z);

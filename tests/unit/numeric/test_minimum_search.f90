@@ -13,7 +13,7 @@ program test_minimum_search
 
 contains
 
-   !> Minima at their places from first steps that are too short and too long
+   !> Minima are found from first steps that are too short and too long
    subroutine minima(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: first(5) = [1.0e-6_wp, 0.03_wp, 1.0_wp, 50.0_wp, 1.0e6_wp]
@@ -42,7 +42,7 @@ contains
       end do
    end subroutine minima
 
-   !> It ends where the function only rises, only falls, is constant or no number
+   !> It ends if the function is increasing, decreasing, constant or NaN
    subroutine without_minimum(suite)
       type(test_suite), intent(inout) :: suite
       type(minimum_search) :: search
@@ -51,12 +51,12 @@ contains
       do while (.not. search%finished)
          call search%update(search%x)
       end do
-      call suite%check(search%best < 1.0e-8_wp .and. search%evaluations < 100, "a function that rises")
+      call suite%check(search%best < 1.0e-8_wp .and. search%evaluations < 100, "an increasing function")
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
          call search%update(-search%x)
       end do
-      call suite%check(search%best > 1.0e8_wp .and. search%evaluations < 100, "a function that falls")
+      call suite%check(search%best > 1.0e8_wp .and. search%evaluations < 100, "a decreasing function")
       call search%start(1.0_wp, 1.0e-3_wp)
       do while (.not. search%finished)
          call search%update(2.0_wp)

@@ -26,7 +26,7 @@ contains
             call search%update(1.0_wp - tanh(search%x) - 0.7_wp, .false.)
          end do
          call suite%check(search%found, "the root of a smooth function is found")
-         call suite%close_to(search%best, atanh(0.3_wp), 1.0e-11_wp, "at its place")
+         call suite%close_to(search%best, atanh(0.3_wp), 1.0e-11_wp, "at its position")
          call suite%check(search%evaluations < 120, "in few evaluations")
 
          call search%start(starts(i), 1.0_wp, 1.0e-12_wp)
@@ -40,8 +40,8 @@ contains
          do while (.not. search%finished)
             call search%update(merge(0.5_wp, -0.3_wp, search%x < 3.0_wp), .false.)
          end do
-         call suite%check(search%bracketed .and. .not. search%found, "a jump is no root")
-         call suite%close_to([search%best, search%best_value], [3.0_wp, 0.3_wp], 1.0e-12_wp, "but its place is found")
+         call suite%check(search%bracketed .and. .not. search%found, "a jump is not a root")
+         call suite%close_to([search%best, search%best_value], [3.0_wp, 0.3_wp], 1.0e-12_wp, "but its position is found")
       end do
    end subroutine roots
 
@@ -63,7 +63,7 @@ contains
       end do
       call suite%check(.not. search%found, "a constant has no root")
 
-      ! all of the function counts as saturated, and the first steps are too short to tell how it goes on
+      ! all of the function counts as saturated, and the first steps are too short to determine its slope
       call search%start(0.0_wp, 1.0e-7_wp, 1.0e-6_wp)
       search%reach = 1.0_wp
       do while (.not. search%finished)

@@ -1,4 +1,4 @@
-!> Splines and roots: what they reproduce exactly, orders of convergence, the filters that smoothing is
+!> Splines and roots: exact reproduction, orders of convergence, smoothing as a filter
 program test_spline
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -39,7 +39,7 @@ contains
       end do
    end function uneven
 
-   !> Smoothing looks in both directions alike: the mirror image of a curve gets the mirror image of its spline, also at
+   !> Smoothing is symmetric: the mirror image of a curve gets the mirror image of its spline, also at
    !> kinks and with uneven weights
    subroutine mirrored(suite)
       type(test_suite), intent(inout) :: suite
@@ -75,7 +75,7 @@ contains
       call suite%close_to(worst, [0.0_wp, 0.0_wp], 1.0e-10_wp, "mirror images of smoothed and of natural splines")
    end subroutine mirrored
 
-   !> The piece is the last one that starts at or before a place, however unevenly pieces are long
+   !> The piece is the last one that starts at or before an abscissa, for pieces of any length
    subroutine pieces(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), allocatable :: breaks(:)
@@ -98,7 +98,7 @@ contains
       call suite%check(missed == 0, "pieces of even and uneven breaks, at breaks, between and beyond them")
    end subroutine pieces
 
-   !> Each family keeps the polynomials that its penalty does not see
+   !> Each family preserves the polynomials with zero penalty
    subroutine exact(suite)
       type(test_suite), intent(inout) :: suite
       type(cubic_spline), allocatable :: f(:)
@@ -250,7 +250,7 @@ contains
       do i = 1, 40
          s = 0.1_wp*i - 0.03_wp
          j = knot_interval(t, s)
-         call suite%check(t(j) <= s .and. s < t(j + 1), "interval of a place")
+         call suite%check(t(j) <= s .and. s < t(j + 1), "interval of an abscissa")
          call basis_values(t, j, s, b, slope, bend)
          call basis_values(t, j, s - step, left)
          call basis_values(t, j, s + step, right)
@@ -259,7 +259,7 @@ contains
          call suite%close_to(bend, (right - 2.0_wp*b + left)/step**2, 1.0e-4_wp, "second derivatives")
       end do
       call suite%equal(knot_interval(t, 4.0_wp), 9, "interval of the far end")
-      call suite%equal(knot_interval(t, 1.5_wp), 8, "interval behind a multiple knot")
+      call suite%equal(knot_interval(t, 1.5_wp), 8, "interval after a multiple knot")
    end subroutine basis
 
    !> Local cubics: parabolas are reproduced, the order is 3, a corner reaches two pieces far, kinks part
@@ -322,7 +322,7 @@ contains
          call suite%close_to(monotone_cubic_root(c, -1.0_wp, 1.0_wp, 1.0_wp + x(1)**3), x(1), 1.0e-5_wp, &
             & "cubic with a flat point")
          call suite%close_to(monotone_cubic_root([0.0_wp, -2.0_wp, 0.3_wp, 0.1_wp], -1.0_wp, 1.0_wp, &
-            & x(1)*(-2.0_wp + x(1)*(0.3_wp + 0.1_wp*x(1)))), x(1), 1.0e-15_wp, "cubic that falls")
+            & x(1)*(-2.0_wp + x(1)*(0.3_wp + 0.1_wp*x(1)))), x(1), 1.0e-15_wp, "decreasing cubic")
       end do
       call suite%close_to(monotone_cubic_root(c, -1.0_wp, 1.0_wp, 7.0_wp), 1.0_wp, 0.0_wp, "beyond the end")
    end subroutine roots

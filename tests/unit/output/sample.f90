@@ -16,7 +16,7 @@ module output_sample
 
 contains
 
-   !> Sphere on a plane, mx by my elements, adhesion in front and slip behind; numbers are invented
+   !> Sphere on a plane, mx by my elements, adhesion at the leading and slip at the trailing edge; invented numbers
    subroutine fill_sample(spec, result, mx, my)
       type(case_spec), intent(out) :: spec
       type(patch_result), intent(out) :: result

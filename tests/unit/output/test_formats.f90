@@ -45,7 +45,7 @@ contains
       rest = adjustl(text)
       k = index(rest, "-")
       if (k == 1) rest = rest(2:)
-      ! a zero in front of the point gives way to the sign
+      ! a zero before the point is replaced by the sign
       if (rest(1:2) == "0.") rest = rest(2:)
    end function without_sign
 
@@ -68,7 +68,7 @@ contains
       call suite%equal(general(1000.0_wp, 12, 4), "   1000.    ", "1000")
       call suite%equal(general(82000.0_wp, 12, 4), "  0.8200E+05", "82000")
       call suite%equal(general(-0.000035_wp, 12, 4), " -0.3500E-04", "-0.000035")
-      call suite%equal(general(0.099999_wp, 12, 4), "  0.1000    ", "rounding up to 0.1 switches")
+      call suite%equal(general(0.099999_wp, 12, 4), "  0.1000    ", "rounding up to 0.1 switches the format")
    end subroutine check_general
 
    subroutine check_smart()
@@ -106,7 +106,7 @@ contains
       call suite%equal(general(1.0e30_wp, 14, 6), "  0.100000E+31", "distance of excluded elements")
       call suite%equal(general(-1.0e120_wp, 12, 4), "-0.1000E+121", "three digits in the exponent")
       call suite%equal(scientific(9.9996_wp, 10, 3), " 1.000E+01", "rounding up to the next power")
-      call suite%equal(fixed(123456.7_wp, 8, 3), "123456.7", "decimals are given up for size")
+      call suite%equal(fixed(123456.7_wp, 8, 3), "123456.7", "large numbers have fewer decimals")
       call suite%equal(fixed(-0.853264_wp, 10, 3), "    -0.853", "fixed point")
       call suite%check(index(fixed(1.0e12_wp, 10, 3), "*") == 0, "no stars")
       call suite%equal(whole(42, 7), "     42", "integer")
@@ -117,7 +117,7 @@ contains
       call suite%equal(heading([character(len=9) :: "NU", "G", "AK"]), "     NU          G           AK", "heading")
    end subroutine check_special
 
-   !> The same texts as edit descriptors give, for numbers of all sizes that are no ties
+   !> The same texts as edit descriptors give, for numbers of all sizes without ties in rounding
    subroutine check_descriptors()
       character(len=60) :: expected
       real(wp) :: number

@@ -94,7 +94,7 @@ contains
       call suite%equal(size(lines), 13, "no contact: no elements")
    end subroutine check_contents
 
-   !> Nothing half-written; what the layout of this version cannot hold is refused
+   !> No incomplete file; data that do not fit the layout of this version are refused
    subroutine check_failures()
       type(case_spec) :: spec
       type(patch_result) :: result
@@ -106,7 +106,7 @@ contains
       call suite%check(allocated(error), "a missing folder is an error")
       if (allocated(error)) call suite%equal(error%kind, error_kind%file, "kind of the error")
       inquire(file="sample.mat.tmp", exist=there)
-      call suite%check(.not. there, "no temporary file is left")
+      call suite%check(.not. there, "no temporary file remains")
    end subroutine check_failures
 
    !> Three more columns where the surface yields

@@ -95,7 +95,7 @@ contains
       call suite%equal(lines(find_line(lines, "Case", 1))%text, " Case     7", label // ": line of the case")
       if (level == 0) then
          call suite%equal(find_line(lines, "ELAST.EN.", 1), 0, label // ": no results")
-         call suite%equal(find_line(lines, "EFFECTS:", 1), 0, label // ": nothing about effects")
+         call suite%equal(find_line(lines, "EFFECTS:", 1), 0, label // ": no line of effects")
          return
       end if
 
@@ -174,7 +174,7 @@ contains
       end if
    end subroutine check_table
 
-   !> Effects, solvers, fall-back and failure are told, in words before all numbers
+   !> Effects, solvers, fall-back and failure are reported in words before all numbers
    subroutine check_solution_line()
       type(case_spec) :: spec
       type(patch_result) :: result
@@ -202,7 +202,7 @@ contains
       call suite%check(index(lines(at)%text, " EFFECTS: thin sheet in case of need;") == 1, "effects, harmless for counters")
       call suite%check(index(lines(at)%text, "5.6E-05 coupled") > 0, "residual of the outer iteration")
       call suite%check(index(lines(at)%text, "FALL-BACK: third method to second method") > 0, "fall-back")
-      call suite%check(index(lines(at)%text, "NOT CONVERGED: tangential problem") > 0, "a failure is told")
+      call suite%check(index(lines(at)%text, "NOT CONVERGED: tangential problem") > 0, "a failure is reported")
 
       spec%motion = 0
       result%status = case_status()

@@ -9,7 +9,7 @@ program test_edge_slip
    implicit none (type, external)
    integer, parameter :: mx = 12, my = 7
    real(wp), parameter :: nu = 0.28_wp, gg = 82000.0_wp, dx = 0.1_wp, dy = 0.15_wp, diagonal = 2.0e-6_wp
-   !> Relative errors of differences: rounding, and terms of higher order
+   !> Relative errors of finite differences: round-off, and terms of higher order
    real(wp), parameter :: close = 1.0e-6_wp
    type(test_suite) :: suite
    type(patch_problem) :: problem
@@ -138,13 +138,13 @@ contains
       end do
    end subroutine vanishing_pressure
 
-   !> Unknown gaps stay unknown: terms follow pressures alone, and all in proportion leaves them as they are
+   !> Unknown gaps stay unknown: terms depend on pressures alone, and do not change if all pressures are scaled
    subroutine unknown_gaps()
       call set_contact(0.0_wp)
       call find_slip()
       call suite%check(maxval(abs(slip)) > 0.0_wp, "terms follow pressures")
       change = pressure
       call find_slip()
-      call suite%close_to(slip(:, 4, 1), spread(0.0_wp, 1, mx), 1.0e-12_wp, "pressures in proportion leave terms as they are")
+      call suite%close_to(slip(:, 4, 1), spread(0.0_wp, 1, mx), 1.0e-12_wp, "scaled pressures do not change the terms")
    end subroutine unknown_gaps
 end program test_edge_slip

@@ -67,7 +67,7 @@ contains
          do ix = 1, nx
             associate (x => grid%x(ix), y => grid%y(iy))
                if (x < old%x(1) .or. x > old%x(mx) .or. y < old%y(1) .or. y > old%y(my)) then
-                  ! beyond the outermost centres fields fall to zero
+                  ! beyond the outermost centres fields decrease to zero
                   edge = max(edge, fields%pn(ix, iy) - linear(x, y))
                else
                   error = max(error, abs(fields%pn(ix, iy) - linear(x, y)))
@@ -78,7 +78,7 @@ contains
       call suite%close_to(error, 0.0_wp, 1.0e-12_wp, "linear between centres")
       call suite%check(edge <= 0.9_wp, "no more than the outermost values at the edges")
       call suite%close_to(maxval(abs(fields%px + 2.0_wp*fields%pn)) + maxval(abs(fields%py - 3.0_wp*fields%pn)), 0.0_wp, &
-         & 1.0e-12_wp, "all tractions alike")
+         & 1.0e-12_wp, "all tractions equal")
       call suite%check(all(fields%division > element%exterior .eqv. fields%pn > 0.0_wp), "contact where there is pressure")
       call suite%check(fields%division(1, ny/2) == element%adhesion .and. fields%division(nx, ny/2) == element%slip, &
          & "states of the nearest elements")

@@ -1,4 +1,4 @@
-!> Elements in contact that another window leaves out, counted one by one
+!> Elements in contact that are outside of another window, counted one by one
 program test_left_out
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -43,7 +43,7 @@ program test_left_out
          end do
       end do
       call suite%equal(n, expected, "number of elements")
-      if (any(division > element%exterior)) call suite%close_to(box, limits, 1.0e-12_wp, "place of the contact")
+      if (any(division > element%exterior)) call suite%close_to(box, limits, 1.0e-12_wp, "position of the contact")
    end do
    call suite%finish()
 end program test_left_out

@@ -1,4 +1,4 @@
-!> What particles carry along from one moment to the next
+!> Data of particles that are transferred from one time step to the next
 program test_moments
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_constants, only : pi
@@ -34,7 +34,7 @@ contains
       problem%initial_yield_limit = 7.0_wp
    end subroutine new_problem
 
-   !> A state in which the yield limit is a linear function of the element's place
+   !> A state in which the yield limit is a linear function of the position of the element
    subroutine fill(problem, state)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(inout) :: state
@@ -92,7 +92,7 @@ contains
       problem%grid = potential_contact(mx=4, my=4, dx=0.5_wp, dy=2.0_wp, xl=1.0_wp, yl=-2.0_wp)
       call link_time_steps(problem, time_link%continue_all, state, error)
       call suite%check(.not. allocated(error), "a window that moves by whole elements")
-      call suite%check(all(shape(state%before%memory(yield)%value) == [4, 4]), "fields take the size of the window")
+      call suite%check(all(shape(state%before%memory(yield)%value) == [4, 4]), "fields have the size of the window")
       call suite%close_to(state%before%memory(yield)%value(:, 2), [31.0_wp, 41.0_wp, 51.0_wp, 7.0_wp], closed, &
          & "values stay in place")
       call suite%close_to(state%before%memory(yield)%value(:, 1), [7.0_wp, 7.0_wp, 7.0_wp, 7.0_wp], closed, &
@@ -110,12 +110,12 @@ contains
       call link_time_steps(problem, time_link%continue_all, state, error)
       state%now%memory(yield)%value = 1.0_wp
       call link_time_steps(problem, time_link%repeat_step, state, error)
-      call suite%close_to(state%before%memory(yield)%value(1, 2), 22.0_wp, closed, "a repeated step keeps the previous moment")
+      call suite%close_to(state%before%memory(yield)%value(1, 2), 22.0_wp, closed, "a repeated step keeps the previous time step")
       call link_time_steps(problem, time_link%continue_normal, state, error)
-      call suite%close_to(state%before%memory(yield)%value(1, 2), 7.0_wp, closed, "fresh material when only pressures go on")
+      call suite%close_to(state%before%memory(yield)%value(1, 2), 7.0_wp, closed, "new material if only pressures are continued")
       problem%remembers_yield = .false.
       call link_time_steps(problem, time_link%continue_all, state, error)
       call suite%check(.not. allocated(state%before%memory(yield)%value) .and. .not. allocated(state%now%memory(yield)%value), &
-         & "nothing is carried along that no effect asks for")
+         & "only data required by an effect are transferred")
    end subroutine other_links
 end program test_moments

@@ -1,4 +1,4 @@
-!> Profiles: cleaning, readers with good and hostile files, the curve and what is seen of it
+!> Profiles: cleaning, readers with good and hostile files, the curve and its visible part
 program test_profile
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
@@ -108,7 +108,7 @@ contains
       call suite%equal(count, 1, "one zig-zag")
       call suite%close_to(y, [0.0_wp, 1.0_wp, 2.0_wp, 2.75_wp, 3.5_wp, 4.5_wp], 1.0e-15_wp, "its points become one")
       call remove_zig_zags(y, z, 150.0_wp*pi/180.0_wp, count)
-      call suite%equal(count, 0, "no zig-zag is left")
+      call suite%equal(count, 0, "all zig-zags are removed")
 
       call find_loop([0.0_wp, 10.0_wp, 10.0_wp, 5.0_wp], [0.0_wp, 0.0_wp, 5.0_wp, -5.0_wp], first, second)
       call suite%equal(first, 1, "loop of three segments, first")
@@ -120,7 +120,7 @@ contains
       y = [y, 5.005_wp, 5.005_wp]
       z = [z, 8.0_wp, -8.0_wp]
       call find_loop(y, z, first, second)
-      call suite%equal(second, 1002, "loop far behind")
+      call suite%equal(second, 1002, "loop over many points")
       call find_loop([0.0_wp, 10.0_wp, 10.0_wp, 5.0_wp], [0.0_wp, 0.0_wp, 5.0_wp, 0.0_wp], first, second)
       call suite%equal(first, 0, "touching is not crossing")
 
@@ -146,7 +146,7 @@ contains
       call suite%close_to(length_origin([0.0_wp, 5.0_wp, 6.0_wp], [-1.0_wp, 3.0_wp, 4.0_wp], [0.0_wp, 0.0_wp, 0.0_wp]), 1.25_wp, &
          & 1.0e-15_wp, "s = 0 at y = 0")
       call suite%close_to(length_origin([0.0_wp, 5.0_wp, 6.0_wp], [4.0_wp, 3.0_wp, -1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp]), 5.75_wp, &
-         & 1.0e-15_wp, "the same when y falls")
+         & 1.0e-15_wp, "the same with decreasing y")
       call suite%close_to(length_origin([0.0_wp, 5.0_wp, 6.0_wp], [4.0_wp, 5.0_wp, 6.0_wp], [0.0_wp, 0.0_wp, 0.0_wp]), 0.0_wp, &
          & 0.0_wp, "y = 0 beyond the first point")
       call suite%close_to(length_origin([0.0_wp, 5.0_wp, 6.0_wp], [4.0_wp, 0.1_wp, 6.0_wp], [0.0_wp, 0.0_wp, 0.0_wp]), 5.0_wp, &
@@ -265,7 +265,7 @@ contains
          & "shifted, mirrored and reversed y")
       call suite%close_to(curve%z%nodes(), [-3.0_wp, -3.0_wp, -4.0_wp, -5.0_wp, -4.0_wp, -3.0_wp, -3.0_wp], 1.0e-12_wp, &
          & "shifted and bounded z")
-      ! What the user says of mirrors undoes that of the file: the order is found anew
+      ! The mirror option of the user reverses that of the file: the order is determined again
       do k = -1, 1, 2
          request%mirror_y = k
          call read_text(suite, request, text, curve, "not mirrored after all")
@@ -286,7 +286,7 @@ contains
          & simpack_tail, curve, "not reversed", &
          & warnings=1)
       call is_roof(suite, curve, "not reversed")
-      ! behind the shift, before the bounds: (y, z) = (3, 4) + (1, 0) becomes (4 c - 4 s, 4 s + 4 c)
+      ! after the shift, before the bounds: (y, z) = (3, 4) + (1, 0) becomes (4 c - 4 s, 4 s + 4 c)
       call read_text(suite, request, simpack_head // "shift.y = 1" // nl // "units.ang.f = 57.29577951308232" // nl // &
          & "rotate = 30" // nl // "bound.y.max = 1e3" // nl // "bound.y.min = -18" // nl // "point.begin" // nl // "-20 10" // nl &
          & // "-17 8" // nl // "3 4" // nl // "20 10" // nl // simpack_tail, curve, "rotated")
@@ -316,7 +316,7 @@ contains
       call is_roof(suite, curve, "columns in other order")
       call read_text(suite, request, "old style header" // nl // nl // roof, curve, "header without keys")
       call is_roof(suite, curve, "header without keys")
-      ! numbers below a line of text belong to the header, up to the blank line, and a warning says so
+      ! numbers below a line of text belong to the header, up to the blank line, with a warning
       call read_text(suite, request, "Rail profile" // nl // "12.5 7.25 1e3" // nl // "Gauge 1435" // nl // "x=1" // &
          & nl // "9 9" // &
          & nl // nl // roof, curve, "header with numbers", warnings=1)
@@ -326,16 +326,16 @@ contains
       ! the heading of a table, also when a blank line ends the file
       call read_text(suite, request, "y z" // nl // roof // nl, curve, "heading of a table")
       call is_roof(suite, curve, "heading of a table")
-      ! text behind the numbers
+      ! text after the numbers
       call read_text(suite, request, "-20 10 gauge side" // nl // "-10 3" // nl // "-5 1 a=2" // nl // "0 0 top" // &
          & nl // "5 1" // nl &
-         & // "10 3" // nl // "20 10", curve, "text behind numbers", warnings=1)
-      call is_roof(suite, curve, "text behind numbers")
+         & // "10 3" // nl // "20 10", curve, "text after numbers", warnings=1)
+      call is_roof(suite, curve, "text after numbers")
       call read_text(suite, request, "ColumnDef=X,Y" // nl // nl // "-20 10 left" // nl // "-10 3 a" // nl // "-5 1" // &
          & nl // "0 0" // &
-         & nl // "5 1" // nl // "10 3" // nl // "20 10", curve, "text behind columns", warnings=1)
-      call is_roof(suite, curve, "text behind columns")
-      ! what the file says of its unit and tilt
+         & nl // "5 1" // nl // "10 3" // nl // "20 10", curve, "text after columns", warnings=1)
+      call is_roof(suite, curve, "text after columns")
+      ! unit and tilt of the file
       call read_text(suite, request, "Units=mm" // nl // "Tilt=0.0" // nl // nl // roof, curve, "units and tilt")
       call read_text(suite, request, "Tilt=0.5" // nl // nl // roof, curve, "tilt", warnings=1)
       call refused(suite, request, "Tilt=0" // nl // "Units=inch" // nl // nl // roof, "Units = inch", 2, "inches without a factor")
@@ -376,7 +376,7 @@ contains
             call write_file(request%file, text)
             call read_profile(request, curve, log, error)
             if (k > 5) then
-               call suite%check(.not. allocated(error), "noise and a corner are no outliers")
+               call suite%check(.not. allocated(error), "noise and a corner are not outliers")
             else
                call suite%check(allocated(error), "an outlier is noticed")
             end if
@@ -420,7 +420,7 @@ contains
       call refused(suite, request, "0 0" // nl // "1 1e999", '"1e999" is too large', 2, "overflow")
       call refused(suite, request, "0 0" // nl // "1 two", '"two" is not a number; expected a point', 2, "a word")
       call refused(suite, request, "0 0" // nl // "1", "a single number", 2, "one number")
-      call refused(suite, request, "0 0" // nl // "X=1", "follows the first point", 2, "a key behind points")
+      call refused(suite, request, "0 0" // nl // "X=1", "follows the first point", 2, "a key after points")
       call refused(suite, request, "-.02 .01" // nl // "0 0" // nl // ".02 .01", "mm long", 0, "metres without a factor")
       call refused(suite, request, "-2000 1000" // nl // "0 0" // nl // "2000 1000", "mm long", 0, "micrometres")
       call refused(suite, request, "-20 5" // nl // "0 0" // nl // "10 2" // nl // "10 6" // nl // "5 6" // nl // "5 .5" // nl // &
@@ -500,7 +500,7 @@ contains
       call suite%close_to(pack(z, found), pack(curve%height(y), found), 1.0e-12_wp, what // ": heights in a row")
    end subroutine in_a_row
 
-   !> Overhanging profiles: what is seen from above (rail) and from below (wheel)
+   !> Overhanging profiles: the part visible from above (rail) and from below (wheel)
    subroutine hidden(suite)
       type(test_suite), intent(inout) :: suite
       type(profile_curve) :: curve
@@ -516,8 +516,8 @@ contains
       call suite%close_to(curve%height([-5.0_wp, 0.0_wp, 5.0_wp]), [0.1_wp, 0.0_wp, 0.1_wp], 1.0e-12_wp, "its top is seen")
       call suite%check(curve%height(-8.5_wp) < 3.0_wp, "not its underside")
       call in_a_row(suite, curve, "overhang of a rail")
-      ! Below the widest places, near z = 5: 2 (4.5 + 3) mm of 42 mm
-      call suite%close_to(curve%hidden_part(), 0.36_wp, 0.03_wp, "what lies below the widest places is hidden")
+      ! Below the widest points, near z = 5: 2 (4.5 + 3) mm of 42 mm
+      call suite%close_to(curve%hidden_part(), 0.36_wp, 0.03_wp, "the part below the widest points is hidden")
       request%side = profile_side%wheel
       call prepare_points(request, -y, -z, curve, error)
       call suite%close_to(curve%height([-5.0_wp, 0.0_wp, 5.0_wp]), [-0.1_wp, 0.0_wp, -0.1_wp], 1.0e-12_wp, &
@@ -529,7 +529,7 @@ contains
       call suite%check(allocated(error), "more hidden than allowed is refused")
       request%doubt = doubt%ignore
       call prepare_points(request, y, z, curve, error)
-      call suite%check(.not. allocated(error), "unless the user says that it does not matter")
+      call suite%check(.not. allocated(error), "unless the user permits it")
       request%doubt = doubt%warn
       ! A wall that hides nothing but has no width
       request%max_hidden = 1.0_wp

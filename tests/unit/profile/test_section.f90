@@ -50,7 +50,7 @@ contains
       hidden = 0
       do i = -12, 12
          origin = [2.5_wp*i, rail%height(2.5_wp*i)]
-         ! the second place may lie in another stretch
+         ! the second position may lie in another stretch
          places = [rail%s_at(origin(1)), rail%s_at(origin(1) + 1.3_wp)]
          do j = 1, size(rolls)
             seen = rail%seen_from(origin, rolls(j), around=places)

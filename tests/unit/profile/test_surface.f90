@@ -65,7 +65,7 @@ contains
       call write_file(name, text)
    end subroutine write_slice
 
-   !> A slices file for the files slice1.txt ... with even positions; texts of features behind
+   !> A slices file for the files slice1.txt ... with equidistant positions; followed by texts of features
    function slices_text(n, step, head, features) result(text)
       integer, intent(in) :: n
       real(wp), intent(in) :: step
@@ -186,11 +186,11 @@ contains
       call profile%surface%cut(-0.1_wp, section)
       call suite%check(.not. section%present, "nothing before the first slice")
       call profile%surface%cut(50.1_wp, section)
-      call suite%check(.not. section%present, "nothing behind the last one")
+      call suite%check(.not. section%present, "nothing after the last one")
       call profile%surface%cut(50.0_wp + 1.0e-9_wp, section)
-      call suite%check(section%present, "rounding at the end is forgiven")
+      call suite%check(section%present, "round-off at the end is accepted")
       call write_file("test.slcs", slices_text(6, 10.0_wp, "0  NFEAT" // nl // "1", ""))
-      call load(suite, profile, "one number where three may stand")
+      call load(suite, profile, "one number where three are possible")
    end subroutine prism
 
    !> Slices that move sideways and down as cubics of u: reproduced, with their slope
@@ -292,7 +292,7 @@ contains
       if (.not. allocated(profile%surface)) return
       do i = 0, 16
          call profile%surface%cut(5.0_wp*i, section)
-         call suite%close_to(section%curve%height(0.0_wp), 0.5_wp + 0.25_wp*i, 1.0e-9_wp, "a straight rise stays")
+         call suite%close_to(section%curve%height(0.0_wp), 0.5_wp + 0.25_wp*i, 1.0e-9_wp, "a straight slope is preserved")
       end do
       do i = 1, 9
          write(k, "(i0)") i
@@ -333,14 +333,14 @@ contains
       do i = 0, 18
          call profile%surface%cut(5.0_wp*i, section)
          range = section%curve%y_range()
-         call suite%close_to(range, [merge(0.0_wp, -20.0_wp, i < 10), 20.0_wp], 1.0e-3_wp, "what there is of the profile")
+         call suite%close_to(range, [merge(0.0_wp, -20.0_wp, i < 10), 20.0_wp], 1.0e-3_wp, "the existing part of the profile")
          call suite%close_to(section%curve%height(10.0_wp), crown(10.0_wp), 1.0e-5_wp, "the right part goes through")
       end do
       call write_file("test.slcs", slices_text(10, 10.0_wp, "3 1 0" // nl // "1", "1" // nl // features))
       call load(suite, profile, "with a kink")
    end subroutine interrupted
 
-   !> Slices of a wheel with a corner: the section is straight from the second line beside it, where a spline swings on
+   !> Slices of a wheel with a corner: the section is straight from the second line beside it, where a spline oscillates
    subroutine corner(suite)
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: profile
@@ -474,7 +474,7 @@ contains
       call refused(suite, slices_text(6, 1.0_wp, "3 0 1" // nl // "1", ""), "accepted is 0", 4, "accelerations")
       call refused(suite, slices_text(6, 1.0_wp, "3 2 0" // nl // "1", ""), "accepted are 0 to 1", 4, "too many kinks")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", ""), "end of the file", 12, "no features")
-      call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 2"), "do not increase", 12, "features that fall")
+      call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 2"), "do not increase", 12, "decreasing features")
       call refused(suite, slices_text(6, 1.0_wp, "3 0 0" // nl // "1", "0 5 -1 9"), "between others", 12, "a missing feature")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "0 5 -1"), "fewer than two", 12, "one feature")
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "1 0 9"), "position 1", 12, "features of another slice")
@@ -597,11 +597,11 @@ contains
          end if
          call profile%surface%cut(0.5_wp*sum(profile%surface%u_range), section)
          call suite%check(section%present, trim(names(i)) // " has a surface in its middle")
-         ! The artificial nose rises 1:10, with the top at -u/10
+         ! The artificial nose has a slope of 1:10, with the top at -u/10
          if (i /= 1) cycle
          call profile%surface%cut(37.0_wp, section)
          call suite%close_to(section%curve%height(10.0_wp), -3.7_wp, 1.0e-5_wp, "height of the nose")
-         call suite%close_to(section%slope_along(10.0_wp), -0.1_wp, 1.0e-6_wp, "rise of the nose")
+         call suite%close_to(section%slope_along(10.0_wp), -0.1_wp, 1.0e-6_wp, "slope of the nose")
       end do
    end subroutine reference_files
 end program test_surface

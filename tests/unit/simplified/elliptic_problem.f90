@@ -72,7 +72,7 @@ contains
       if (present(report)) report = ended
    end function solved
 
-   !> Finite numbers, tractions within the bound, slip against the traction, nothing outside
+   !> Finite numbers, tractions within the bound, slip against the traction, no tractions outside
    subroutine claim_sound(suite, problem, solution, what)
       type(test_suite), intent(inout) :: suite
       type(simplified_problem), intent(in) :: problem
@@ -86,7 +86,7 @@ contains
       call suite%check(all(abs(solution%p) <= huge(1.0_wp)) .and. all(abs(solution%slip) <= huge(1.0_wp)), &
          & what // ": finite numbers")
       call suite%check(all(length <= solution%bound*(1.0_wp + rounding)), what // ": within the bound")
-      call suite%check(all(work <= 0.0_wp), what // ": friction takes energy")
-      call suite%check(all(length <= 0.0_wp .or. problem%contact), what // ": nothing outside the contact")
+      call suite%check(all(work <= 0.0_wp), what // ": friction dissipates energy")
+      call suite%check(all(length <= 0.0_wp .or. problem%contact), what // ": no tractions outside the contact")
    end subroutine claim_sound
 end module contact_test_elliptic_problem

@@ -56,7 +56,7 @@ contains
          last = kalker_coefficients(0.1_wp, 1.0_wp, nu)
          do i = 1, 399
             c = kalker_coefficients(0.1_wp*10.0_wp**(0.005_wp*i), 1.0_wp, nu)
-            call suite%check(c%c22 >= last%c22 .and. c%c23 > last%c23, "C22 and C23 rise with a/b")
+            call suite%check(c%c22 >= last%c22 .and. c%c23 > last%c23, "C22 and C23 increase with a/b")
             call suite%close_to([c%c11, c%c22, c%c23], [last%c11, last%c22, last%c23], 0.03_wp, "no jumps", relative=.true.)
             last = c
          end do
@@ -90,7 +90,7 @@ contains
       end do
    end subroutine limits
 
-   !> The equivalent ellipse of a rectangle and of nothing
+   !> The equivalent ellipse of a rectangle and of an empty area
    subroutine ellipses(suite)
       type(test_suite), intent(inout) :: suite
       type(ellipse) :: area

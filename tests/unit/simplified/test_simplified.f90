@@ -87,7 +87,7 @@ contains
       end do
    end subroutine full_sliding
 
-   !> Rolling the other way, and left for right
+   !> Rolling in the opposite direction, and lateral mirror image
    subroutine mirror_images(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: creep(2) = [4.0e-4_wp, -7.0e-4_wp], spin = 3.0e-4_wp, rounding = 1.0e-12_wp
@@ -105,14 +105,14 @@ contains
          two = solved(elliptic_problem(6.0_wp, 3.0_wp, 64, 48, [creep(1), -creep(2)], -spin, models(i)))
          call suite%check(maxval(abs(one%p(:, :, 1) - two%p(:, 48:1:-1, 1))) <= rounding*maxval(one%bound) &
             & .and. maxval(abs(one%p(:, :, 2) + two%p(:, 48:1:-1, 2))) <= rounding*maxval(one%bound), &
-            & "left for right: tractions")
+            & "lateral mirror image: tractions")
       end do
    end subroutine mirror_images
 
    !> A long narrow contact across the rolling direction: Carter (1926) for longitudinal creepage
    subroutine strip_theory(suite)
       type(test_suite), intent(inout) :: suite
-      !> Slip area as a share of the length
+      !> Slip area as a fraction of the length
       real(wp), parameter :: d = 0.4_wp
       type(simplified_problem) :: problem
       type(simplified_solution) :: solution
@@ -206,7 +206,7 @@ contains
       call suite%check(maxval(abs(steady%p - step%p)) <= 1.0e-12_wp*maxval(step%bound), "no motion, no change")
    end subroutine steps_in_time
 
-   !> Slope reduction weakens small forces, by k0 at vanishing creepage, and leaves the limit
+   !> Slope reduction weakens small forces, by k0 at vanishing creepage, and does not change the limit
    subroutine weaker_slope(suite)
       type(test_suite), intent(inout) :: suite
       type(simplified_problem) :: problem
@@ -225,7 +225,7 @@ contains
       end do
    end subroutine weaker_slope
 
-   !> What may come in, what must come out: sound numbers
+   !> Any valid input gives finite results
    subroutine hard_cases(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: sizes(7) = [0.0_wp, 1.0e-300_wp, 1.0e-20_wp, 1.0e-4_wp, 1.0_wp, 1.0e20_wp, 1.0e290_wp]

@@ -1,4 +1,4 @@
-!> Prescribed forces in the simplified theory: there and back, near and beyond what friction can give
+!> Prescribed forces in the simplified theory: recovered creepages, forces near and beyond the friction bound
 program test_simplified_forces
    use contact_base_choices, only : material_model
    use contact_base_error, only : error_type
@@ -80,7 +80,7 @@ contains
       end do
    end subroutine two_forces
 
-   !> FaStrip's forces jump when a row changes its mind: the search ends at the jump and says so
+   !> Forces of FaStrip jump where a row changes its state: the search ends at the jump and reports it
    subroutine strips(suite)
       type(test_suite), intent(inout) :: suite
       type(simplified_problem) :: problem
@@ -98,12 +98,12 @@ contains
             solution = solved(problem, report)
             call claim_sound(suite, problem, solution, "FaStrip with forces")
             call suite%close_to(solution%force(:n), problem%force(:n), 0.02_wp, "forces but for a jump")
-            call suite%check(report%ended == ending%converged .or. report%residual > problem%eps, "what was missed is told")
+            call suite%check(report%ended == ending%converged .or. report%residual > problem%eps, "the missed force is reported")
          end do
       end do
    end subroutine strips
 
-   !> Forces that need more than all of friction, or that need friction where there is none
+   !> Forces beyond the friction bound, or tangential forces without friction
    subroutine out_of_reach(suite)
       type(test_suite), intent(inout) :: suite
       type(simplified_problem) :: problem
@@ -127,7 +127,7 @@ contains
       end do
    end subroutine out_of_reach
 
-   !> Friction that falls with the creepage: the search finds the rising branch, or says that there is none
+   !> Friction that decreases with creepage: the search finds the increasing branch, or reports that there is none
    subroutine falling_friction(suite)
       type(test_suite), intent(inout) :: suite
       type(simplified_problem) :: problem

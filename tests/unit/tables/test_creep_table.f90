@@ -1,4 +1,4 @@
-!> Tables of creep forces: splines along axes, the way from creepages to a place, symmetries, the bound, files and damaged ones
+!> Tables of creep forces: splines along axes, coordinates of creepages, symmetries, the bound, files, damaged files
 program test_creep_table
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int32, int64, real32, real64
@@ -135,7 +135,7 @@ contains
       call find_creep_force(table, fn, mu, gg, aa, bb, bb, -creep, other, status, slopes)
       call suite%check(all(other == -force), "all creepages turned over turn all forces over")
       call find_creep_force(table, fn, mu, gg, aa, bb, bb, creep*[1, -1, -1], other, status, slopes)
-      call suite%check(all(other == force*[1, -1, -1]), "the mirror image turns lateral force and moment over")
+      call suite%check(all(other == force*[1, -1, -1]), "the mirror image changes the signs of lateral force and moment")
    end subroutine symmetries
 
    !> Forces stay below mu Fn, up to infinite creepages, with a continuous slope where the bound acts
@@ -159,7 +159,7 @@ contains
       end do
       call suite%check(largest <= mu*fn, "forces are never above mu Fn")
       call suite%check(largest > 0.999_wp*mu*fn, "they reach it")
-      ! over a band of 0.02 mu Fn the slope falls to nothing, in steps and not at once
+      ! over a band of 0.02 mu Fn the slope decreases to zero, in steps and not at once
       call suite%check(gap < 0.1_wp*mu*fn/unit, "the slope is continuous at the bound")
       call find_creep_force(table, fn, mu, gg, aa, bb, bb, [1.0e30_wp, -1.0e300_wp, 1.0e200_wp], force, status, slopes)
       call suite%check(all(abs(force(:2)) <= mu*fn) .and. all(abs(slopes) < huge(unit)), "endless creepages have forces")
@@ -182,7 +182,7 @@ contains
       call suite%check(status == lookup_status%invalid .and. all(abs(force) <= 0.0_wp), "a negative length is refused")
       creep(2) = ieee_value(1.0_wp, ieee_quiet_nan)
       call find_creep_force(table, fn, mu, gg, aa, bb, bb, creep, force, status, slopes)
-      call suite%check(status == lookup_status%invalid .and. all(abs(force) <= 0.0_wp), "what is no number is refused")
+      call suite%check(status == lookup_status%invalid .and. all(abs(force) <= 0.0_wp), "NaN is refused")
       call find_creep_force(table, -1.0_wp, mu, gg, aa, bb, bb, [1.0_wp, 0.0_wp, 0.0_wp], force, status, slopes)
       call suite%check(status == lookup_status%inside .and. all(abs(force) <= 0.0_wp), "no normal force, no forces")
    end subroutine refusals

@@ -23,7 +23,7 @@ static void plain(const stretches *s, double *sums) {
         }
 }
 
-/* Numbers that differ by more than rounding, the first `count` of which are compared */
+/* Numbers that differ by more than round-off, the first `count` of which are compared */
 static int differences(const double *found, const double *right, int count) {
   int wrong = 0;
   for (int k = 0; k < count; k++) wrong += !(fabs(found[k] - right[k]) <= 1e-13);
@@ -37,7 +37,7 @@ static int wrong_ones(void (*sum)(const stretches *, double *), const stretches 
   plain(s, right);
   sum(s, found);
   wrong = differences(found, right, SUMS);
-  /* without slopes nothing is written where they would be */
+  /* without slopes nothing is written to their array */
   without.slope_x = without.slope_y = NULL;
   for (int k = 0; k < SUMS; k++) found[k] = 77.0;
   sum(&without, found);
@@ -54,7 +54,7 @@ int main(void) {
   for (int turn = 0; turn < 200; turn++) {
     const int blocks[] = {1, ORDER, BLOCKS};
     for (int l = 0; l < BLOCKS; l++) {
-      /* anywhere, so that addresses are no multiples of a register */
+      /* any alignment, so that addresses are not multiples of a register */
       start[l] = l * BLOCK + rand() % (BLOCK - (ORDER - 1) * (PLANE + ROW) - STRETCH + 1);
       weight[l] = any_number();
     }

@@ -106,7 +106,7 @@ contains
       f = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum(problem%bound)
    end function force
 
-   !> Solve from nothing
+   !> Solve without an estimate
    subroutine solve(problem, operator, method, solution, report, what)
       type(tangential_problem), intent(in) :: problem
       type(elastic_operator), intent(inout) :: operator
@@ -151,7 +151,7 @@ contains
       call solve_element(c, [0.1_wp, 0.0_wp], 0.0_wp, p, state)
       call suite%check(all(p == 0.0_wp) .and. state == element%slip, "no bound: slip without traction")
       call solve_element(c, [0.0_wp, 0.0_wp], 0.0_wp, p, state)
-      call suite%check(all(p == 0.0_wp) .and. state == element%adhesion, "nothing at all: adhesion")
+      call suite%check(all(p == 0.0_wp) .and. state == element%adhesion, "no creepage and no tractions: adhesion")
    end subroutine element_problems
 
    !> Repeatable numbers between 0 and 1
@@ -452,7 +452,7 @@ contains
 
          call ellipse(20, [0.0_wp, 0.0_wp, 0.0_wp], 1, steady, problem, operator, 1.02_wp)
          call solve(problem, operator, k, solution, report, "no creepage")
-         call suite%check(report%succeeded() .and. all(solution%p == 0.0_wp), method_name(k) // ": nothing without creepage")
+         call suite%check(report%succeeded() .and. all(solution%p == 0.0_wp), method_name(k) // ": no tractions without creepage")
       end do
       call operator%release()
    end subroutine limits
@@ -473,7 +473,7 @@ contains
          call ellipse(12, [1e-3_wp, 0.0_wp, 0.0_wp], 1, k /= 1, problem, operator, 1.02_wp)
          problem%settings%maxgs = 2
          call solve_classical(problem, operator, k, solution, report, log)
-         call suite%check(.not. report%succeeded(), method_name(k) // ": iteration limit is told")
+         call suite%check(.not. report%succeeded(), method_name(k) // ": iteration limit is reported")
       end do
       call operator%release()
    end subroutine hostile_input

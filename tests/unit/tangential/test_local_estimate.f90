@@ -71,7 +71,7 @@ contains
          & relative=.true.)
    end subroutine rolling
 
-   !> Without slip, every element of a shift gets the same share
+   !> Without slip, every element of a shift has the same traction
    subroutine a_shift()
       real(wp), allocatable :: p(:, :, :)
       logical :: inner(n, n)

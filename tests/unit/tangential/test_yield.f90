@@ -75,7 +75,7 @@ contains
       real(wp), intent(in) :: h, radius, limit
 
       defect = 0.0_wp
-      ! differences across a corner say nothing
+      ! finite differences across a corner are meaningless
       if (ahead%state /= point%state .or. (point%plastic > 0.0_wp .neqv. ahead%plastic > 0.0_wp)) return
       if (point%limit_by_limit <= 0.0_wp .neqv. ahead%limit_by_limit <= 0.0_wp) return
       defect = max(abs((ahead%radius - point%radius)/h - radius), abs((ahead%limit - point%limit)/h - limit))
@@ -109,7 +109,7 @@ contains
             right = right .and. norm2(p) <= min(g, before)
             cycle
          end if
-         ! what is left opposes the traction
+         ! the remainder opposes the traction
          worst_direction = max(worst_direction, abs(d(1)*p(2) - d(2)*p(1)), dot_product(d, p))
          if (point%state == element%plastic) then
             worst = max(worst, abs(point%plastic - norm2(d)), abs(point%limit - norm2(p)), &
@@ -132,7 +132,7 @@ contains
       type(yield_point) :: point
       real(wp) :: p(2)
 
-      ! c = 1, limit 1, slope -2: beyond |S0| = 1 the element falls down to the lowest limit at once
+      ! c = 1, limit 1, slope -2: beyond |S0| = 1 the element drops to the lowest limit at once
       call solve_yielding_element(element_compliance(), [-0.999_wp, 0.0_wp], 5.0_wp, 1.0_wp, -2.0_wp, 0.1_wp, p, point)
       call suite%equal(point%state, element%adhesion, "below the limit the element adheres, though it could yield")
       call solve_yielding_element(element_compliance(), [-1.001_wp, 0.0_wp], 5.0_wp, 1.0_wp, -2.0_wp, 0.1_wp, p, point)
@@ -163,7 +163,7 @@ contains
                call ellipse(20, kind > 1, merge(-1, 1, kind == 3), problem, operator)
                call make_yield(problem, 120.0_wp, slopes(k))
                problem%n_forces = forces
-               ! a falling limit lets the force rise and fall with the creepage: start where it rises
+               ! with a decreasing limit the force has a maximum over the creepage: start where it increases
                if (forces > 0) problem%shift(:, :, :forces) = spin_part(problem, forces)
                problem%target = [-0.35_wp, 0.15_wp]*sum(problem%bound)
                call solve(problem, operator, 0, newton, what)
@@ -343,7 +343,7 @@ contains
             & "hard case")
          call compare("hard case", newton, other)
          call make_yield(problem, 60.0_wp, -1.0e7_wp)
-         call solve(problem, operator, classical_method%convex_gs, other, "falls at once")
+         call solve(problem, operator, classical_method%convex_gs, other, "drops at once")
          call suite%check(all(other%limit >= 5.999999_wp), "softening ends at a tenth of the limit")
       end do
       call operator%release()
@@ -413,7 +413,7 @@ contains
       problem%yield%lowest = 0.1_wp*limit
    end subroutine make_yield
 
-   !> Solve from nothing by Newton-Krylov (0) or a classical method
+   !> Solve without an estimate by Newton-Krylov (0) or a classical method
    subroutine solve(problem, operator, method, solution, what)
       type(tangential_problem), intent(inout) :: problem
       type(elastic_operator), intent(inout) :: operator

@@ -31,7 +31,7 @@ program test_flash_heating
 
 contains
 
-   !> One row of n elements over three lengths of the contact, which takes the second third
+   !> One row of n elements over three lengths of the contact, which is the second third
    type(heat_passage) function row(n) result(passage)
       integer, intent(in) :: n
       integer :: i
@@ -54,7 +54,7 @@ contains
       d = [((i - 0.5_wp)*passage%dx - 2.0_wp*half_length, i=1, size(d))]
    end function distance
 
-   !> Highest temperatures of fast sources that take the second third of a row, by a known heat per body
+   !> Highest temperatures of fast sources in the second third of a row, with a known heat per body
    !>
    !> Uniform band of half-length a: 2 q sqrt(2 a)/(beta sqrt(pi V)) at its trailing edge. Heat as a parabola,
    !> 1 - (x/a)**2: q sqrt(a)/(beta sqrt(pi V)) times the maximum of the polynomial that the integral of the parabola
@@ -88,7 +88,7 @@ contains
       call suite%close_to(error(2), 1.0_wp - sqrt(1.0_wp - 0.5_wp/400.0_wp), 1.0e-9_wp, "uniform band, finer")
    end subroutine flash_temperatures
 
-   !> Heat divides in proportion to the effusivities: a body that conducts nothing leaves all of it to the other one
+   !> Heat divides in proportion to the effusivities: an insulating body leaves all of it to the other one
    subroutine partition(suite)
       type(test_suite), intent(inout) :: suite
       type(heat_passage) :: passage
@@ -104,7 +104,7 @@ contains
       passage%bodies%effusivity = [30.0_wp, 10.0_wp]
       call passage%surface_temperatures(heat, both, t2)
       call suite%close_to(both(:, 1), 0.25_wp*alone(:, 1), 1.0e-8_wp*maxval(alone), "heat divides by the effusivities")
-      call suite%close_to(both(:, 1), t2(:, 1), 0.0_wp, "one temperature rise for both")
+      call suite%close_to(both(:, 1), t2(:, 1), 0.0_wp, "the same temperature rise for both")
    end subroutine partition
 
    !> The limit below which the program warns: a moving band source with conduction along the surface (Carslaw and Jaeger)
@@ -249,7 +249,7 @@ contains
          & sqrt(2.0_wp), 0.05_wp, "established variant: order one half")
    end subroutine factor_two
 
-   !> Bodies of different temperature: interface temperature, and cooling behind it
+   !> Bodies of different temperature: interface temperature, and cooling downstream
    subroutine conduction(suite)
       type(test_suite), intent(inout) :: suite
       type(heat_passage) :: passage

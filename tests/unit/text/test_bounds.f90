@@ -1,4 +1,4 @@
-!> The table of bounds: what it refuses and why, its names, and the manual
+!> The table of bounds: refused values and reasons, names, and the manual
 program test_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp
@@ -19,7 +19,7 @@ program test_bounds
 
 contains
 
-   !> Each row has an order, a reason and a name of its own, and refuses what is not finite
+   !> Each row has ordered bounds, a reason and a unique name, and refuses values that are not finite
    subroutine rows(suite)
       type(test_suite), intent(inout) :: suite
       character(len=:), allocatable :: name
@@ -62,7 +62,7 @@ contains
       call expect(suite, "CHI", 180.0_wp, "in degrees with a suffix")
    end subroutine complaints
 
-   !> From microns to metres, rubber to rigid, creeping to rockets: nothing meant is refused
+   !> From microns to metres, rubber to rigid, slow to very fast: no realistic value is refused
    subroutine what_is_meant_passes(suite)
       type(test_suite), intent(inout) :: suite
       character(len=9), parameter :: name(*) = [character(len=9) :: "GG1", "GG1", "POISS1", "DX", "DX", "FN", "FN", "VELOC", &

@@ -214,7 +214,7 @@ contains
       call counts(suite, "1 2 3", 3, "one missing")
       call counts(suite, "1 2", 2, "both missing")
       call counts(suite, "1" // nl // "2 3" // nl // "4", 3, "not from the next line")
-      call counts(suite, "1 2 text 3", 2, "a word that is no number ends the group")
+      call counts(suite, "1 2 text 3", 2, "a word that is not a number ends the group")
       call counts(suite, "1 2 3.5 4", 2, "a number of the wrong type too")
       call counts(suite, "1 2 % 3", 2, "a comment too")
    end subroutine optional_values
@@ -303,7 +303,7 @@ contains
       call suite%check(allocated(error), "an array that is much longer than the file")
    end subroutine arrays
 
-   !> What errors say and where they point to
+   !> Texts and positions of errors
    subroutine messages(suite)
       type(test_suite), intent(inout) :: suite
 

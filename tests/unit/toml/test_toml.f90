@@ -1,4 +1,4 @@
-!> The tree of a text in TOML, places, and what is refused; values are compared with another parser by test_toml_values.py
+!> The tree of a text in TOML, positions, and refused texts; values are compared with another parser by test_toml_values.py
 program test_toml
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
@@ -55,13 +55,13 @@ contains
       call parse_toml("a = 1" // nl // "  b.c = [10," // nl // " 'x']", "a.toml", d, error)
       associate (c => d%child(d%child(1, "b"), "c"))
          call suite%check(all([d%nodes(c)%key_line, d%nodes(c)%key_column, d%nodes(c)%line, d%nodes(c)%column] == [2, 5, 2, 9]), &
-            & "place of a key and of its value")
+            & "position of a key and of its value")
          call suite%check(all([d%nodes(d%nodes(c)%last)%line, d%nodes(d%nodes(c)%last)%column] == [3, 2]), &
-            & "place of an element")
+            & "position of an element")
       end associate
    end subroutine places
 
-   !> Complaints with their places
+   !> Complaints with their positions
    subroutine refusals(suite)
       type(test_suite), intent(inout) :: suite
 
@@ -134,12 +134,12 @@ contains
       call is_quantity(suite, "0.1 %", "- or mm", 1.0e-3_wp)
       call is_quantity(suite, "1 um", "- or mm", 1.0e-3_wp)
       call is_quantity(suite, "1 N/um", "N/mm", 1000.0_wp)
-      call is_no_quantity(suite, "5 kN", "mm", 'has the unit "kN", wanted is mm or a unit that can be converted to it')
-      call is_no_quantity(suite, "5 furlong", "mm", 'has the unit "furlong", which is not known; wanted is mm')
+      call is_no_quantity(suite, "5 kN", "mm", 'has the unit "kN", expected is mm or a unit that can be converted to it')
+      call is_no_quantity(suite, "5 furlong", "mm", 'has the unit "furlong", which is not known; expected is mm')
       call is_no_quantity(suite, "300 K", "degC", "is in kelvin; temperatures are in degC")
-      call is_no_quantity(suite, "5 mm", "integer", "has a unit, but a plain number is wanted")
-      call is_no_quantity(suite, "5 mm//s", "mm/s", 'has the unit "mm//s", which is not known; wanted is mm/s')
-      call is_no_quantity(suite, "5 mm/(s", "mm/s", 'has the unit "mm/(s", which is not known; wanted is mm/s')
+      call is_no_quantity(suite, "5 mm", "integer", "has a unit, but a plain number is expected")
+      call is_no_quantity(suite, "5 mm//s", "mm/s", 'has the unit "mm//s", which is not known; expected is mm/s')
+      call is_no_quantity(suite, "5 mm/(s", "mm/s", 'has the unit "mm/(s", which is not known; expected is mm/s')
       call is_no_quantity(suite, "1e307 km", "mm", "is too large or too small for a number")
       call is_no_quantity(suite, "mm", "mm", 'is no number with a unit; "460 mm" is one, with a blank between them')
    end subroutine quantities
@@ -160,7 +160,7 @@ contains
       end if
    end subroutine is_quantity
 
-   !> A text is no such number
+   !> A text is not a quantity with this unit
    subroutine is_no_quantity(suite, text, unit, words)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: text, unit, words

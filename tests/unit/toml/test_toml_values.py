@@ -1,4 +1,4 @@
-"""What our parser of TOML accepts, the one of Python reads to the same values; what that one refuses, ours refuses
+"""Every text that our TOML parser accepts has the same values in Python's parser; every text refused there is refused by ours
 
 Usage: test_toml_values.py PROGRAM [NUMBER OF DOCUMENTS]. Documents are made by a grammar, and then damaged.
 """
@@ -14,7 +14,7 @@ except ImportError:
     print("skipped: this Python has no tomllib")
     sys.exit(77)
 
-# what the subset lacks, and so may be refused although Python reads it
+# features outside the subset, which may be refused although Python reads them
 LACKING = ("no number", "decimal", "date", "time", "several lines", "too large", "too small", "no number that a case",
            "nested", "parts", "no value")
 
@@ -124,7 +124,7 @@ def document(r):
 
 
 def rebuild(lines):
-    """The value that our program told, as Python has it; integers and numbers are told apart"""
+    """The value printed by our program as a Python value; integers and real numbers are distinguished"""
     word, _, rest = next(lines).partition(" ")
     if word == "table":
         table = {}
@@ -169,8 +169,8 @@ def main():
         for text in documents:
             file.write(b"%d\n" % len(text) + text)
         file.flush()
-        told = subprocess.run([program, file.name], stdout=subprocess.PIPE, check=True, timeout=200).stdout.decode("latin-1")
-    answers = told.split("\n.\n")[:-1]
+        output = subprocess.run([program, file.name], stdout=subprocess.PIPE, check=True, timeout=200).stdout.decode("latin-1")
+    answers = output.split("\n.\n")[:-1]
     if len(answers) != len(documents):
         sys.exit(f"{len(answers)} answers to {len(documents)} documents")
     wrong, good, lacking = 0, 0, 0
@@ -195,7 +195,7 @@ def main():
             if typed(rebuild(iter(answer.split("\n")))) != bare(right):
                 wrong += 1
                 print("other values:", text, answer, right)
-    print(f"{good} documents alike, {lacking} with what the subset lacks, {wrong} wrong")
+    print(f"{good} documents agree, {lacking} with features outside the subset, {wrong} wrong")
     sys.exit(wrong > 0 or good < 0.8*len(documents))
 
 

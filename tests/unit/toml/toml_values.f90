@@ -1,6 +1,6 @@
 !> Writes the content of TOML texts, for comparison with another parser
 !>
-!> Usage: toml_values FILE. The file has many texts, each behind a line with its length in bytes. For each text the values are
+!> Usage: toml_values FILE. The file has many texts, each after a line with its length in bytes. For each text the values are
 !> written depth first, one a line, strings and real numbers as hexadecimal bytes, and a line "." at the end; or "error" and why.
 program toml_values
    use, intrinsic :: iso_fortran_env, only : int64
@@ -24,17 +24,17 @@ program toml_values
       read(all(at:at + length - 2), *, iostat=status) n
       if (status /= 0) error stop "no length"
       at = at + length
-      call tell(all(at:at + n - 1))
+      call print_text(all(at:at + n - 1))
       at = at + n
       n = len(all)
    end do
-   ! the main program keeps it otherwise, which counts as a leak
+   ! otherwise it belongs to the main program and is reported as a leak
    deallocate(all)
 
 contains
 
    !> One text
-   subroutine tell(text)
+   subroutine print_text(text)
       character(len=*), intent(in) :: text
       type(toml_document) :: document
       type(error_type), allocatable :: error
@@ -46,9 +46,9 @@ contains
          call tell_node(document, 1)
       end if
       write(*, "(A)") "."
-   end subroutine tell
+   end subroutine print_text
 
-   !> A node and what is below it
+   !> A node and its children
    recursive subroutine tell_node(document, index)
       type(toml_document), intent(in) :: document
       integer, intent(in) :: index

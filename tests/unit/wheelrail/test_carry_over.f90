@@ -1,4 +1,4 @@
-!> Tractions that are carried from the patches of one moment to those of the next
+!> Transfer of tractions from the patches of one time step to those of the next
 program test_carry_over
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -23,7 +23,7 @@ program test_carry_over
 
 contains
 
-   !> A patch whose elements around a lattice place are in contact; the tractions tell the element
+   !> A patch whose elements around a lattice point are in contact; the tractions identify the element
    subroutine add_patch(moment, k, place, mx, my)
       type(carried_step), intent(inout) :: moment
       integer, intent(in) :: k, mx, my
@@ -46,7 +46,7 @@ contains
       call moment%add(k, fields, place, box_around(place, mx, my))
    end subroutine add_patch
 
-   !> Grid that stands on the lattice around a reference
+   !> Grid on the lattice around a reference
    function window_around(place, mx, my) result(grid)
       real(wp), intent(in) :: place(2)
       integer, intent(in) :: mx, my
@@ -67,7 +67,7 @@ contains
       box%s = place(2) + 0.5_wp*my*ds*[-1, 1]
    end function box_around
 
-   !> Total of all normal and tangential tractions of a moment [N]
+   !> Total of all normal and tangential tractions of a time step [N]
    pure function total(moment) result(force)
       type(carried_step), intent(in) :: moment
       real(wp) :: force(3)
@@ -81,7 +81,7 @@ contains
       end do
    end function total
 
-   !> What the patches at the given places get
+   !> Transfer tractions to patches at the given positions
    subroutine receive(moment, places, mx, my, name, fields, problems)
       type(carried_step), intent(inout) :: moment
       !> Shape (2, patches)
@@ -114,12 +114,12 @@ contains
       end do
       associate (all => total(moment))
          do k = 1, 3
-            call suite%close_to(force(k), all(k), 1.0e-9_wp, name // ": nothing is lost and nothing counted twice")
+            call suite%close_to(force(k), all(k), 1.0e-9_wp, name // ": the total is conserved")
          end do
       end associate
    end subroutine receive
 
-   !> A patch that moves by less than its size: same tractions at the same places of the lattice
+   !> A patch that moves by less than its size: same tractions at the same points of the lattice
    subroutine one_to_one()
       type(carried_step) :: moment
       type(traction_fields), allocatable :: fields(:)
@@ -172,7 +172,7 @@ contains
       call suite%check(problems(1)%grid%my >= 25, "its window holds them both")
    end subroutine join
 
-   !> A patch without a predecessor is free of tractions; what no patch continues is gone
+   !> A patch without a predecessor has no tractions; tractions of a patch without a successor are dropped
    subroutine appear_and_vanish()
       type(carried_step) :: moment
       type(traction_fields) :: fields
@@ -180,7 +180,7 @@ contains
       type(lattice_window) :: window
 
       call moment%share_out([box_around([0.0_wp, 0.0_wp], 5, 5)])
-      call suite%check(size(sources_of(moment, 1)) == 0, "nothing comes before the first case")
+      call suite%check(size(sources_of(moment, 1)) == 0, "the first case has no previous tractions")
       call moment%start(1, .true., 0.0_wp)
       call add_patch(moment, 1, [0.0_wp, 0.0_wp], 9, 7)
       call moment%share_out([box_around([0.0_wp, 5.0_wp], 9, 7)])

@@ -18,7 +18,7 @@ program test_force_balance
       call reaches(suite, hertz, target, 0.1_wp, .true., 5)
       call reaches(suite, hertz, target, 0.1_wp, .false., 14)
       call reaches(suite, hertz, target, 1.0e-6_wp, .false., 25)
-      ! a first trial next to the height tells where it is
+      ! a first trial close to the height determines it
       call reaches(suite, hertz, target, 0.997_wp*(1.0e-5_wp*target)**(2.0_wp/3.0_wp), .false., 2)
       call reaches(suite, second_patch, target, 0.02_wp, .true., 9)
       call reaches(suite, second_patch, target, 0.02_wp, .false., 16)
@@ -65,11 +65,11 @@ contains
       case (bounded)
          force = 1.0e3_wp*tanh(max(0.0_wp, d))
       case (carried)
-         ! friction lifts the wheel until a flank takes over; slopes leave out that the flank turns
+         ! friction lifts the wheel until a flank is in contact; slopes neglect the rotation of the flank
          force = -4.0e3_wp*d + 2.0e7_wp*max(0.0_wp, d - 0.2_wp)**2.5_wp
          slope = -4.0e3_wp + 1.5e7_wp*max(0.0_wp, d - 0.2_wp)**1.5_wp
       case (flank)
-         ! a wheel that climbs: the force rises faster and faster, and slopes know a quarter of that
+         ! a climbing wheel: the slope of the force increases, and the estimated slopes are a quarter of the true ones
          force = 2.0e3_wp*(exp(10.0_wp*max(0.0_wp, d)) - 1.0_wp)
          slope = 5.0e3_wp*exp(10.0_wp*max(0.0_wp, d))
       case (broken)
@@ -129,11 +129,11 @@ contains
       call suite%check(balance%ended == balance_ending%reached, "two solutions: one is found")
       call search(jump_up, 1.0e5_wp*0.1_wp**1.5_wp + 3.0e2_wp, 0.2_wp, .false., 80, .false., balance)
       call suite%check(balance%ended == balance_ending%jump, "a force inside an upward jump is stated")
-      call suite%close_to(balance%z, 0.8_wp, 1.0e-9_wp, "with the place of the jump")
+      call suite%close_to(balance%z, 0.8_wp, 1.0e-9_wp, "with the position of the jump")
       call suite%close_to(balance%force, 1.0e5_wp*0.1_wp**1.5_wp, 1.0_wp, "and the closer side")
    end subroutine over_a_jump
 
-   !> Where the stiffness of the contact is known, a jump is told from a steep rise, and is found in few trials
+   !> Where the stiffness of the contact is known, a jump is distinguished from a steep slope, and is found in few trials
    subroutine jump_with_slopes(suite)
       type(test_suite), intent(inout) :: suite
       type(force_balance) :: balance
@@ -144,17 +144,17 @@ contains
          call search(jump_up, foot + 1.0e2_wp*k, 0.03_wp*k, .true., 28, .false., balance)
          call suite%check(balance%ended == balance_ending%jump, "an upward jump is found in 28 trials")
          call suite%check(balance%low%z <= 0.8_wp .and. balance%high%z > 0.8_wp .and. balance%high%z - balance%low%z < 1.1e-6_wp, &
-            & "the place of the jump lies between the ends of the bracket, which are near")
+            & "the position of the jump is within a narrow bracket")
          call suite%close_to(balance%low%force, foot, 1.0_wp, "force below the jump")
          call suite%close_to(balance%high%force, foot + 1.0e3_wp, 1.0_wp, "force above it")
          call suite%check(balance%low%patches == 1 .and. balance%high%patches == 2, "patches on both sides")
-         ! forces that are only estimated: the caller is told to look again, before trials are spent on the place
+         ! forces that are only estimated: the caller is requested to compute them accurately before the position is refined
          call search(jump_up, foot + 1.0e2_wp*k, 0.03_wp*k, .true., 28, .true., balance)
          call suite%check(balance%ended == balance_ending%jump .and. balance%trials < 15, "a suspected jump ends the search early")
       end do
-      ! a second patch that is much stiffer than the first one is no jump
+      ! a second patch that is much stiffer than the first one is not a jump
       call search(second_patch, 3.0e3_wp, 0.02_wp, .true., 12, .true., balance)
-      call suite%check(balance%ended == balance_ending%reached, "a kink is no jump")
+      call suite%check(balance%ended == balance_ending%reached, "a kink is not a jump")
    end subroutine jump_with_slopes
 
    subroutine out_of_reach(suite)

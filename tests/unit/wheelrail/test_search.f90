@@ -1,7 +1,7 @@
 !> Contact search of wheel and rail: patches, references, grids, approach
 !>
 !> Against the published figures of the Manchester contact benchmark (case A-2.2, right wheel; original
-!> program, revision 2707), with its profile files where they are at hand; and a sphere on a plane.
+!> program, revision 2707), with its profile files if available; and a sphere on a plane.
 program test_search
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -37,7 +37,7 @@ program test_search
 
 contains
 
-   !> The lowest place of a parabola, between points; of a row that ends beside its lowest point, that point
+   !> The minimum of a parabola, between points; of a row that ends at its lowest point, that point
    subroutine lowest_of_a_row(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: x(5) = [-2.0_wp, -1.0_wp, 0.0_wp, 1.0_wp, 2.0_wp], bottom = 0.3_wp
@@ -53,7 +53,7 @@ contains
          g(3 + side) = no_surface
          if (side > 0) g(3 + 2*side) = no_surface
          call smallest_in_row(x, g, place, lowest)
-         call suite%close_to(place, 0.0_wp, 1.0e-300_wp, "beside the end of the surface")
+         call suite%close_to(place, 0.0_wp, 1.0e-300_wp, "outside of the surface")
          call suite%close_to(lowest, 0.5_wp + bottom**2, 1.0e-12_wp, "the gap of this point")
       end do
    end subroutine lowest_of_a_row
@@ -105,7 +105,7 @@ contains
       call read_profile(request, curve, log, error)
    end subroutine profile_of
 
-   !> A yawed and rolled conical wheel on a small roller: the locus is where the gap is smallest, by trying all places
+   !> A yawed and rolled conical wheel on a small roller: the locus has the smallest gap, compared with all positions
    subroutine locus_on_roller(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: yaw(4) = [0.02_wp, -0.02_wp, 0.1_wp, 0.1_wp], radius(4) = [300.0_wp, 300.0_wp, 200.0_wp, 1.0e6_wp]
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine locus_on_roller
 
-   !> Gap [mm] between a conical wheel and a roller at a lateral position of the track, on the section at a place x of the
+   !> Gap [mm] between a conical wheel and a roller at a lateral position of the track, on the section at a position x of the
    !> wheel's axes; and where this is along the track
    subroutine gap_by_hand(placement, rail, x, y, gap, place)
       type(wheel_rail_placement), intent(in) :: placement
@@ -319,7 +319,7 @@ contains
       there = len(folder) > 0
       if (there) inquire(file=folder // "/examples/MBench_UIC60_v3.prr", exist=there)
       if (.not. there) then
-         call suite%skip("benchmark", "the profiles of the reference folder are not at hand")
+         call suite%skip("benchmark", "the profiles of the reference folder are not available")
          return
       end if
       call profile_of(folder // "/examples/MBench_UIC60_v3.prr", profile_side%rail, rail, error)

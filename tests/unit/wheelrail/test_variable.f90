@@ -1,6 +1,6 @@
 !> Rails that vary along the track, wheels that are out of round: gap, patches, undeformed distance
 !>
-!> A prismatic rail and a round wheel written as slices give what the profiles themselves give; a tilted plane
+!> A prismatic rail and a round wheel written as slices give the results of the profiles themselves; a tilted plane
 !> and a wheel with a wave have known gaps.
 program test_variable
    use contact_base_error, only : error_type, full_text
@@ -152,7 +152,7 @@ contains
       call find_regions(two, z, pair%search, 2, second, misses)
       call suite%equal(size(second), size(first), what // ": number of patches")
       if (size(second) /= 1 .or. size(first) /= 1) return
-      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": place of the patch")
+      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": position of the patch")
       call suite%close_to(second%alpha, first%alpha, 1.0e-3_wp, what // ": its angle")
       call suite%close_to(second(1)%box%x, first(1)%box%x, 0.3_wp, what // ": its length")
       call suite%close_to(second(1)%box%y, first(1)%box%y, 0.1_wp, what // ": its width")
@@ -163,7 +163,7 @@ contains
       call find_regions(two, z, pair%search, 2, second, misses)
       call suite%equal(size(second), size(first), what // ": number of patches, weights of the locus")
       if (size(second) /= 1) return
-      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": place, weights of the locus")
+      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": position, weights of the locus")
       call suite%close_to(second%weight/first%weight, [1.0_wp], 2.0e-3_wp, what // ": weight of the locus")
 
       call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
@@ -192,7 +192,7 @@ contains
       end if
    end subroutine put_sections
 
-   !> A plane that rises 1:10 along the track, and a cylinder: contact behind the middle where slopes agree
+   !> A plane with a slope of 1:10 along the track, and a cylinder: contact behind the middle where slopes agree
    subroutine ramp(suite)
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: plane, cylinder
@@ -238,8 +238,8 @@ contains
       call find_regions(gap, smallest_gap(gap) + 0.1_wp, pair%search, 2, regions, misses)
       call suite%equal(size(regions), 1, "one patch on the ramp")
       if (size(regions) /= 1) return
-      call suite%close_to(regions(1)%x, 460.0_wp*sin(angle), 1.0e-2_wp, "its place along the track")
-      call suite%close_to(regions(1)%y, 750.0_wp, 0.6_wp, "its lateral place")
+      call suite%close_to(regions(1)%x, 460.0_wp*sin(angle), 1.0e-2_wp, "its position along the track")
+      call suite%close_to(regions(1)%y, 750.0_wp, 0.6_wp, "its lateral position")
    end subroutine ramp
 
    function number(value) result(text)
@@ -290,9 +290,9 @@ contains
       ! Lowest point of r(theta) cos(theta + pitch), by brute force
       ! Slices are 0.01 rad apart: h**4/384 times the fourth derivative is 2e-5 mm
       call suite%close_to(gap(1)%gap(j), smallest_by_hand(0.0_wp), 2.0e-5_wp, "gap under the spot")
-      call suite%close_to(gap(2)%gap(j), smallest_by_hand(0.03_wp), 2.0e-5_wp, "gap beside the spot")
+      call suite%close_to(gap(2)%gap(j), smallest_by_hand(0.03_wp), 2.0e-5_wp, "gap beside the contact")
       call suite%close_to(gap(3)%gap(j), gap(2)%gap(j), 1.0e-8_wp, "symmetric in the pitch")
-      call suite%close_to(gap(3)%x(j), -gap(2)%x(j), 1.0e-6_wp, "and the place along the track")
+      call suite%close_to(gap(3)%x(j), -gap(2)%x(j), 1.0e-6_wp, "and the position along the track")
       call write_spot("ends", 0.9_wp, 0.03_wp)
       call load(suite, "ends.slcw", profile_side%wheel, spot)
       if (.not. ready) return
@@ -343,9 +343,9 @@ contains
       call find_regions(gap, smallest_gap(gap) + 0.02_wp, pair%search, 2, regions, misses)
       call suite%equal(size(regions), 2, "two spots")
       if (size(regions) /= 2) return
-      call suite%close_to(abs(regions%x), [place, place], 0.2_wp, "places of the spots")
-      call suite%check(regions(1)%x*regions(2)%x < 0.0_wp, "one in front and one behind")
-      call suite%close_to(regions(1)%weight/regions(2)%weight, 1.0_wp, 1.0e-3_wp, "spots that are alike")
+      call suite%close_to(abs(regions%x), [place, place], 0.2_wp, "positions of the contacts")
+      call suite%check(regions(1)%x*regions(2)%x < 0.0_wp, "one upstream and one downstream")
+      call suite%close_to(regions(1)%weight/regions(2)%weight, 1.0_wp, 1.0e-3_wp, "equal contacts")
       call suite%check(all([regions(1)%box%x*sign(1.0_wp, regions(1)%x), regions(2)%box%x*sign(1.0_wp, regions(2)%x)] > 0.0_wp), &
          & "their bounds do not cross the middle")
       near = pair
@@ -450,10 +450,10 @@ contains
             end do
          end do
       end associate
-      call suite%check(one_only > 20, "places beyond the end of one section only")
+      call suite%check(one_only > 20, "positions beyond the end of one section only")
    end subroutine widening
 
-   !> Beyond the last slice a rail goes on as it ends; a wheel smaller than the coarse mesh still meets one
+   !> A rail continues unchanged beyond its last slice; a wheel smaller than the coarse mesh is still found in contact
    subroutine ends(suite)
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: rail, wheel
@@ -487,7 +487,7 @@ contains
             call measure_gap(bodies%rail, bodies%wheel, bodies%placement, 0.5_wp, prismatic)
             ! near its end the surface has a corner of 0.04 rad, which sections 0.5 mm apart round off
             call suite%close_to(smallest_gap(gap), smallest_gap(prismatic), merge(1.0e-5_wp, 2.0e-3_wp, j == 1), &
-               & "beyond its slices a rail goes on")
+               & "beyond its slices a rail continues")
             call suite%close_to(gap%x(minloc(gap%gap, 1)), 0.0_wp, merge(1.0e-3_wp, 0.5_wp, j == 1), "and is level along the track")
             call suite%check(rail%surface%part_beyond(place(j) + [-1.0_wp, 1.0_wp]) > 0.5_wp, "the part without slices")
          end do
@@ -497,12 +497,12 @@ contains
          call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
          call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
-         call suite%close_to(smallest_gap(gap), 0.8_wp, 1.0e-3_wp, "a small wheel stands in the dip")
+         call suite%close_to(smallest_gap(gap), 0.8_wp, 1.0e-3_wp, "a small wheel is in contact in the dip")
       end do
    end subroutine ends
 
    !> A rail with a dip and a crown, twisted so that the wheel is nearest in front of the dip on one side and behind it on
-   !> the other: the search agrees with an evaluation of every point, from scratch each, as deep as it was asked to
+   !> the other: the search agrees with an evaluation of every point, evaluated independently, as deep as requested
    subroutine dip(suite)
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: rail, wheel
@@ -550,17 +550,17 @@ contains
             call suite%check(allocated(gap%table) .eqv. weighs, "a table when weights come from it")
             call search_everywhere(bodies, gap, exact, place)
             near = gap%gap < minval(exact) + gap%depth
-            call suite%check(gap%depth >= depth(2 - mod(j, 2)), "as deep as asked for")
+            call suite%check(gap%depth >= depth(2 - mod(j, 2)), "as deep as requested")
             call suite%check(any(near .and. place > middle + 8.0_wp) .and. any(near .and. place < middle - 8.0_wp), &
                & "near in front of the dip and behind it")
             call suite%check(all(near .eqv. exact < minval(exact) + gap%depth), "all that is near is found")
             call suite%close_to(pack(gap%gap - exact, near), 0.0_wp*pack(exact, near), 1.0e-8_wp, "gaps as by every point")
-            call suite%close_to(pack(gap%x - place, near), 0.0_wp*pack(exact, near), 1.0e-4_wp, "and their places")
+            call suite%close_to(pack(gap%x - place, near), 0.0_wp*pack(exact, near), 1.0e-4_wp, "and their positions")
          end do
       end do
    end subroutine dip
 
-   !> Smallest gap along the track at each lateral position and its place, every point from scratch
+   !> Smallest gap along the track at each lateral position and its abscissa, with every point evaluated independently
    subroutine search_everywhere(bodies, gap, lowest, place)
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> For its mesh
@@ -750,7 +750,7 @@ contains
       call find_rail(bodies, track, regions(1)%x, regions(1)%y, z, found)
       print "(a, i0, a, 4f12.4, a, 4f12.4)", "  patches ", size(regions), ", first", regions(1)%x, regions(1)%y, z, &
          & regions(1)%alpha, ", published", expected
-      call suite%close_to([regions(1)%x, regions(1)%y, z], expected(:3), 1.0e-3_wp, name // ": place of the contact reference")
+      call suite%close_to([regions(1)%x, regions(1)%y, z], expected(:3), 1.0e-3_wp, name // ": position of the contact reference")
       ! where wheel and rail touch they have the same tangent; the published angles of the second and the fourth of these
       ! rails are those of another section (doc/validation/wheel_rail.md)
       call suite%close_to(regions(1)%alpha, wheel_angle(bodies, regions(1)), 2.0e-3_wp, name // ": contact angle")
