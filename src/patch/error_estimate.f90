@@ -165,8 +165,10 @@ contains
          if (fine%rows(k)%law == error_law%normal) scale%irregular = max(scale%irregular, &
             & irregularity(fine%rows(k), difference, scale))
          if (fine%rows(k)%law /= error_law%friction) cycle
-         if (scale_of(fine%rows(k), scale) > 0.0_wp) scale%friction = max(scale%friction, &
-            & difference/scale_of(fine%rows(k), scale))
+         if (.not. scale_of(fine%rows(k), scale) > 0.0_wp) cycle
+         difference = difference/scale_of(fine%rows(k), scale)
+         scale%friction = max(scale%friction, difference)
+         if (fine%rows(k)%scale /= error_scale%moment) scale%forces = max(scale%forces, difference)
       end do
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled

@@ -58,6 +58,8 @@ module contact_patch_error_scales
       real(wp) :: gain = 0.0_wp
       !> Maximum difference of the levels in tangential forces, relative to their scale [-]
       real(wp) :: friction = 0.0_wp
+      !> The same without the moment [-]
+      real(wp) :: forces = 0.0_wp
       !> Are both tangential forces prescribed, so that only the moment has an error?
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]

@@ -61,6 +61,10 @@ module contact_patch_traction_errors
    !> the lower bound are reduced with this exponent, see trusted; fraction in adhesion up to which sliding dominates; the exponent
    !> returns to 1 at twice this fraction
    real(wp), parameter :: usual_ratio = 2.0_wp, sliding_trust = 0.6_wp, sliding = 0.03_wp
+   !> Forces in full sliding: multiple of the general error, and exponent of the ratio of an error by the levels to it, if smaller
+   !> than 1 and at least the last; of wheels (seeds 61003, 90101 and 90103) and contacts (seed 95001) without adhesion, whose errors
+   !> were 0.06 to 15 times the general one and 0.1 to 5 times those by the levels
+   real(wp), parameter :: sliding_ratio = 1.2_wp, blend = 0.35_wp, least_level = 0.02_wp
    !> Forces with the second-order scheme if friction decreases with slip: factor of its relative deviations times n^-2; if the
    !> direction of slip turns: of its turn across the contact times n^-2 (seeds 31001 and 31002)
    real(wp), parameter :: falling_floor = 5.0_wp, turning_floor = 0.1_wp
@@ -85,7 +89,7 @@ contains
       !> Error by the levels in its unit, and lower bound relative to the reference value [-]
       real(wp), intent(out) :: e, floor
       real(wp) :: part, adhesion, heat
-      logical :: is_force, is_moment
+      logical :: is_force, is_moment, slides
 
       is_force = row%law == error_law%friction
       is_moment = row%scale == error_scale%moment
@@ -95,12 +99,14 @@ contains
       if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across)*unit
       heat = by_heat(scale, part, difference, unit)
       if (.not. is_first(scale)) e = e + heat
-      if (is_force) e = max(e, other_component*part*scale%friction*unit)
+      slides = is_force .and. .not. is_moment .and. is_sliding_force(scale)
+      if (is_force) e = max(e, other_component*part*merge(scale%forces, scale%friction, slides)*unit)
       adhesion = scale%adhesion
       if (is_moment .and. scale%order > first_order) adhesion = max(least_adhesion, adhesion)
       if (is_force .and. is_first(scale)) adhesion = max(adhesion, turned_share*scale%cancelled)
       floor = driven_floor(scale, adhesion) + turning_floor*scale%turning/scale%mean_across**2
       if (scale%is_moment_alone .and. is_force) floor = floor*merge(sqrt(min(1.0_wp, scale%used)), moment_alone, is_first(scale))
+      if (slides) floor = blended(e/max(unit, tiny(unit)), sliding_ratio*floor)
       if (is_moment .and. is_first(scale)) floor = max(floor, displaced*sqrt(scale%sticking)*scale%arm)
       if (.not. is_force .and. scale%jumps) floor = floor + creepage_floor*sqrt(scale%adhesion)/scale%mean_across**2
       if (scale%jumps) then
@@ -156,12 +162,16 @@ contains
       real(wp), intent(in) :: adhesion
       !> Is it that of the forces as it appears in frictional power?
       logical, intent(in) :: in_power
+      real(wp) :: least
 
       if (scale%order <= first_order) then
          floor = merge(rolling_floor(1), layer_floor, scale%clean .or. scale%steps)
-         if (is_first(scale) .and. .not. (in_power .or. scale%is_moment_alone)) &
-            & floor = adhesive_floor + sliding_part(scale%sticking)*(floor - adhesive_floor)
-         floor = floor/scale%mean_across
+         least = 0.0_wp
+         if (is_first(scale) .and. .not. (in_power .or. scale%is_moment_alone)) then
+            floor = adhesive_floor + sliding_part(scale%sticking)*(floor - adhesive_floor)
+            least = adhesive_floor*sqrt(scale%sticking/adhesion)
+         end if
+         floor = max(floor, least)/scale%mean_across
       else
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)
          if (in_power) floor = balance_floor
@@ -254,6 +264,25 @@ contains
 
       power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
    end function trust_in
+
+   !> Is it full sliding of like bodies in steady rolling by the first-order scheme, where the error of forces is that of the direction
+   !> of slip?
+   pure logical function is_sliding_force(scale)
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      is_sliding_force = is_first(scale) .and. .not. (scale%is_moment_alone .or. scale%sticking > 0.0_wp &
+         & .or. scale%coupling > 0.0_wp)
+   end function is_sliding_force
+
+   !> General error, reduced where that by the levels is smaller
+   pure real(wp) function blended(by_levels, general) result(e)
+      !> Error by the levels, and general error
+      real(wp), intent(in) :: by_levels, general
+
+      e = general
+      if (general > 0.0_wp) e = general*min(1.0_wp, max(least_level, by_levels/general))**blend
+   end function blended
 
    !> Error from the differences of levels and the general error
    pure real(wp) function trusted(by_levels, floor, power) result(e)
