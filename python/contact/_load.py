@@ -89,11 +89,15 @@ class Case:
         The patches, one in module 3, none in cases without contact.
     inputs
         The input, by group and name; from HDF5 files only.
+    result_element, contact_problem
+        Numbers on the module line of the case; 0 and 1 without. ``.out`` files have the first only, ``.mat`` files none.
     """
 
     def __init__(self, number: int, status: str, reason: str, totals: dict[str, float], patches: tuple[StoredPatch, ...],
-                 inputs: dict[str, dict[str, Any]] | None = None) -> None:
+                 inputs: dict[str, dict[str, Any]] | None = None, result_element: int = 0, contact_problem: int = 1) -> None:
         self.number = number
+        self.result_element = result_element
+        self.contact_problem = contact_problem
         self.status = status
         self.reason = reason
         self.totals = totals
@@ -109,10 +113,14 @@ class Case:
 
     def __repr__(self) -> str:
         count = len(self.patches)
-        return f"<Case {self.number}, {self.status or 'loaded'}: {count} patch{'' if count == 1 else 'es'}>"
+        return f"<{self._title()}, {self.status or 'loaded'}: {count} patch{'' if count == 1 else 'es'}>"
+
+    def _title(self) -> str:
+        return (f"Case {self.number}" + (f", result element {self.result_element}" if self.result_element else "")
+                + (f", contact problem {self.contact_problem}" if self.contact_problem > 1 else ""))
 
     def __str__(self) -> str:
-        lines = [f"Case {self.number}" + (f", {self.status}" if self.status else "") + (f": {self.reason}" if self.reason else "")]
+        lines = [self._title() + (f", {self.status}" if self.status else "") + (f": {self.reason}" if self.reason else "")]
         lines += [f"  {name:16s}{value:12.5g} {meaning_of(name)[0]}".rstrip() for name, value in self.totals.items()]
         return "\n".join(lines + [f"  {patch!r}" for patch in self.patches])
 
@@ -167,12 +175,18 @@ class Experiment(Sequence[Case]):
     def __iter__(self) -> Iterator[Case]:
         return iter(self._cases)
 
-    def case(self, number: int) -> Case:
-        """The case with a number of the input. Raises KeyError if there is none."""
-        for case in self._cases:
-            if case.number == number:
-                return case
-        raise KeyError(f"{self.path} has no case {number}")
+    def case(self, number: int, result_element: int | None = None, contact_problem: int | None = None) -> Case:
+        """The case with a number of the input, and of the result element and contact problem if there are several.
+
+        Raises KeyError if there is none, or if several cases have this number.
+        """
+        found = [case for case in self._cases if case.number == number and result_element in (None, case.result_element)
+                 and contact_problem in (None, case.contact_problem)]
+        if not found:
+            raise KeyError(f"{self.path} has no case {number}")
+        if len(found) > 1:
+            raise KeyError(f"{self.path} has several cases {number}: {', '.join(case._title() for case in found)}")
+        return found[0]
 
     def __repr__(self) -> str:
         ended = [case.status for case in self._cases]
@@ -186,11 +200,12 @@ class Experiment(Sequence[Case]):
 
         Returns
         -------
-        One array for each name: ``case``, ``patch``, totals of the patch, and those of wheel and rail of its case. Missing
-        values are NaN.
+        One array for each name: ``case``, ``patch``, totals of the patch, and those of wheel and rail of its case; with several
+        of them also ``result_element`` and ``contact_problem``. Missing values are NaN.
         """
-        rows = [{"case": case.number, "patch": patch.number, **patch.totals(), **case.totals}
-                for case in self._cases for patch in case.patches]
+        marks = [name for name in ("result_element", "contact_problem") if len({getattr(case, name) for case in self._cases}) > 1]
+        rows = [{"case": case.number, **{name: getattr(case, name) for name in marks}, "patch": patch.number, **patch.totals(),
+                 **case.totals} for case in self._cases for patch in case.patches]
         names = list(dict.fromkeys(name for row in rows for name in row))
         return {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
 
@@ -294,7 +309,7 @@ def _load_hdf5(path: str) -> Experiment:
                 inputs = {name: _values(values) for name, values in group["inputs"].items()} if "inputs" in group else {}
                 cases.append(Case(int(number), str(status), str(told.get("reason", "")),
                                   _values(group["totals"]) if "totals" in group else {},
-                                  tuple(_stored_patch(int(name[6:]), group[name]) for name in names), inputs))
+                                  tuple(_stored_patch(int(name[6:]), group[name]) for name in names), inputs, element, problem))
             return Experiment(path, cases, bool(file.attrs["complete"]) if "complete" in file.attrs else None)
     except ContactError as reason:
         raise ContactError(f"{path}: {reason}") from None
@@ -323,7 +338,8 @@ def _load_mat(path: str) -> Experiment:
 def _load_out(path: str) -> Experiment:
     told = read_out(path)
     cases = [Case(case.number, case.status, case.reason, case.totals,
-                  tuple(StoredPatch(number, totals, {}, {}) for number, totals in sorted(case.patches.items())))
+                  tuple(StoredPatch(number, totals, {}, {}) for number, totals in sorted(case.patches.items())),
+                  result_element=case.result_element)
              for case in told.cases]
     return Experiment(path, cases, told.complete)
 

@@ -46,6 +46,7 @@ class OutCase:
     """One case of an .out file"""
 
     number: int
+    result_element: int = 0
     status: str = "solved"
     reason: str = ""
     totals: dict[str, float] = field(default_factory=dict)
@@ -165,10 +166,10 @@ def read_out(path: str) -> OutFile:
     cases: list[OutCase] = []
     patch, in_module1 = 0, False
     for line, following in zip(lines, lines[1:] + [""]):
-        start = re.match(r" Case +(\d+)", line)
+        start = re.match(r" Case +(\d+)(?:, result element +(\d+))?", line)
         where = re.match(r" ----- DATA FOR CONTACT PATCH +(\d+)", line)
         if start:
-            cases.append(OutCase(int(start.group(1))))
+            cases.append(OutCase(int(start.group(1)), int(start.group(2) or 0)))
             patch, in_module1 = 0, False
         elif not cases:
             continue

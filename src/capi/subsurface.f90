@@ -220,10 +220,10 @@ contains
       character(len=20) :: base
 
       if (number > 0) then
-         call find_result_file(case_file_name("caddon", problem%cases, "subs", problem%ire, number), file)
+         call find_result_file(case_file_name("caddon", problem%cases, "subs", problem%ire, 1, number), file)
       else
          write(base, '("caddon_re", I3.3, "_cp", I1)') problem%ire, problem%icp
-         call find_result_file(case_file_name(trim(base), problem%cases, "subs", 0, 0), file)
+         call find_result_file(case_file_name(trim(base), problem%cases, "subs", 0, 1, 0), file)
       end if
    end subroutine find_file
 

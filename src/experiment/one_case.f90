@@ -140,14 +140,15 @@ contains
 
       call write_case(state%log, solved, result)
       if (solved%mat_file >= 1) then
-         call write_mat_file(case_file_name(state%place%results, this%number, "mat", this%reid, 0), solved, result, &
+         call write_mat_file(case_file_name(state%place%results, this%number, "mat", this%reid, this%cpid, 0), solved, result, &
             & result%status, error)
          if (allocated(error)) call report_error(state, error)
       end if
       if (.not. solved%has_stress .or. .not. allocated(result%subsurface)) return
       call write_subsurface(state%log, solved, result)
       if (solved%subsurface%matfil >= 1) then
-         call write_subs_file(case_file_name(state%place%results, this%number, "subs", this%reid, 0), solved, result, error)
+         call write_subs_file(case_file_name(state%place%results, this%number, "subs", this%reid, this%cpid, 0), solved, result, &
+            & error)
          if (allocated(error)) call report_error(state, error)
       end if
    end subroutine write_contact_files

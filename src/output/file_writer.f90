@@ -10,7 +10,7 @@ module contact_output_file_writer
 
    public :: file_writer, put_words
 
-   !> Columns of a number: sixteen digits identify most numbers, seventeen all
+   !> Columns of a number, without the blank before the next one: sixteen digits identify most numbers, seventeen all
    integer, parameter :: width = 24
    !> Maximum length of a list that is written on one line, and numbers per line of longer lists
    integer, parameter :: short_list = 8, per_line = 4
@@ -102,7 +102,7 @@ contains
    !> Real numbers to full precision, padded with blanks
    pure function number_row(values) result(text)
       real(wp), intent(in) :: values(:)
-      character(len=width*size(values)) :: text
+      character(len=(width + 1)*size(values)) :: text
       character(len=width) :: word
       real(wp) :: back
       integer :: k, last, state

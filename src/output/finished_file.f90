@@ -31,13 +31,13 @@ module contact_output_finished_file
 
 contains
 
-   !> Part of the file name that identifies the case: [_reNNN].<case>[<patch letter>], padded with blanks
+   !> Part of the file name that identifies the case: [_reNNN[_cpN]].<case>[<patch letter>], padded with blanks
    !>
    !> The case number has at least four digits; in the name of a .subs file six from 10000 on, and it is omitted from a million on.
-   pure function case_mark(case_number, extension, result_element, patch) result(mark)
+   pure function case_mark(case_number, extension, result_element, contact_problem, patch) result(mark)
       integer, intent(in) :: case_number
       character(len=*), intent(in) :: extension
-      integer, intent(in) :: result_element, patch
+      integer, intent(in) :: result_element, contact_problem, patch
       character(len=32) :: mark
       character(len=12) :: number
 
@@ -46,23 +46,25 @@ contains
       if (extension == "subs" .and. case_number > 999999) number = ""
       mark = ""
       if (result_element > 0) write(mark, "(A, I0.3)") "_re", result_element
+      if (contact_problem > 1) write(mark, "(2A, I0)") trim(mark), "_cp", contact_problem
       if (patch > 0 .and. patch <= 26) number = trim(number) // achar(iachar("a") + patch - 1)
       if (number /= "") mark = trim(mark) // "." // number
    end function case_mark
 
-   !> Name of a file of one case: <base>[_reNNN].<case>[<patch letter>].<extension>
-   pure function case_file_name(base, case_number, extension, result_element, patch) result(name)
+   !> Name of a file of one case: <base>[_reNNN[_cpN]].<case>[<patch letter>].<extension>
+   pure function case_file_name(base, case_number, extension, result_element, contact_problem, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
       !> Case number, from 1
       integer, intent(in) :: case_number
       !> Extension without dot
       character(len=*), intent(in) :: extension
-      !> Result element and contact patch (1 = a), 0 for none
-      integer, intent(in) :: result_element, patch
-      character(len=len(base) + len_trim(case_mark(case_number, extension, result_element, patch)) + 1 + len(extension)) :: name
+      !> Result element, 0 for none, contact problem in it, from 1, and contact patch (1 = a), 0 for none
+      integer, intent(in) :: result_element, contact_problem, patch
+      character(len=len(base) + len_trim(case_mark(case_number, extension, result_element, contact_problem, patch)) + 1 &
+         & + len(extension)) :: name
 
-      name = base // trim(case_mark(case_number, extension, result_element, patch)) // "." // extension
+      name = base // trim(case_mark(case_number, extension, result_element, contact_problem, patch)) // "." // extension
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one

@@ -249,7 +249,7 @@ contains
       if (size(points) == 0) return
       points(2, :, :) = side_sign(spec)*points(2, :, :)
       call start_grid(grid, [size(points, 2), size(points, 3), 1], .false., size(points))
-      file = case_file_name(self%base, head%number, name // ".vts", head%result_element, 0)
+      file = case_file_name(self%base, head%number, name // ".vts", head%result_element, head%contact_problem, 0)
       call finish_grid(grid, file, reshape(points, [size(points)]), error, spec%limits)
       if (.not. allocated(error)) call self%list_file(file, head%number, merge(wheel_part, rail_part, name == "wheel"))
       call add_context(error, "writing VTK files")
@@ -270,13 +270,14 @@ contains
       integer :: k, part
 
       part = max(0, number - 1)
-      name = case_file_name(self%base, head%number, "vts", head%result_element, number)
+      name = case_file_name(self%base, head%number, "vts", head%result_element, head%contact_problem, number)
       call write_surface(name, spec, contact, error, place)
       if (.not. allocated(error)) call self%list_file(name, head%number, part)
       if (allocated(contact%subsurface)) then
          do k = 1, size(contact%subsurface)
             if (allocated(error)) exit
-            name = case_file_name(self%base, head%number, "block" // integer_text(k) // ".vts", head%result_element, number)
+            name = case_file_name(self%base, head%number, "block" // integer_text(k) // ".vts", head%result_element, &
+               & head%contact_problem, number)
             call write_block(name, spec, contact%subsurface(k), error, place)
             if (.not. allocated(error)) call self%list_file(name, head%number, 100*k + part)
          end do

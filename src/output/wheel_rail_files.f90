@@ -47,16 +47,16 @@ contains
             if (spec%mat_file >= 1) then
                if (spec%wheel_rail%left) then
                   mirror = mirrored(in_element_coordinates(patch))
-                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, k), spec, mirror, &
+                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, 1, k), spec, mirror, &
                      & result%status, error, place_of(spec, result, patch, k, time))
                else
-                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, k), spec, &
+                  call write_mat_file(case_file_name(base, case_number, "mat", result_element, 1, k), spec, &
                      & in_element_coordinates(patch), result%status, error, place_of(spec, result, patch, k, time))
                end if
                if (allocated(error)) return
             end if
             if (spec%has_stress .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
-               call write_subs_file(case_file_name(base, case_number, "subs", result_element, k), spec, patch%contact, error)
+               call write_subs_file(case_file_name(base, case_number, "subs", result_element, 1, k), spec, patch%contact, error)
                if (allocated(error)) return
             end if
          end associate

@@ -301,6 +301,29 @@ def places_of_wheels(program):
                     close(getattr(matrix.patch, axis), getattr(whole.case(matrix.number).patch, axis), 1e-5, f"{axis} of elements")
 
 
+def problems_of_elements(program):
+    """Result elements and contact problems have files of their own, and cases that can be told apart"""
+    with open(os.path.join(SOURCE, "examples/cattaneo.inp"), encoding="utf-8") as file:
+        case = file.read().partition("MODULE\n")[2].partition("%")[0].replace("0000331", "0002231")
+    with open("elements.inp", "w", encoding="utf-8") as file:
+        file.writelines(f" 3 {place} MODULE\n" + case.replace("9.1954", force)
+                        for place, force in (("1 1", "9.0"), ("1 2", "7.0"), ("2 1", "5.0")))
+        file.write(" 0 MODULE\n")
+    subprocess.run([program, "--hdf5", "--vtk", "2", "elements"], check=True, stdout=subprocess.DEVNULL)
+    for name, force in (("re001", 9.0), ("re001_cp2", 7.0), ("re002", 5.0)):
+        close(contact.load(f"elements_{name}.mat")[0].patch.fn, force, 1e-4, f"the .mat file of {name}")
+        check(os.path.isfile(f"elements_{name}.0001.vts"), f"the VTK file of {name}")
+    printed = contact.load("elements.out")
+    close(printed.case(1, 2).patch.fn, 5.0, 1e-3, "a result element of the .out file")
+    raises(KeyError, lambda: printed.case(1), "several cases 1: Case 1, result element 1, ")
+    if has("h5py"):
+        whole = contact.load("elements.h5")
+        close([whole.case(1, *place).patch.fn for place in ((1, 1), (1, 2), (2,))], [9.0, 7.0, 5.0], 1e-4, "places of cases")
+        table = whole.table()
+        same((table["result_element"].tolist(), table["contact_problem"].tolist()), ([1, 1, 2], [1, 2, 1]), "columns of places")
+        raises(KeyError, lambda: whole.case(1), "contact problem 2")
+
+
 def layer():
     """The older name for layers keeps the elastic constants"""
     with contact.Problem(motion="shift") as problem:
@@ -351,6 +374,7 @@ if __name__ == "__main__":
     data_sets(*everything)
     loaded(sys.argv[1])
     places_of_wheels(sys.argv[1])
+    problems_of_elements(sys.argv[1])
     layer()
     track(everything[-1])
     rates_of_pitch()

@@ -105,6 +105,20 @@ class Readable(unittest.TestCase):
             self.assertEqual(self.run_program("3", "back.inp")[::2], (0, ""))
         self.assertEqual((self.folder / "back.toml").read_text(), text)
 
+    def test_numbers_of_all_lengths(self):
+        """Lists of the longest numbers, negative with seventeen digits, are the same bits after both conversions"""
+        rest = REST[:REST.index("[case.grid]")]
+        for count in (1, 2, 4, 6, 7, 8, 9, 14):
+            values = [-(k + 1) * 0.00012345678901234567 * 10.0**(-k % 5) for k in range(count)]
+            self.assertEqual(max(len(f"{value:.16e}") for value in values), 23)
+            text = (HEAD + rest + f'[case.grid]\nform = "corner_and_sides"\nmx = {count}\nmy = 1\nxl = -0.1\nyl = -0.1\ndx = 0.1\n'
+                    + f'dy = 0.1\n[case.geometry]\nform = "elementwise"\nplanform = "unrestricted"\nh = {values}\n')
+            (self.folder / "list.toml").write_text(text)
+            for name in ("list.toml", "list.inp"):
+                self.assertEqual(self.run_program("convert", "--force", name)[::2], (0, ""))
+            told = re.search(r"\nh = \[([^]]*)\]", (self.folder / "list.toml").read_text())[1]
+            self.assertEqual([float(word) for word in told.split(",")], values)
+
     def test_a_case_by_hand(self):
         status, out, errors = self.check("# a ball\n" + HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n")
         self.assertEqual((status, errors), (0, ""), out)

@@ -12,11 +12,11 @@ program test_subs_file
    type(test_suite) :: suite
 
    call suite%start("output subs file")
-   call suite%equal(case_file_name("dir/run", 1, "subs", 0, 0), "dir/run.0001.subs", "first case")
-   call suite%equal(case_file_name("run", 9999, "subs", 0, 0), "run.9999.subs", "four digits")
-   call suite%equal(case_file_name("run", 10000, "subs", 0, 0), "run.010000.subs", "six digits")
-   call suite%equal(case_file_name("run", 1000000, "subs", 0, 0), "run.subs", "no number")
-   call suite%equal(case_file_name("run", 12, "subs", 3, 0), "run_re003.0012.subs", "result element")
+   call suite%equal(case_file_name("dir/run", 1, "subs", 0, 1, 0), "dir/run.0001.subs", "first case")
+   call suite%equal(case_file_name("run", 9999, "subs", 0, 1, 0), "run.9999.subs", "four digits")
+   call suite%equal(case_file_name("run", 10000, "subs", 0, 1, 0), "run.010000.subs", "six digits")
+   call suite%equal(case_file_name("run", 1000000, "subs", 0, 1, 0), "run.subs", "no number")
+   call suite%equal(case_file_name("run", 12, "subs", 3, 1, 0), "run_re003.0012.subs", "result element")
    call check_contents()
    call suite%finish()
 
