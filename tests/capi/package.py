@@ -476,7 +476,19 @@ def output():
     check(os.path.getsize("results/run.out") > 1000, "the .out file")
     check(any(name.endswith(".mat") for name in os.listdir("results")), "the .mat file")
     with open("results/run.inp", encoding="utf-8") as file:
-        check("--heat moving-source" in file.read(), "the input file has a remark on the temperatures with which it is to be run")
+        text = file.read()
+    check("--heat moving-source" in text, "the input file has a remark on the temperatures with which it is to be run")
+    check("% needs --order 2" in text, "the input file has a remark on the order with which it is to be run")
+    contact.output_to("results", "roller")
+    with contact.WheelRail("left", roller=True) as pair:
+        wheel(pair)
+        pair.set_flags(if_wrtinp=1)
+        pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025, roller_radius=500.0)
+        pair.set_velocity(4.0, pitch=-2000.0 / 460.0)
+        pair.solve()
+        check("cant of the roller" in last_error(pair.number, -1)[1], "a warning of a cant that is not written")
+    with open("results/roller.inp", encoding="utf-8") as file:
+        check("without CANT = 0.025 rad" in file.read(), "the input file has a remark on the cant of a roller, which it does not contain")
 
 
 if __name__ == "__main__":
