@@ -95,7 +95,8 @@ void cntc_setsolverflags(const int *ire, const int *icp, const int *gdigit, cons
  *   10, 11    none                                        no damping, damping as before
  *   12        cdampn, cdampt [T], dfnmax, dftmax [F/T]    damping
  *   With flag CNTC_ic_bound = 1, set before, 0 to 7 take one value more, the last: the flexibility of a
- *   thin sheet [L3/F]. */
+ *   thin sheet [L3/F]. The limit maxout of outer iterations becomes 1 for like bodies, and 10 in place of 1 for
+ *   others; cntc_setsolverflags, called later, replaces it. */
 void cntc_setmaterialparameters(const int *ire, const int *icp, const int *imeth, const int *nparam,
                                 const double *rparam);
 

@@ -546,13 +546,16 @@ class Element:
                  [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
-                   maxout: int = 1, order: int = 2, accuracy: float = 0.0, allow: str = "nothing") -> None:
+                   maxout: int = 10, order: int = 2, accuracy: float = 0.0, allow: str = "nothing") -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0), and order of the discretisation.
 
         Parameters
         ----------
-        eps, maxgs, maxin, maxnr, maxout
+        eps, maxgs, maxin, maxnr
             Relative tolerance of the equations [-], and limits of iterations.
+        maxout
+            Limit of the iterations between pressures and tractions of dissimilar bodies, which like bodies do not need; 1: one pass
+            (Johnson's method), until the next :meth:`set_material`.
         order
             Order of the discretisation of rolling: 2, with errors proportional to the square of the element size, for the cases
             that it supports (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
