@@ -1,8 +1,8 @@
 /* CONTACT: rolling and sliding contact with friction - routines of the library for C and C++.
  * Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
  *
- * Each argument is passed by its address, single numbers included. Arrays have the length that stands
- * in front of them; texts need no null at the end, their length counts. Nothing that is passed is kept.
+ * Each argument is passed by its address, single numbers included. Arrays are preceded by their
+ * length; texts need no terminating null. No address is kept after a call.
  * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between
  * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md describes all. */
 #ifndef CONTACT_ADDON_H

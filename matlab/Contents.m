@@ -59,7 +59,7 @@
 %   cntc_buildmex               - build the gateway between Octave and the library.
 %   cntc_initlibrary            - load the library and begin a run.
 %   cntc_managelicense          - no licence is needed; returns 0.
-%   cntc_getmagicnumbers        - struct with the numbers that stand for flags, fields, and so on.
+%   cntc_getmagicnumbers        - struct with the named numbers of flags, fields, and so on.
 %   cntc_closelibrary           - release all result elements, close the files and unload the library.
 %   cntc_initialize             - create a result element.
 %   cntc_setglobalflags         - set flags of the library as a whole.

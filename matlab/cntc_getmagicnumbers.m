@@ -1,5 +1,5 @@
 function [ CNTC ] = cntc_getmagicnumbers( )
-% CNTC_GETMAGICNUMBERS  Struct with the numbers that stand for flags, fields, and so on.
+% CNTC_GETMAGICNUMBERS  Struct with the named numbers of flags, fields, and so on.
 %
 %   CNTC = cntc_getmagicnumbers()
 %

@@ -260,9 +260,9 @@ def _errors(ire: int, icp: int, motion: str) -> dict[str, float]:
     return {name: float(error) for name, error in zip(names, cntc.geterrors(ire, icp)) if error >= 0.0}
 
 
-def _wear(ire: int, icp: int, motion: str, wanted: bool) -> tuple[dict[str, float] | None, Field | None, Field | None]:
+def _wear(ire: int, icp: int, motion: str, is_requested: bool) -> tuple[dict[str, float] | None, Field | None, Field | None]:
     """Totals of wear and fatigue by their names, density of power, depth"""
-    if not wanted:
+    if not is_requested:
         return None, None, None
     names = ("t_gamma", "wear_index", "max_power", "max_wear", "worn_section", "traction", "shakedown_load", "shakedown",
              "fatigue_index", "max_mises", "max_tresca")
@@ -344,7 +344,7 @@ class Stresses:
         length, stress = meaning_of("pen", self.units)[0], meaning_of("pn", self.units)[0]
         values = {name: (("z", "y", "x"), field, {"long_name": stress_meaning(name), "units": length if name[0] == "u" else stress})
                   for name, field in self.fields().items()}
-        depth = {"z": "depth", "x": "longitudinal place", "y": "lateral place"}
+        depth = {"z": "depth", "x": "longitudinal position", "y": "lateral position"}
         return xarray.Dataset(values, {name: (name, getattr(self, name), {"long_name": text, "units": length})
                                        for name, text in depth.items()})
 
@@ -617,9 +617,9 @@ class Element:
             last_error(self.number, self._icp)
         if self._status != "solved":
             warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
-        asked, reached = cntc.getflags(self.number, self._icp, [CNTC["own_accuracy"], CNTC["own_reached"]])
-        if asked and not reached:
-            warnings.warn("The accuracy that was asked for was not reached; errors of the result tell what is left", ContactWarning,
+        required, reached = cntc.getflags(self.number, self._icp, [CNTC["own_accuracy"], CNTC["own_reached"]])
+        if required and not reached:
+            warnings.warn("The required accuracy was not reached; see the estimated errors of the result", ContactWarning,
                           stacklevel=3)
         if self._has_points and cntc.getflags(self.number, self._icp, [CNTC["own_wear"]])[0]:
             # the totals of wear include the largest stresses

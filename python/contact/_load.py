@@ -192,8 +192,8 @@ class Experiment(Sequence[Case]):
         ended = [case.status for case in self._cases]
         counts = [f"{ended.count(word)} {word}" for word in ("solved", "not converged", "refused") if word in ended]
         state = "" if self.complete is not False else ", not complete"
-        told = "".join(f", {count}" for count in counts)
-        return f"<Experiment {os.path.basename(self.path)}: {len(self)} case{'s' if len(self) != 1 else ''}{told}{state}>"
+        numbers = "".join(f", {count}" for count in counts)
+        return f"<Experiment {os.path.basename(self.path)}: {len(self)} case{'s' if len(self) != 1 else ''}{numbers}{state}>"
 
     def table(self) -> dict[str, Any]:
         """Totals of all patches in columns, one row per patch: for curves, and for ``pandas.DataFrame(...)``.
@@ -302,12 +302,13 @@ def _load_hdf5(path: str) -> Experiment:
                 element, problem = int(columns["result_element"][row]), int(columns["contact_problem"][row])
                 name = f"re{element:03d}_" if element else ""
                 group = file[name + f"case_{int(number):04d}" + (f"_cp{problem}" if problem > 1 else "")]
-                told = _values(group["status"]) if "status" in group else {}
+                outcome = _values(group["status"]) if "status" in group else {}
                 solved = bool(columns["solved"][row])
-                status = told.get("status") or ("solved" if columns["converged"][row] else "not converged" if solved else "refused")
+                status = outcome.get("status") or (
+                    "solved" if columns["converged"][row] else "not converged" if solved else "refused")
                 names = sorted((name for name in group if name.startswith("patch_")), key=lambda name: int(name[6:]))
                 inputs = {name: _values(values) for name, values in group["inputs"].items()} if "inputs" in group else {}
-                cases.append(Case(int(number), str(status), str(told.get("reason", "")),
+                cases.append(Case(int(number), str(status), str(outcome.get("reason", "")),
                                   _values(group["totals"]) if "totals" in group else {},
                                   tuple(_stored_patch(int(name[6:]), group[name]) for name in names), inputs, element, problem))
             return Experiment(path, cases, bool(file.attrs["complete"]) if "complete" in file.attrs else None)
@@ -328,20 +329,20 @@ def _load_mat(path: str) -> Experiment:
     cases: dict[int, Case] = {}
     for name in paths:
         number = int((re.search(r"\.(\d{4,})[a-z]?\.mat$", name) or [0, 1])[1])
-        told = read_mat(name)
-        patch = StoredPatch(max(1, told.patch), told.totals, told.fields, told.grid)
+        contents = read_mat(name)
+        patch = StoredPatch(max(1, contents.patch), contents.totals, contents.fields, contents.grid)
         before = cases.get(number)
-        cases[number] = Case(number, told.status, told.reason, {}, (*(before.patches if before else ()), patch))
+        cases[number] = Case(number, contents.status, contents.reason, {}, (*(before.patches if before else ()), patch))
     return Experiment(path, [cases[number] for number in sorted(cases)], None)
 
 
 def _load_out(path: str) -> Experiment:
-    told = read_out(path)
+    contents = read_out(path)
     cases = [Case(case.number, case.status, case.reason, case.totals,
                   tuple(StoredPatch(number, totals, {}, {}) for number, totals in sorted(case.patches.items())),
                   result_element=case.result_element)
-             for case in told.cases]
-    return Experiment(path, cases, told.complete)
+             for case in contents.cases]
+    return Experiment(path, cases, contents.complete)
 
 
 __all__ = ["Case", "Experiment", "Field", "StoredPatch", "load"]

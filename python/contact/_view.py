@@ -201,8 +201,8 @@ class View:
         if self._has_fields():
             places = {"x": ("x", self.x, {"long_name": "centres of columns", "units": length}),
                       "y": ("y", self.y, {"long_name": "centres of rows", "units": length})}
-        told = {"Conventions": CONVENTIONS, "title": self._title(), "source": f"contact {VERSION}"}
-        return xarray.Dataset(variables, places, told)
+        attributes = {"Conventions": CONVENTIONS, "title": self._title(), "source": f"contact {VERSION}"}
+        return xarray.Dataset(variables, places, attributes)
 
 
 def tree(root: Any, children: list[Any]) -> Any:

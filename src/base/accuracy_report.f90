@@ -14,7 +14,7 @@ module contact_base_accuracy_report
    !> Outcome of a search for the discretisation that reaches a requested accuracy
    type :: accuracy_report
       !> Requested bound of the relative error of the forces, and estimated error of the result [-]; a negative estimate: none
-      real(wp) :: asked = 0.0_wp, estimated = -1.0_wp
+      real(wp) :: required = 0.0_wp, estimated = -1.0_wp
       !> Is the estimate within the requested bound?
       logical :: is_met = .false.
       !> Number of elements along x and y, 0 for wheel and rail, where each patch has its own grid; element sides [mm]

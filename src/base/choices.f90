@@ -39,7 +39,7 @@ module contact_base_choices
    !> Prescribed quantities in tangential direction (F)
    type :: force_control_list
       integer :: creepages = 0, fx_and_ceta = 1, fx_and_fy = 2
-      !> Module 1: longitudinal force in place of the pitch rate; rail on springs
+      !> Module 1: longitudinal force instead of the pitch rate; rail on springs
       integer :: longitudinal_force = 1, massless_rail = 3
    end type force_control_list
    type(force_control_list), parameter :: force_control = force_control_list()

@@ -154,7 +154,7 @@ contains
          reason = "it is not below the folder of the experiment; a confined run follows no '..', no absolute name and no link " &
             & // "that leaves it"
       else if (file == link) then
-         reason = "there is a symbolic link in its name; this system cannot tell where links lead (openat2 is missing), so that " &
+         reason = "there is a symbolic link in its name; this system cannot resolve links (openat2 is missing), so that " &
             & // "a confined run follows none"
       else
          call describe_failure(file, cause, reason)

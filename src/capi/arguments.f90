@@ -10,7 +10,7 @@ module contact_capi_arguments
    implicit none (type, external)
    private
 
-   public :: no_number, integer_of, real_of, path_of, integers_of, raised, give, give_message, copy_text
+   public :: no_number, integer_of, real_of, path_of, integers_of, raised, set_argument, set_message, copy_text
 
    !> Value of an integer that was not given; no code, index or count is as large
    integer, parameter :: no_number = -huge(1)
@@ -99,14 +99,14 @@ contains
    end function raised
 
    !> Return one integer
-   pure subroutine give(value, argument)
+   pure subroutine set_argument(value, argument)
       !> Value to be returned
       integer, intent(in) :: value
       !> Argument that receives it, if present
       integer(c_int), intent(inout), optional :: argument
 
       if (present(argument)) argument = int(value, c_int)
-   end subroutine give
+   end subroutine set_argument
 
    !> Convert a null-terminated text to a Fortran text, "" for a null pointer
    subroutine copy_text(pointer, text)
@@ -127,7 +127,7 @@ contains
    end subroutine copy_text
 
    !> Copy a text to the buffer of the caller, truncated to its size and null-terminated
-   subroutine give_message(text, buffer, length)
+   subroutine set_message(text, buffer, length)
       !> Text of one line
       character(len=*), intent(in) :: text
       !> Buffer; null if no text is requested
@@ -144,5 +144,5 @@ contains
          letters(i) = text(i:i)
       end do
       letters(n + 1) = c_null_char
-   end subroutine give_message
+   end subroutine set_message
 end module contact_capi_arguments

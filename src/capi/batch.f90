@@ -4,7 +4,7 @@ module contact_capi_batch
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
-   use contact_capi_arguments, only : copy_text, first_failure, give_message, wrong_call
+   use contact_capi_arguments, only : copy_text, first_failure, set_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_batch, only : batch_field, batch_room, case_batch, close_batch, find_field, open_batch, &
       & solve_cases, solve_variations
@@ -124,18 +124,18 @@ contains
       job%cases = 0
       job%columns = 0
       status = wrong_call
-      call give_message("", message, length)
+      call set_message("", message, length)
       if (.not. c_associated(handle)) then
-         call give_message("contact_batch_solve: there is no batch", message, length)
+         call set_message("contact_batch_solve: there is no batch", message, length)
          return
       end if
       call c_f_pointer(handle, request%open)
       if (request%open%is_lost) then
-         call give_message("contact_batch_solve: the batch ran out of memory and can only be closed", message, length)
+         call set_message("contact_batch_solve: the batch ran out of memory and can only be closed", message, length)
          return
       end if
       if (is_wrong(job)) then
-         call give_message("contact_batch_solve: a number of the job is negative, or an array is missing", message, length)
+         call set_message("contact_batch_solve: a number of the job is negative, or an array is missing", message, length)
          return
       end if
       request%job => job
@@ -148,10 +148,10 @@ contains
       if (cause /= guard_end%done) then
          request%open%is_lost = .true.
          status = first_failure + int(error_kind%memory, c_int)
-         call give_message(trim(cause_text(cause)) // " for the batch", message, length)
+         call set_message(trim(cause_text(cause)) // " for the batch", message, length)
       else if (allocated(request%error)) then
          status = first_failure + int(request%error%kind, c_int)
-         call give_message(request%error%message, message, length)
+         call set_message(request%error%message, message, length)
       end if
       call give_floats_back()
    end function contact_batch_solve
@@ -194,7 +194,7 @@ contains
             if (allocated(names)) then
                call solve_variations(request%open%batch, text, folder, names, sets, room, request%error)
             else
-               call fatal_error(request%error, "the names of the job are not as many as its numbers")
+               call fatal_error(request%error, "the number of names of the job differs from that of its numbers")
             end if
          end if
          job%rows = int(room%rows, c_int)
@@ -244,9 +244,9 @@ contains
       if (open%is_lost) return
       if (number < 1 .or. number > open%batch%count) return
       associate (column => open%batch%columns(number))
-         call give_message(trim(column%name), name, length)
-         call give_message(trim(column%unit), unit, length)
-         call give_message(trim(column%meaning), meaning, length)
+         call set_message(trim(column%name), name, length)
+         call set_message(trim(column%unit), unit, length)
+         call set_message(trim(column%meaning), meaning, length)
          kind = merge(of_pair, 0_c_int, column%is_of_pair) + merge(1_c_int, 0_c_int, column%is_count)
       end associate
    end function contact_batch_column
@@ -282,7 +282,7 @@ contains
       mx = size(request%field%values, 1, c_int)
       my = size(request%field%values, 2, c_int)
       frame = request%field%frame
-      call give_message(trim(request%field%unit), unit, length)
+      call set_message(trim(request%field%unit), unit, length)
       status = 0_c_int
    end function contact_batch_field
 

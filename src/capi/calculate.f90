@@ -5,7 +5,7 @@ module contact_capi_calculate
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of
+   use contact_capi_arguments, only : integer_of, set_argument
    use contact_capi_calculate1, only : check_data, finish_wheel_rail, solve_wheel_rail
    use contact_capi_calculate3, only : finish_contact, solve_contact
    use contact_capi_library, only : entry_type
@@ -70,7 +70,7 @@ contains
          call say(1, this, "done...")
          call leave_calculation(problem)
       end if
-      call give(code, ierror)
+      call set_argument(code, ierror)
    end subroutine calculate
 
    !> Calculate one case: check that the settings are complete and compatible, solve it, report the outcome
@@ -88,7 +88,7 @@ contains
       k = first_refusal(problem, "cntc_set")
       if (k > 0) then
          code = problem%refused(k)%code
-         call fatal_error(error, "a setting was refused and not made anew: " // problem%refused(k)%reason)
+         call fatal_error(error, "a setting was refused and not made again: " // problem%refused(k)%reason)
       else
          log = library_log()
          problem%cases = problem%cases + 1

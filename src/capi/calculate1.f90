@@ -93,7 +93,7 @@ contains
          end if
          if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
          if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
-            & " contact patches, the last ones cannot be asked for")
+            & " contact patches, the last ones are not available")
       end associate
    end subroutine finish_wheel_rail
 

@@ -12,10 +12,10 @@ module contact_capi_caller
    implicit none (type, external)
    private
 
-   public :: answer_place, caller, integer_list, min_value, real_list
+   public :: caller, integer_list, min_value, real_list, result_buffer
 
    !> Maximum number of scalar real arguments of a routine
-   integer, parameter, public :: most_alone = 8
+   integer, parameter, public :: max_single_reals = 8
 
    !> A number that is raised to the minimum required by the models instead of being refused; not if it is negative or NaN
    type :: raised_number
@@ -39,11 +39,11 @@ module contact_capi_caller
    end type real_list
 
    !> Buffer of a result
-   type :: answer_place
+   type :: result_buffer
       type(c_ptr) :: address = c_null_ptr
       !> Number of elements of the buffer; 0 if the caller gave a null pointer
-      integer :: room = 0
-   end type answer_place
+      integer :: length = 0
+   end type result_buffer
 
    !> Number of values that a setting requires, and has read
    type :: tally
@@ -51,7 +51,7 @@ module contact_capi_caller
       integer :: needed = 0, optional = 0, spare = 0
       integer :: taken = 0
    contains
-      procedure :: go_on
+      procedure :: count_next
    end type tally
 
    !> Call of a routine
@@ -59,7 +59,7 @@ module contact_capi_caller
    !> A setting reads its numbers in order, and the first invalid one is reported. It is described between `do while
    !> (a%next_pass())` and `end do`, and stored if `is_good` after the loop: the first pass counts the required numbers, and if the
    !> caller gave as many, the second pass reads them. Other routines access the components directly, and return results with
-   !> `give`.
+   !> `set_result`.
    type, extends(case_archive) :: caller
       type(entry_type) :: call_of
       !> Units of the caller
@@ -70,13 +70,13 @@ module contact_capi_caller
       type(integer_list) :: integers(2)
       type(real_list) :: numbers(3)
       !> Values of the scalar real arguments
-      real(wp) :: alone(most_alone) = 0.0_wp
+      real(wp) :: single_reals(max_single_reals) = 0.0_wp
       !> Is there a list of integers? If not, integers are in the list of real numbers
       logical :: has_integers = .false.
       !> Name of a file
       character(len=:), allocatable :: path
       !> Buffers of the results of the routine, in their order
-      type(answer_place) :: answers(4)
+      type(result_buffer) :: buffers(4)
       !> Is the next number optional? If missing, its value is unchanged
       logical :: may_miss = .false.
       integer, private :: pass = 0
@@ -91,12 +91,12 @@ module contact_capi_caller
       procedure :: fail => refuse_number
       procedure :: check => check_number
       !> Return a list, or one number per result; lists are truncated to the size of the buffer
-      generic :: give => give_numbers, give_integers
-      generic :: give_each => give_each_number, give_each_integer
+      generic :: set_result => set_numbers, set_integers
+      generic :: set_each_result => set_each_number, set_each_integer
       !> Buffer of a result
       procedure :: numbers_at
       procedure :: integers_at
-      procedure, private :: give_numbers, give_integers, give_each_number, give_each_integer
+      procedure, private :: set_numbers, set_integers, set_each_number, set_each_integer
    end type caller
 
 contains
@@ -132,11 +132,11 @@ contains
       logical, intent(in) :: optional
       logical :: given
 
-      call self%real_tally%go_on(self%is_reading, optional, given)
+      call self%real_tally%count_next(self%is_reading, optional, given)
    end subroutine skip
 
    !> Count one more number, or determine whether the caller gave it
-   pure subroutine go_on(self, is_taking, optional, given)
+   pure subroutine count_next(self, is_taking, optional, given)
       class(tally), intent(inout) :: self
       !> Second pass? May the number be missing?
       logical, intent(in) :: is_taking, optional
@@ -151,7 +151,7 @@ contains
       else if (.not. is_taking) then
          self%needed = self%needed + 1
       end if
-   end subroutine go_on
+   end subroutine count_next
 
    !> Refuse the call with a reason; nothing is stored
    subroutine refuse_call(self, reason)
@@ -195,9 +195,9 @@ contains
       associate (item => self%items(place), row => self%items(place)%row)
          is_among_reals = .not. (associated(item%i) .and. self%has_integers)
          if (is_among_reals) then
-            call self%real_tally%go_on(self%is_reading, item%is_optional .or. self%may_miss, item%given)
+            call self%real_tally%count_next(self%is_reading, item%is_optional .or. self%may_miss, item%given)
          else
-            call self%integer_tally%go_on(self%is_reading, item%is_optional .or. self%may_miss, item%given)
+            call self%integer_tally%count_next(self%is_reading, item%is_optional .or. self%may_miss, item%given)
          end if
          value = item%default
          if (self%may_miss .and. associated(item%r)) value = item%r
@@ -306,32 +306,32 @@ contains
    end subroutine check_number
 
    !> Buffer of a result, of size 0 if the caller gave none
-   function numbers_at(self, k, n) result(room)
+   function numbers_at(self, k, n) result(buffer)
       class(caller), intent(in) :: self
       !> Index of the result
       integer, intent(in) :: k
       !> Number of elements, if it is not an argument of its own
       integer(long), intent(in), optional :: n
-      real(c_double), pointer :: room(:)
+      real(c_double), pointer :: buffer(:)
       integer(long) :: length
 
-      length = self%answers(k)%room
-      if (present(n)) length = merge(n, 0_long, c_associated(self%answers(k)%address))
-      call c_f_pointer(self%answers(k)%address, room, [length])
+      length = self%buffers(k)%length
+      if (present(n)) length = merge(n, 0_long, c_associated(self%buffers(k)%address))
+      call c_f_pointer(self%buffers(k)%address, buffer, [length])
    end function numbers_at
 
    !> The same for integers
-   function integers_at(self, k) result(room)
+   function integers_at(self, k) result(buffer)
       class(caller), intent(in) :: self
       !> Index of the result
       integer, intent(in) :: k
-      integer(c_int), pointer :: room(:)
+      integer(c_int), pointer :: buffer(:)
 
-      call c_f_pointer(self%answers(k)%address, room, [self%answers(k)%room])
+      call c_f_pointer(self%buffers(k)%address, buffer, [self%buffers(k)%length])
    end function integers_at
 
    !> Return real numbers, truncated to the size of the buffer
-   subroutine give_numbers(self, k, list, fills)
+   subroutine set_numbers(self, k, list, fills)
       class(caller), intent(in) :: self
       !> Index of the result
       integer, intent(in) :: k
@@ -339,49 +339,49 @@ contains
       real(wp), intent(in) :: list(:)
       !> Fill the rest of the buffer with zeros? Default: no
       logical, intent(in), optional :: fills
-      real(c_double), pointer :: room(:)
+      real(c_double), pointer :: buffer(:)
       integer :: n
 
-      room => self%numbers_at(k)
-      n = min(size(list), size(room))
-      room(:n) = real(list(:n), c_double)
-      if (present(fills)) room(n + 1:) = 0.0_c_double
-   end subroutine give_numbers
+      buffer => self%numbers_at(k)
+      n = min(size(list), size(buffer))
+      buffer(:n) = real(list(:n), c_double)
+      if (present(fills)) buffer(n + 1:) = 0.0_c_double
+   end subroutine set_numbers
 
    !> Return integers, truncated to the size of the buffer
-   subroutine give_integers(self, k, list)
+   subroutine set_integers(self, k, list)
       class(caller), intent(in) :: self
       !> Index of the result, and values
       integer, intent(in) :: k, list(:)
-      integer(c_int), pointer :: room(:)
+      integer(c_int), pointer :: buffer(:)
       integer :: n
 
-      room => self%integers_at(k)
-      n = min(size(list), size(room))
-      room(:n) = int(list(:n), c_int)
-   end subroutine give_integers
+      buffer => self%integers_at(k)
+      n = min(size(list), size(buffer))
+      buffer(:n) = int(list(:n), c_int)
+   end subroutine set_integers
 
    !> Return results that are single real numbers
-   subroutine give_each_number(self, values)
+   subroutine set_each_number(self, values)
       class(caller), intent(in) :: self
       !> One value for each result, in the units of the caller
       real(wp), intent(in) :: values(:)
       integer :: k
 
       do k = 1, size(values)
-         call self%give(k, values(k:k))
+         call self%set_result(k, values(k:k))
       end do
-   end subroutine give_each_number
+   end subroutine set_each_number
 
    !> Return results that are single integers
-   subroutine give_each_integer(self, values)
+   subroutine set_each_integer(self, values)
       class(caller), intent(in) :: self
       !> One value for each result
       integer, intent(in) :: values(:)
       integer :: k
 
       do k = 1, size(values)
-         call self%give(k, values(k:k))
+         call self%set_result(k, values(k:k))
       end do
-   end subroutine give_each_integer
+   end subroutine set_each_integer
 end module contact_capi_caller

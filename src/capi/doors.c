@@ -1,4 +1,4 @@
-/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,
+/* The routines that the library exports, see door.h: their number of arguments, positions of ire, icp and ierror,
  * and kinds of arguments. Made by src/capi/make_interface.py from src/capi/interface.txt; change those. */
 #include "door.h"
 

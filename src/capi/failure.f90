@@ -4,7 +4,7 @@ module contact_capi_failure
    use omp_lib, only : omp_unset_lock
    use contact_base_case_status, only : case_status
    use contact_base_guard, only : cause_text
-   use contact_capi_arguments, only : give, integer_of
+   use contact_capi_arguments, only : integer_of, set_argument
    use contact_capi_host, only : call_stage, find_call, give_floats_back, note_call
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, keep_status, refuse_for_ever
@@ -64,6 +64,6 @@ contains
          end if
          call forget_call(problem, stage == call_stage%calculation)
       end if
-      call give(library_code%other, ierror)
+      call set_argument(library_code%other, ierror)
    end subroutine contact_call_failed
 end module contact_capi_failure

@@ -64,7 +64,7 @@ contains
       if (any(row%name == ["sx", "sy", "wx", "wy"])) unit = quantity%number
       if (any(row%name == ["wx", "wy"])) factor = -1.0_wp
       factor = factor/row%divisor*outward(view%units, unit, row%along, view%left)
-      call a%give(k, factor*reshape(row%values(:, view%rows()), [size(row%values)]))
+      call a%set_result(k, factor*reshape(row%values(:, view%rows()), [size(row%values)]))
    end subroutine give_field
 
    !> Estimated errors of the totals of a patch; -1 if there is no estimate
@@ -78,7 +78,7 @@ contains
       names = [character(len=16) :: "fn", "fx", "fy", "mz", "pen", "pmax", "contact_area", "cksi", "ceta", "friction_power", &
          & "elastic_energy", "max_temp1"]
       if (view%patch%motion == motion%shift) names(8:10) = [character(len=16) :: "shift_x", "shift_y", "friction_work"]
-      call a%give(1, view%errors(names))
+      call a%set_result(1, view%errors(names))
    end subroutine get_errors
 
    !> Totals of wear and fatigue of a patch; 0 for those that do not exist in the case
@@ -88,7 +88,7 @@ contains
 
       if (.not. allocated(view%patch%wear)) call complain(a%call_of, &
          & "there is no wear: set the flag CNTC_own_wear, or call cntc_setwear, before the calculation")
-      call a%give(1, view%totals([character(len=16) :: "t_gamma", "wear_index", "max_power", "max_wear", "worn_section", &
+      call a%set_result(1, view%totals([character(len=16) :: "t_gamma", "wear_index", "max_power", "max_wear", "worn_section", &
          & "traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]))
    end subroutine get_wear
 
@@ -98,10 +98,10 @@ contains
       type(result_view), intent(in) :: view
 
       if (allocated(view%patch%temp1)) then
-         call a%give_each([maxval(view%patch%temp1), maxval(view%patch%temp2)])
+         call a%set_each_result([maxval(view%patch%temp1), maxval(view%patch%temp2)])
       else
          call complain(a%call_of, "surface temperatures are not calculated in this case")
-         call a%give_each([0.0_wp, 0.0_wp])
+         call a%set_each_result([0.0_wp, 0.0_wp])
       end if
    end subroutine get_largest_temperatures
 end module contact_capi_fields

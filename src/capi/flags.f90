@@ -37,7 +37,7 @@ contains
       type(library_problem), intent(inout) :: problem
       integer :: k
 
-      ! each flag is a setting of its own
+      ! each flag is a separate setting
       call end_setting(problem)
       associate (this => a%call_of, codes => a%integers(1)%v, numbers => a%integers(2)%v)
          do k = 1, min(size(codes), size(numbers))
@@ -236,7 +236,7 @@ contains
                   cycle
                end if
             end if
-            call complain(a%call_of, "the flag " // integer_text(codes(k)) // " cannot be asked for")
+            call complain(a%call_of, "the flag " // integer_text(codes(k)) // " cannot be read")
          end do
       end associate
    end subroutine get_flags

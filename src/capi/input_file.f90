@@ -2,7 +2,7 @@
 module contact_capi_input_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int
    use contact_base_error, only : error_type, fatal_error, full_text
-   use contact_capi_arguments, only : give, integer_of, path_of
+   use contact_capi_arguments, only : integer_of, path_of, set_argument
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, say
@@ -66,7 +66,7 @@ contains
          end if
          call leave(problem)
       end if
-      call give(code, ierror)
+      call set_argument(code, ierror)
    end subroutine cntc_readinpfile
 
    !> Read the first case of a file of module 1

@@ -2,7 +2,7 @@
 module contact_capi_jacobian
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_ptr
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give, give_message, integer_of
+   use contact_capi_arguments, only : integer_of, set_argument, set_message
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
@@ -66,8 +66,8 @@ contains
          end if
          call leave(problem)
       end if
-      call give(found, state)
-      if (present(message_length)) call give_message(reason, message, message_length)
+      call set_argument(found, state)
+      if (present(message_length)) call set_message(reason, message, message_length)
    end subroutine contact_wheel_rail_jacobian
 
    !> Convert from internal units and a wheel on the right side of the track to units and side of the caller

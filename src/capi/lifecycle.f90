@@ -5,7 +5,7 @@ module contact_capi_lifecycle
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_ptr
    use omp_lib, only : omp_in_parallel
    use contact_base_case_status, only : case_status
-   use contact_capi_arguments, only : give, give_message, integer_of, integers_of, path_of
+   use contact_capi_arguments, only : integer_of, integers_of, path_of, set_argument, set_message
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, last_complaint, last_status, say, set_debugging
    use contact_capi_registry, only : is_running, max_threads, record_units, register_element, remove_element, set_threads, &
@@ -46,8 +46,8 @@ contains
       if (is_parallel(this)) return
       call start_library(trim(path_of(c_wrkdir, len_wrkdir)), trim(path_of(c_outdir, len_outdir)), &
          & trim(path_of(c_expnam, len_expnam)), integer_of(ioutput) == 1, started)
-      call give(interface_version, ifcver)
-      call give(library_code%success, ierror)
+      call set_argument(interface_version, ifcver)
+      call set_argument(library_code%success, ierror)
    end subroutine cntc_initializefirst
 
    !> The same under its name in an earlier release
@@ -75,7 +75,7 @@ contains
       this = entry_type("cntc_initialize", integer_of(ire))
       if (is_parallel(this)) return
       call start_library("", trim(path_of(c_outdir, len_outdir)), "", .false., started)
-      call give(interface_version, ifcver)
+      call set_argument(interface_version, ifcver)
       was_active = .false.
       if (integer_of(imodul) == 1 .or. integer_of(imodul) == 3) then
          call register_element(this%ire, integer_of(imodul), code, was_active)
@@ -87,7 +87,7 @@ contains
          call complain(this, "the module must be 1, wheel and rail, or 3, a contact problem", code)
       end if
       if (was_active) call complain(this, "the result element is active already, nothing is changed", library_code%success)
-      call give(code, ierror)
+      call set_argument(code, ierror)
    end subroutine cntc_initialize
 
    !> Set flags of the library as a whole
@@ -124,7 +124,7 @@ contains
    subroutine cntc_getmaxnumthreads(mxthrd) bind(c, name="inside_cntc_getmaxnumthreads")
       integer(c_int), intent(inout), optional :: mxthrd
 
-      call give(max_threads(), mxthrd)
+      call set_argument(max_threads(), mxthrd)
    end subroutine cntc_getmaxnumthreads
 
    !> Free a result element; the run ends with the last one
@@ -178,7 +178,7 @@ contains
 
       call last_complaint(number, text, int(ire), int(icp))
       code = int(number, c_int)
-      call give_message(text, message, message_length)
+      call set_message(text, message, message_length)
    end function contact_last_error
 
    !> Final status of the last calculation of a problem, member of case_state; -1: no calculation
@@ -201,9 +201,9 @@ contains
       if (known) state = int(status%state, c_int)
       if (present(iteration)) iteration = int(status%iteration, c_int)
       if (allocated(status%reason)) then
-         call give_message(status%reason, message, message_length)
+         call set_message(status%reason, message, message_length)
       else
-         call give_message("", message, message_length)
+         call set_message("", message, message_length)
       end if
    end function contact_case_status
 end module contact_capi_lifecycle

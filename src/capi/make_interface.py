@@ -101,7 +101,7 @@ def element_fields():
     fields, letters = {}, {"mm": "L", "N/mm2": "F/L2"}
     for code, name, unit, meaning in re.findall(r'call add\((\d+), "(\w+)", "([^"]*)", "([^"]*)"', text):
         _, texts = fields.setdefault(int(code), (name, []))
-        # shifts, which follow slip, are in mm in all units
+        # slip in shifts is in mm in all units
         texts.append(f"{meaning} [{unit if texts else letters.get(unit, unit)}]")
     return [Constant("CNTC_fld_" + name, code, "; ".join(texts)) for code, (name, texts) in sorted(fields.items())]
 
@@ -122,7 +122,7 @@ def quantities():
 
 
 def read_table():
-    """Sections of the table as (title, list of constants or routines); undocumented routines apart"""
+    """Sections of the table as (title, list of constants or routines); undocumented routines separately"""
     constants, routines, undocumented = [], [], []
     items = None
     with open(os.path.join(HERE, "interface.txt"), encoding="utf-8") as file:
@@ -176,8 +176,8 @@ def c_header(routines):
     lines = ["/* CONTACT: rolling and sliding contact with friction - routines of the library for C and C++.",
              f" * {ORIGIN}",
              " *",
-             " * Each argument is passed by its address, single numbers included. Arrays have the length that stands",
-             " * in front of them; texts need no null at the end, their length counts. Nothing that is passed is kept.",
+             " * Each argument is passed by its address, single numbers included. Arrays are preceded by their",
+             " * length; texts need no terminating null. No address is kept after a call.",
              " * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between",
              " * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md describes all. */",
              "#ifndef CONTACT_ADDON_H", "#define CONTACT_ADDON_H", "",
@@ -289,7 +289,7 @@ def python_tables(constants, routines, undocumented):
 
 def c_doors(routines, undocumented):
     """Text of doors.c: names, numbers of arguments, and their kinds"""
-    lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,",
+    lines = ["/* The routines that the library exports, see door.h: their number of arguments, positions of ire, icp and ierror,",
              f" * and kinds of arguments. {ORIGIN} */", '#include "door.h"', ""]
     for title, routine in [(title, item) for title, items in routines + [("", undocumented)] for item in items]:
         names = [argument.name for argument in routine.arguments]
@@ -305,7 +305,7 @@ def page(constants, routines):
     """Text of doc/user/routines.md"""
     lines = [
         "# Routines and named numbers of the library", "",
-        "All routines of [the library](library.md) with their arguments as in C and Fortran, and the numbers that stand for flags,",
+        "All routines of [the library](library.md) with their arguments as in C and Fortran, and the named numbers of flags,",
         "fields and codes. Matlab and Python have functions of the same names without the lengths of arrays. Units: L length,",
         "F force, V velocity, A angle [rad], T time [s]; the flag `CNTC_if_units` chooses between mm and m. An array has its",
         "length in brackets; fields have one value per element, x running fastest.", "", f"<!-- {ORIGIN} -->"]

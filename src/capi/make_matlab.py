@@ -20,7 +20,7 @@ FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_manageli
 
 
 class Function:
-    """A function: the arguments of the routine that its callers give, and the values of the others"""
+    """A function: the arguments of the routine that callers pass, and the values of the others"""
 
     def __init__(self, routine, constants, origin):
         self.routine, self.origin = routine, origin
@@ -50,7 +50,7 @@ class Function:
         left = f"[{', '.join(results)}] = " if len(results) > 1 else f"{results[0]} = " if results else ""
         lines = [f"{name.upper()}  {' '.join(self.routine.text)}", "", f"  {left}{name}( {', '.join(self.given())} )", ""]
         about = [(names, with_defaults(names, text, self.defaults)) for names, text in self.routine.about]
-        told = {name for names, _ in about for name in re.split(r", ", names)}
+        described = {name for names, _ in about for name in re.split(r", ", names)}
         if self.kind in IDS:
             about.insert(0, ("ire" if self.kind == "pair" else "ire, icp", IDS[self.kind]))
         elif self.kind == "element":
@@ -65,7 +65,7 @@ class Function:
                                        break_long_words=False, break_on_hyphens=False)
             else:
                 lines.append("  " + text)
-        rest = [f"{outer(key)} = {shown}" for key, (_, shown) in self.defaults.items() if key not in told]
+        rest = [f"{outer(key)} = {shown}" for key, (_, shown) in self.defaults.items() if key not in described]
         if rest:
             lines.append(f"  Default: {', '.join(rest)}.")
         if self.is_grid or any(item.size == "grid" for item in self.inputs):
@@ -121,7 +121,7 @@ class Function:
         return lines
 
     def sharing(self, item):
-        """Arguments that callers give with the same length"""
+        """Arguments of equal length"""
         return [other for other in self.inputs if other.lengths == item.lengths]
 
     def passed(self, item, fields):
@@ -166,7 +166,7 @@ def with_defaults(names, text, defaults):
 
 def magic_numbers(constants, origin):
     lines = ["function [ CNTC ] = cntc_getmagicnumbers( )",
-             "% CNTC_GETMAGICNUMBERS  Struct with the numbers that stand for flags, fields, and so on.", "%",
+             "% CNTC_GETMAGICNUMBERS  Struct with the named numbers of flags, fields, and so on.", "%",
              "%   CNTC = cntc_getmagicnumbers()"]
     for title, items in constants:
         lines += ["%", f"% {title}", "%"]

@@ -64,22 +64,22 @@ contains
          call set_sampling(a%call_of, a%single(1), ints, a%numbers(1)%v, sample)
       end associate
       if (is_wheel) then
-         call answer(a, a%single(1), problem, problem%wheel, is_wheel, sample)
+         call get_values(a, a%single(1), problem, problem%wheel, is_wheel, sample)
       else
-         call answer(a, a%single(1), problem, problem%rail, is_wheel, sample)
+         call get_values(a, a%single(1), problem, problem%rail, is_wheel, sample)
       end if
    end subroutine get_profile_values
 
    !> Read the sampling from the arguments
-   subroutine set_sampling(this, wanted, ints, reals, sample)
+   subroutine set_sampling(this, requested_task, ints, reals, sample)
       type(entry_type), intent(in) :: this
       !> Member of `task`; integer and real arguments
-      integer, intent(in) :: wanted, ints(:)
+      integer, intent(in) :: requested_task, ints(:)
       real(wp), intent(in) :: reals(:)
       type(sampling), intent(out) :: sample
 
       if (size(ints) >= 2) sample%method = max(-1, min(max_parts, ints(2)))
-      if (wanted >= task%along_u) sample%method = 1
+      if (requested_task >= task%along_u) sample%method = 1
       if (size(reals) >= 1) sample%step = reals(1)
       if (sample%method == 1 .and. .not. sample%step >= min_step) then
          call complain(this, "the step of an even sampling is too small, the points of the spline are taken")
@@ -93,10 +93,10 @@ contains
    end subroutine set_sampling
 
    !> Return the requested data
-   subroutine answer(a, wanted, problem, given, is_wheel, sample)
+   subroutine get_values(a, requested_task, problem, given, is_wheel, sample)
       type(caller), intent(in) :: a
       !> Member of `task`
-      integer, intent(in) :: wanted
+      integer, intent(in) :: requested_task
       type(library_problem), intent(inout) :: problem
       type(given_profile), intent(in) :: given
       logical, intent(in) :: is_wheel
@@ -104,47 +104,47 @@ contains
       type(profile_curve) :: curve
       real(wp), allocatable :: s(:)
 
-      if (wanted == task%status) then
-         call a%give(1, [real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail])
+      if (requested_task == task%status) then
+         call a%set_result(1, [real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail])
          return
-      else if (wanted < task%status .or. wanted > task%dump) then
-         call complain(a%call_of, "there is no task " // integer_text(wanted) // "; -1 to 9 are")
+      else if (requested_task < task%status .or. requested_task > task%dump) then
+         call complain(a%call_of, "there is no task " // integer_text(requested_task) // "; -1 to 9 are")
          return
       else if (given%detail /= 0) then
          call complain(a%call_of, "the profile is missing or cannot be used", library_code%profile)
          return
-      else if (wanted >= task%along_u) then
-         call answer_along(a, wanted, given, sample)
+      else if (requested_task >= task%along_u) then
+         call get_values_along(a, requested_task, given, sample)
          return
       end if
       call section_of(a%call_of, problem, given, is_wheel, sample, curve)
       if (.not. allocated(curve%y%s)) then
-         call a%give(1, [real(library_code%profile, wp)])
+         call a%set_result(1, [real(library_code%profile, wp)])
          return
       end if
       call curve_positions(curve, sample%method, sample%step, s)
-      select case (wanted)
+      select case (requested_task)
       case (task%count)
-         call a%give(1, [real(size(s), wp)])
+         call a%set_result(1, [real(size(s), wp)])
       case (task%points)
-         call a%give(1, [curve%y%value(s), curve%z%value(s)])
+         call a%set_result(1, [curve%y%value(s), curve%z%value(s)])
       case (task%in_track)
-         call a%give(1, places_in_track(problem%spec%wheel_rail, problem%wheel_rail_result, is_wheel, curve%y%value(s), &
+         call a%set_result(1, places_in_track(problem%spec%wheel_rail, problem%wheel_rail_result, is_wheel, curve%y%value(s), &
             & curve%z%value(s)))
       case (task%gauge)
          if (is_wheel) then
             call complain(a%call_of, "a wheel has no gauge point")
-            call a%give(1, [real(library_code%profile, wp)])
+            call a%set_result(1, [real(library_code%profile, wp)])
          else
-            call a%give(1, gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
+            call a%set_result(1, gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
                & outward(problem%units, quantity%length))
          end if
       case (task%arc_length)
-         call a%give(1, s)
+         call a%set_result(1, s)
       case (task%slope)
-         call a%give(1, atan2(curve%z%slope(s), curve%y%slope(s))*outward(problem%units, quantity%angle))
+         call a%set_result(1, atan2(curve%z%slope(s), curve%y%slope(s))*outward(problem%units, quantity%angle))
       end select
-   end subroutine answer
+   end subroutine get_values
 
    !> The sampled curve: the section of a variable profile at a position; for input points their interpolation
    subroutine section_of(this, problem, given, is_wheel, sample, curve)
@@ -161,7 +161,7 @@ contains
       type(log_type) :: log
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder
-      type(profile_request) :: wanted
+      type(profile_request) :: request
 
       if (allocated(given%surface)) then
          call given%surface%cut(sample%place, section)
@@ -178,7 +178,7 @@ contains
          plain%smoothing = 0.0_wp
          call find_working_folder(folder)
          call load_profile(problem%wheel_rail%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
-            & folder, wanted, points%curve, points%surface, log, error)
+            & folder, request, points%curve, points%surface, log, error)
          curve = given%curve
          if (.not. allocated(error)) curve = points%curve
       else
@@ -187,9 +187,9 @@ contains
    end subroutine section_of
 
    !> Lines on a variable profile: along one of its coordinates u and v, or along the track; or the surface itself
-   subroutine answer_along(a, wanted, given, sample)
+   subroutine get_values_along(a, requested_task, given, sample)
       type(caller), intent(in) :: a
-      integer, intent(in) :: wanted
+      integer, intent(in) :: requested_task
       type(given_profile), intent(in) :: given
       type(sampling), intent(in) :: sample
       real(wp), allocatable :: list(:)
@@ -197,32 +197,32 @@ contains
       integer :: i, n
 
       if (.not. allocated(given%surface)) then
-         call complain(a%call_of, "the profile does not vary, task " // integer_text(wanted) // " is for variable profiles")
+         call complain(a%call_of, "the profile does not vary, task " // integer_text(requested_task) // " is for variable profiles")
          return
-      else if (wanted == task%dump) then
+      else if (requested_task == task%dump) then
          call write_surface(a%call_of, given%surface)
          return
       end if
       range = given%surface%u_range
-      if (wanted == task%along_u) range = [0.0_wp, real(given%surface%lines - 1, wp)]
+      if (requested_task == task%along_u) range = [0.0_wp, real(given%surface%lines - 1, wp)]
       if (sample%has_range) range = [sample%first, sample%last]
       n = int(max(0.0_wp, min(1.0e7_wp, (range(2) - range(1))/sample%step))) + 1
-      if (a%answers(1)%room == 1) then
-         call a%give(1, [real(n, wp)])
+      if (a%buffers(1)%length == 1) then
+         call a%set_result(1, [real(n, wp)])
          return
       end if
       ! no more points than the buffer of the caller holds
-      allocate(list(min(3*n, a%answers(1)%room)))
+      allocate(list(min(3*n, a%buffers(1)%length)))
       do i = 1, min(n, size(list))
          list(i) = range(1) + (i - 1)*sample%step
-         if (wanted == task%along_u) list(i) = sample%place
+         if (requested_task == task%along_u) list(i) = sample%place
          if (n + i > size(list)) cycle
-         call line_point(given%surface, 1 + wanted - task%along_u, sample%place, range(1) + (i - 1)*sample%step, y, z)
+         call line_point(given%surface, 1 + requested_task - task%along_u, sample%place, range(1) + (i - 1)*sample%step, y, z)
          list(n + i) = y
          if (2*n + i <= size(list)) list(2*n + i) = z
       end do
-      call a%give(1, list)
-   end subroutine answer_along
+      call a%set_result(1, list)
+   end subroutine get_values_along
 
    !> Write the surface as a Matlab or Octave script, a struct with knots and coefficients
    subroutine write_surface(this, surface)

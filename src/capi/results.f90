@@ -26,9 +26,9 @@ contains
       type(library_problem), intent(in) :: problem
 
       select case (a%single(1))
-      case (1); call a%give(1, kinematic_constants(problem, a%call_of%icp))
-      case (2); call a%give(1, material_constants(problem, a%call_of%icp))
-      case (3); call a%give(1, friction_constants(problem%spec))
+      case (1); call a%set_result(1, kinematic_constants(problem, a%call_of%icp))
+      case (2); call a%set_result(1, material_constants(problem, a%call_of%icp))
+      case (3); call a%set_result(1, friction_constants(problem%spec))
       case default; call complain(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2 and 3 are")
       end select
    end subroutine get_parameters
@@ -131,7 +131,7 @@ contains
             list(6) = sqrt(max(0.0_wp, grid%aa*grid%bb))*length
          end if
       end associate
-      call a%give(1, list)
+      call a%set_result(1, list)
    end subroutine get_hertz
 
    !> Sides of the elements: of the current grid, or as set for wheel and rail
@@ -142,10 +142,10 @@ contains
 
       associate (length => outward(problem%units, quantity%length))
          if (a%call_of%icp < 0) then
-            call a%give_each([problem%spec%wheel_rail%search%dx, problem%spec%wheel_rail%search%ds]*length)
+            call a%set_each_result([problem%spec%wheel_rail%search%dx, problem%spec%wheel_rail%search%ds]*length)
          else
             view = look_at(a%call_of, problem)
-            if (associated(view%patch)) call a%give_each([view%patch%grid%dx, view%patch%grid%dy]*length)
+            if (associated(view%patch)) call a%set_each_result([view%patch%grid%dx, view%patch%grid%dy]*length)
          end if
       end associate
    end subroutine get_element_sides
@@ -163,8 +163,8 @@ contains
          first_x = grid%x(1) + origin(1)
          first_y = grid%y(1) + origin(2)
          if (view%left) first_y = -(grid%y(grid%my) + origin(2))
-         call a%give(1, [real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, grid%dy*length], &
-            & fills=.true.)
+         call a%set_result(1, [real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, &
+            & grid%dx*length, grid%dy*length], fills=.true.)
       end associate
    end subroutine get_grid
 
@@ -176,7 +176,7 @@ contains
 
       approach = problem%stored%kinematics%pen
       if (problem%module_number == 1) approach = problem%wheel_rail_result%patches(a%call_of%icp)%contact%pen
-      call a%give_each([approach*outward(problem%units, quantity%length)])
+      call a%set_each_result([approach*outward(problem%units, quantity%length)])
    end subroutine get_approach
 
    !> Creepages or shifts, prescribed or computed
@@ -198,7 +198,7 @@ contains
       end if
       units = [quantity%number, quantity%number, quantity%spin]
       if (problem%motion() == motion%shift) units = [quantity%length, quantity%length, quantity%angle]
-      call a%give_each(creep*outward(problem%units, units, signs, left))
+      call a%set_each_result(creep*outward(problem%units, units, signs, left))
    end subroutine get_creepages
 
    !> Sensitivities: rows Fn, Fx, Fy, Mz, columns approach, creepages, spin; the first four by four entries
@@ -234,9 +234,9 @@ contains
       type(library_problem), intent(in) :: problem
 
       if (problem%module_number == 1) then
-         call a%give_each([problem%patch_cpu(a%call_of%icp), problem%patch_wall(a%call_of%icp)])
+         call a%set_each_result([problem%patch_cpu(a%call_of%icp), problem%patch_wall(a%call_of%icp)])
       else
-         call a%give_each([problem%watch%cpu, problem%watch%wall])
+         call a%set_each_result([problem%watch%cpu, problem%watch%wall])
       end if
    end subroutine get_time
 

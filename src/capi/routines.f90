@@ -6,7 +6,7 @@ module contact_capi_routines
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, path_of, real_of
-   use contact_capi_caller, only : answer_place, caller
+   use contact_capi_caller, only : caller, result_buffer
    use contact_capi_contact, only : set_creepages, set_extra_slip, set_grid, set_hertz, set_normal, set_undeformed_distance, &
       & set_velocity
    use contact_capi_fields, only : get_errors, get_field, get_fields, get_largest_temperatures, get_wear
@@ -58,12 +58,12 @@ contains
       if (.not. associated(problem)) return
       a%units = problem%units
       if (kinds(1) == "v") view = look_at(a%call_of, problem)
-      if (kinds(1) /= "v" .or. associated(view%patch)) call do_what_is_asked(a, problem, view)
+      if (kinds(1) /= "v" .or. associated(view%patch)) call execute_call(a, problem, view)
       call leave(problem)
    end subroutine run_routine
 
    !> Apply a setting, or give results
-   subroutine do_what_is_asked(a, problem, view)
+   subroutine execute_call(a, problem, view)
       type(caller), intent(inout) :: a
       type(library_problem), pointer, intent(inout) :: problem
       !> For routines that require a solved patch
@@ -103,9 +103,9 @@ contains
          call say(0, a%call_of, "the same as cntc_getProfileValues")
       case ("cntc_getWheelsetPosition"); call get_wheelset_position(a, problem)
       case ("cntc_getWheelsetVelocity"); call get_wheelset_velocity(a, problem)
-      case ("cntc_getNumContactPatches"); call a%give_each([size(problem%wheel_rail_result%patches)])
+      case ("cntc_getNumContactPatches"); call a%set_each_result([size(problem%wheel_rail_result%patches)])
       case ("cntc_getContactLocation"); call get_location(a, problem)
-      case ("cntc_getReferenceVelocity"); call a%give(1, kinematic_constants(problem, a%call_of%icp))
+      case ("cntc_getReferenceVelocity"); call a%set_result(1, kinematic_constants(problem, a%call_of%icp))
       case ("cntc_getHertzContact"); call get_hertz(a, problem)
       case ("cntc_getGridDiscretization"); call get_element_sides(a, problem)
       case ("cntc_getPenetration"); call get_approach(a, problem)
@@ -114,17 +114,17 @@ contains
       case ("cntc_getCalculationTime"); call get_time(a, problem)
       case ("subs_getBlocksize"); call get_block_size(a, problem)
       case ("subs_getResults"); call get_block(a, problem)
-      case ("cntc_getNumElements"); call a%give_each([view%patch%grid%mx, view%patch%grid%my])
+      case ("cntc_getNumElements"); call a%set_each_result([view%patch%grid%mx, view%patch%grid%my])
       case ("cntc_getPotContact"); call get_grid(a, problem, view)
-      case ("cntc_getContactForces"); call a%give_each(view%totals(["fn", "fx", "fy", "mz"]))
+      case ("cntc_getContactForces"); call a%set_each_result(view%totals(["fn", "fx", "fy", "mz"]))
       case ("cntc_getContactPatchAreas")
-         call a%give_each([view%patch%ncon, view%patch%nadh, view%patch%nslip]*(view%patch%grid%dx*view%patch%grid%dy &
+         call a%set_each_result([view%patch%ncon, view%patch%nadh, view%patch%nslip]*(view%patch%grid%dx*view%patch%grid%dy &
             & *outward(view%units, quantity%area)))
       case ("cntc_getElementDivision")
-         call a%give(1, reshape(view%patch%division(:, view%rows()), [size(view%patch%division)]))
-      case ("cntc_getMaximumPressure"); call a%give_each(view%totals(["pmax"]))
+         call a%set_result(1, reshape(view%patch%division(:, view%rows()), [size(view%patch%division)]))
+      case ("cntc_getMaximumPressure"); call a%set_each_result(view%totals(["pmax"]))
       case ("cntc_getMaximumTraction")
-         call a%give_each([maxval(hypot(view%patch%px, view%patch%py))*outward(view%units, quantity%pressure)])
+         call a%set_each_result([maxval(hypot(view%patch%px, view%patch%py))*outward(view%units, quantity%pressure)])
       case ("cntc_getMaximumTemperature"); call get_largest_temperatures(a, view)
       case ("cntc_getErrors"); call get_errors(a, view)
       case ("cntc_getWear"); call get_wear(a, view)
@@ -134,7 +134,7 @@ contains
       case ("cntc_getDisplacements"); call get_fields(a, view, ["un", "ux", "uy"])
       case ("cntc_getSensitivities"); call get_sensitivities(a, problem, view)
       end select
-   end subroutine do_what_is_asked
+   end subroutine execute_call
 
    !> Problems to which a routine applies
    pure type(scope_type) function scope_of(letter) result(allowed)
@@ -160,14 +160,14 @@ contains
       real(c_double), pointer :: list(:)
       integer(c_int), pointer :: integers(:)
       character(kind=c_char), pointer :: letters(:)
-      integer :: k, place, length, answers, singles, alone, integer_lists, real_lists
+      integer :: k, place, length, results, singles, single_reals, integer_lists, real_lists
 
-      answers = 0
+      results = 0
       singles = 0
-      alone = 0
+      single_reals = 0
       integer_lists = 0
       real_lists = 0
-      a%numbers(1)%v => a%alone(:0)
+      a%numbers(1)%v => a%single_reals(:0)
       k = 2
       place = 1
       do while (kinds(k) /= c_null_char)
@@ -180,9 +180,9 @@ contains
             singles = singles + 1
             a%single(singles) = integer_at(arguments(place))
          case ("r")
-            alone = alone + 1
-            a%alone(alone) = real_at(arguments(place))
-            a%numbers(1)%v => a%alone(:alone)
+            single_reals = single_reals + 1
+            a%single_reals(single_reals) = real_at(arguments(place))
+            a%numbers(1)%v => a%single_reals(:single_reals)
          case ("I")
             call get_length()
             integer_lists = integer_lists + 1
@@ -201,8 +201,8 @@ contains
          case ("x", "X")
             length = merge(1, 0, c_associated(arguments(place)))
             if (kinds(k) == "X") call get_length()
-            answers = answers + 1
-            a%answers(answers) = answer_place(arguments(place), length)
+            results = results + 1
+            a%buffers(results) = result_buffer(arguments(place), length)
          end select
          k = k + 1
          place = place + 1

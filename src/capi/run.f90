@@ -7,7 +7,7 @@ module contact_capi_run
    use contact_base_guard, only : cause_text, do_guarded, guard_end
    use contact_base_kinds, only : long
    use contact_base_limits, only : case_limits, fill_limits
-   use contact_capi_arguments, only : copy_text, first_failure, give_message, wrong_call
+   use contact_capi_arguments, only : copy_text, first_failure, set_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
@@ -143,9 +143,9 @@ contains
 
       call c_f_pointer(data, request)
       if (request%task == to_run) then
-         call give_message(trim(cause_text(guard_end%no_memory)) // " for the run", request%text, request%length)
+         call set_message(trim(cause_text(guard_end%no_memory)) // " for the run", request%text, request%length)
       else
-         call give_message(trim(cause_text(guard_end%no_memory)), request%text, request%length)
+         call set_message(trim(cause_text(guard_end%no_memory)), request%text, request%length)
       end if
    end subroutine report_want_of_memory
 
@@ -178,7 +178,7 @@ contains
       end if
       call answer%get(text)
       request%needed = int(len(text), c_int) + 1_c_int
-      call give_message(text, request%text, request%length)
+      call set_message(text, request%text, request%length)
    end subroutine do_inside
 
    !> Run or check an experiment
@@ -225,24 +225,24 @@ contains
    end subroutine run
 
    !> Set the limits given by the caller; the first invalid one is an error
-   subroutine set_limits(asked, limits, error)
+   subroutine set_limits(values, limits, error)
       !> Time [s], memory [MB], number of elements; 0: unlimited
-      real(c_double), intent(in) :: asked(3)
+      real(c_double), intent(in) :: values(3)
       type(case_limits), intent(inout) :: limits
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: names(3) = [character(len=9) :: "seconds", "megabytes", "elements"]
       character(len=16) :: text
       integer :: k
 
-      do k = 1, size(asked)
-         if (asked(k) >= 0.0_c_double .and. asked(k) < 1.0e12_c_double) cycle
-         write(text, "(G0.6)") asked(k)
+      do k = 1, size(values)
+         if (values(k) >= 0.0_c_double .and. values(k) < 1.0e12_c_double) cycle
+         write(text, "(G0.6)") values(k)
          call fatal_error(error, "contact_run_limited: " // trim(names(k)) // " is " // trim(text) // &
-            & ", not a limit from 0 to below 1e12; 0 stands for none")
+            & ", not a limit from 0 to below 1e12; 0 means none")
          return
       end do
-      if (asked(1) > 0.0_c_double) limits%deadline%seconds = asked(1)
-      if (asked(2) > 0.0_c_double) limits%bytes = int(1.0e6_c_double*asked(2), long)
-      if (asked(3) > 0.0_c_double) limits%elements = int(asked(3), long)
+      if (values(1) > 0.0_c_double) limits%deadline%seconds = values(1)
+      if (values(2) > 0.0_c_double) limits%bytes = int(1.0e6_c_double*values(2), long)
+      if (values(3) > 0.0_c_double) limits%elements = int(values(3), long)
    end subroutine set_limits
 end module contact_capi_run

@@ -4,7 +4,7 @@ module contact_capi_subsurface
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of
+   use contact_capi_arguments, only : integer_of, set_argument
    use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
@@ -144,7 +144,7 @@ contains
          k = first_refusal(problem, "subs_addBlock")
          if (k > 0) then
             code = problem%refused(k)%code
-            call complain(this, "a block of points was refused and not given anew: " // problem%refused(k)%reason, code)
+            call complain(this, "a block of points was refused and not given again: " // problem%refused(k)%reason, code)
          else if (.not. problem%has_result) then
             code = library_code%other
             call complain(this, "nothing has been calculated yet", code)
@@ -161,7 +161,7 @@ contains
          call problem%stresses%halt()
          call leave_calculation(problem)
       end if
-      call give(code, ierror)
+      call set_argument(code, ierror)
    end subroutine subs_calculate
 
    !> Calculate the blocks of one patch, print the results and write the file
@@ -238,10 +238,10 @@ contains
       k = a%single(1)
       if (has_block(view, k)) then
          associate (block => view%patch%subsurface(k))
-            call a%give_each([block%nx, block%ny, block%nz])
+            call a%set_each_result([block%nx, block%ny, block%nz])
          end associate
       else
-         call a%give_each([-1, -1, -1])
+         call a%set_each_result([-1, -1, -1])
       end if
    end subroutine get_block_size
 

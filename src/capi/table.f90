@@ -4,7 +4,7 @@ module contact_capi_table
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_error, only : error_type
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
-   use contact_capi_arguments, only : copy_text, give_message
+   use contact_capi_arguments, only : copy_text, set_message
    use contact_tables_creep_table, only : creep_table, find_creep_force, lookup_status, max_spin
    use contact_tables_table_file, only : read_table
    implicit none (type, external)
@@ -46,15 +46,15 @@ contains
       integer :: cause, owner
 
       handle = c_null_ptr
-      call give_message("", message, length)
+      call set_message("", message, length)
       request%file = file
       owner = new_owner()
       call do_guarded(read_inside, c_loc(request), owner, cause)
       if (cause /= guard_end%done) then
          call free_left_blocks(owner)
-         call give_message(trim(cause_text(cause)) // " for the table", message, length)
+         call set_message(trim(cause_text(cause)) // " for the table", message, length)
       else if (allocated(request%error)) then
-         call give_message(request%error%message, message, length)
+         call set_message(request%error%message, message, length)
       else
          handle = c_loc(request%table)
       end if
@@ -106,7 +106,7 @@ contains
       facts%offset = table%offset%high
       facts%spin = max_spin(table)
       if (facts%spin >= huge(facts%spin)) facts%spin = ieee_value(facts%spin, ieee_positive_inf)
-      facts%asked = table%asked
+      facts%asked = table%required
       facts%error = [table%error_force, table%error_moment]
       facts%points = table%checked
       facts%grid_error = [table%grid_force, table%grid_moment]

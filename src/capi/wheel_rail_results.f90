@@ -22,7 +22,7 @@ contains
 
       associate (w => problem%stored%wheelset, length => outward(problem%units, quantity%length), &
          & angle => outward(problem%units, quantity%angle))
-         call a%give(1, [(w%s + w%x)*length, w%y*length, w%z*length, w%roll*angle, w%yaw*angle, w%pitch*angle])
+         call a%set_result(1, [(w%s + w%x)*length, w%y*length, w%z*length, w%roll*angle, w%yaw*angle, w%pitch*angle])
       end associate
    end subroutine get_wheelset_position
 
@@ -33,7 +33,7 @@ contains
 
       associate (w => problem%stored%wheelset, velocity => outward(problem%units, quantity%velocity), &
          & angle => outward(problem%units, quantity%angle))
-         call a%give(1, [w%vs*velocity, w%vy*velocity, w%vz*velocity, w%vroll*angle, w%vyaw*angle, w%vpitch*angle])
+         call a%set_result(1, [w%vs*velocity, w%vy*velocity, w%vz*velocity, w%vroll*angle, w%vyaw*angle, w%vpitch*angle])
       end associate
    end subroutine get_wheelset_velocity
 
@@ -44,7 +44,7 @@ contains
       real(wp) :: list(38)
       type(quantity_type) :: unit(38)
       integer :: sign(38)
-      real(c_double), pointer :: room(:)
+      real(c_double), pointer :: buffer(:)
 
       call locate(problem, a%call_of%icp, list)
       unit = quantity%length
@@ -53,9 +53,9 @@ contains
       sign([2, 4, 6, 9, 11, 14, 16, 22, 24, 25, 26, 28, 31, 33, 35, 37, 38]) = orientation%side
       list = list*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
       ! the 29th value is not used, and is left unchanged
-      room => a%numbers_at(1)
-      if (size(room) >= 29) list(29) = room(29)
-      call a%give(1, list)
+      buffer => a%numbers_at(1)
+      if (size(buffer) >= 29) list(29) = buffer(29)
+      call a%set_result(1, list)
    end subroutine get_location
 
    !> The values in internal units, for a wheel on the right side of the track
@@ -113,6 +113,6 @@ contains
       do k = 0, 18, 6
          list(k + 1:k + 6) = list(k + 1:k + 6)*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
       end do
-      call a%give(1, list, fills=.true.)
+      call a%set_result(1, list, fills=.true.)
    end subroutine get_forces
 end module contact_capi_wheel_rail_results

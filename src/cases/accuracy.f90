@@ -78,7 +78,7 @@ contains
       call log%write_deferred()
       session%curvatures = 0.0_wp
       if (allocated(session%problem%hertz)) session%curvatures = [session%problem%hertz%a1, session%problem%hertz%b1]
-      ! the next case has a grid of its own
+      ! the next case has another grid
       session%problem%has_geometry = .false.
    end subroutine solve_contact_case
 
@@ -90,7 +90,7 @@ contains
       type(case_spec), intent(in) :: spec
       !> Allocated if the case is refused
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: cannot = "an accuracy was asked for, but the grid cannot be chosen with "
+      character(len=*), parameter :: cannot = "an accuracy is required, but the grid cannot be chosen with "
       !> Maximum sine of an angle of rolling that is regarded as along x
       real(wp), parameter :: along_x = 0.01_wp
 
@@ -125,8 +125,8 @@ contains
       type(case_spec) :: level
       real(wp) :: began
 
-      report%asked = spec%iteration%accuracy
-      report%eps = solver_tolerance(report%asked)
+      report%required = spec%iteration%accuracy
+      report%eps = solver_tolerance(report%required)
       report%method = chosen%words
       level = spec
       call prepare_level(report%eps, level)
@@ -185,7 +185,7 @@ contains
       integer :: fixed(2), cases
       logical :: is_solved, is_lost, near, tightened
 
-      report%asked = spec%iteration%accuracy
+      report%required = spec%iteration%accuracy
       report%method = method
       law = expected_law(spec)
       fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
@@ -217,12 +217,12 @@ contains
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          next = grid
          call tighten(result, report, next%eps, tightened)
-         near = is_near_enough(report%estimated, expected, report%asked)
+         near = is_near_enough(report%estimated, expected, report%required)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)
          if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
-            & merge(series_share, 1.0_wp, has_history(spec))*report%asked, fixed, next%counts)
+            & merge(series_share, 1.0_wp, has_history(spec))*report%required, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
          if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
             report%reason = "more than " // integer_text(int(most_elements(spec%limits))) // " elements are not allowed"
@@ -260,7 +260,7 @@ contains
 
       tightened = .false.
       if (.not. allocated(result%errors)) return
-      part = maxval(result%errors%stopping)/report%asked
+      part = maxval(result%errors%stopping)/report%required
       if (part <= stopping_share) return
       eps = smaller_tolerance(eps, stopping_share/part)
       tightened = eps < report%eps
@@ -299,7 +299,7 @@ contains
       report%elements = [result%grid%mx, result%grid%my]
       report%sides = [result%grid%dx, result%grid%dy]
       report%order = result%tangential%order
-      report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%asked
+      report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%required
       if (report%is_met) then
          report%reason = ""
       else if (report%reason == "") then
@@ -316,6 +316,6 @@ contains
       solved%estimates_errors = .true.
       if (spec%motion == motion%steady_rolling) solved%rolling%dq = result%dq
       result%accuracy = report
-      if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
+      if (.not. report%is_met) call log%warning("the required accuracy was not reached: " // trim(report%reason))
    end subroutine complete_report
 end module contact_cases_accuracy

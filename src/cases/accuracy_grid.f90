@@ -53,7 +53,7 @@ contains
    end subroutine first_counts
 
    !> Numbers of elements of the next grid, from the position of the contact area
-   pure subroutine next_counts(result, report, order, asked, fixed, counts)
+   pure subroutine next_counts(result, report, order, required, fixed, counts)
       !> Result on the present grid
       type(patch_result), intent(in) :: result
       !> Its estimated error
@@ -61,7 +61,7 @@ contains
       !> Order of the error
       real(wp), intent(in) :: order
       !> Accuracy for which it is designed [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
       !> Numbers of elements that must not change, 0 for others
       integer, intent(in) :: fixed(2)
       !> Numbers of elements along x and y
@@ -76,7 +76,7 @@ contains
          across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
       end if
       if (any(fixed > 0)) across = maxval(across, mask=fixed == 0)
-      call shorten_aspect(across*size, finer_across(minval(across), report%estimated, asked, order), sides)
+      call shorten_aspect(across*size, finer_across(minval(across), report%estimated, required, order), sides)
       ! a direction with many elements keeps its number
       sides = min(sides, size)
       counts = ceiling([result%grid%mx, result%grid%my]*size/sides)

@@ -42,9 +42,9 @@ module contact_cases_accuracy_plan
    type :: accuracy_law
       real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp
    end type accuracy_law
-   !> Forces in steady rolling by the first and by the second order, and all else; of tests/accuracy: upper quartiles of estimates,
-   !> and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order without
-   !> spin, and of shifts and pressures: 31001 to 31004 and 41001)
+   !> Forces in steady rolling by the first and by the second order, and all other results; from tests/accuracy: upper quartiles of
+   !> estimates, and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order
+   !> without spin, and of shifts and pressures: 31001 to 31004 and 41001)
    type(accuracy_law), parameter :: first_order = accuracy_law(0.16_wp, 1.0_wp, 1.0_wp), &
       & second_order = accuracy_law(0.21_wp, 2.0_wp, 2.1_wp), normal_order = accuracy_law(0.22_wp, 2.0_wp, 2.0_wp)
    !> The second order where forces are prescribed, where friction falls with slip, of unlike bodies, and of bodies that relax (the
@@ -109,17 +109,17 @@ contains
 
       if (.not. is_accuracy(spec%iteration%accuracy)) then
          write(text, "(ES9.2)") spec%iteration%accuracy
-         call fatal_error(error, "the accuracy that is asked for, " // trim(adjustl(text)) // ", is not between 1e-6 and 0.1", &
+         call fatal_error(error, "the required accuracy, " // trim(adjustl(text)) // ", is not between 1e-6 and 0.1", &
             & error_kind%input)
          return
       end if
       why = ""
       if (spec%motion == motion%transient_rolling .and. (allocated(spec%wheel_rail) &
          & .or. spec%material_model /= material_model%elastic)) then
-         why = "transient rolling of wheels on rails, of bodies that relax, or with a layer: how well its errors are known was not &
-            &measured"
+         why = "transient rolling of wheels on rails, of bodies that relax, or with a layer: the reliability of its error &
+            &estimates was not measured"
       else if (allocated(spec%wheel_rail) .and. spec%motion == motion%shift .and. spec%link /= time_link%initiate) then
-         why = "a shift of a wheel that continues the case before: its history stands on the elements of that case"
+         why = "a shift of a wheel that continues the case before: its history is stored on the elements of that case"
       else if (spec%kernel == kernel_model%tabulated) then
          why = "influence coefficients of a file: they belong to one size of elements"
       else if (is_simplified(spec%material_model) .and. spec%motion /= motion%none) then
@@ -139,7 +139,7 @@ contains
             & .or. spec%subsurface%blocks%selection == point_selection%lists)) why = &
             & "stresses below columns and rows of the grid: coordinates, or all elements, do"
       end if
-      if (why /= "") call fatal_error(error, "an accuracy was asked for, but the grid cannot be chosen with " // why, &
+      if (why /= "") call fatal_error(error, "an accuracy is required, but the grid cannot be chosen with " // why, &
          & error_kind%unsupported)
    end subroutine refuse_case
 
@@ -301,39 +301,39 @@ contains
    end function first_order_alone
 
    !> Number of elements across the contact of the first grid
-   pure real(wp) function first_across(law, asked) result(across)
+   pure real(wp) function first_across(law, required) result(across)
       !> Expected error
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
 
-      across = (law%factor/(aim*asked))**(1.0_wp/law%order)
-      across = max(min(across, max(quick_across, first_share*across)), law%bound/(aim*asked))
+      across = (law%factor/(aim*required))**(1.0_wp/law%order)
+      across = max(min(across, max(quick_across, first_share*across)), law%bound/(aim*required))
       across = min(across, merge(most_across, most_across_first_order, law%order > 1.0_wp))
       across = usual_number(max(least_across, across))
    end function first_across
 
    !> Number of elements across the contact of the grid that is expected to be sufficient
-   pure real(wp) function expected_across(law, asked) result(across)
+   pure real(wp) function expected_across(law, required) result(across)
       !> Expected error
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
 
-      across = max(first_across(law, asked), (law%factor/(aim*asked))**(1.0_wp/law%order), law%bound/(aim*asked))
+      across = max(first_across(law, required), (law%factor/(aim*required))**(1.0_wp/law%order), law%bound/(aim*required))
    end function expected_across
 
    !> Is an estimate small enough?
-   pure logical function is_near_enough(estimated, expected, asked)
+   pure logical function is_near_enough(estimated, expected, required)
       !> Estimate of this grid, negative for none; and error predicted from the previous grid, 0 for none [-]
       real(wp), intent(in) :: estimated, expected
       !> Accuracy [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
 
-      is_near_enough = estimated >= 0.0_wp .and. max(estimated, share_before*expected) <= enough*asked
+      is_near_enough = estimated >= 0.0_wp .and. max(estimated, share_before*expected) <= enough*required
       if (is_near_enough .or. .not. (estimated > 0.0_wp .and. expected > 0.0_wp)) return
-      is_near_enough = estimated <= enough_alone*asked .and. share_before*expected <= enough*asked &
-         & .and. estimated**(1.0_wp - weight_before)*expected**weight_before <= enough_of_both*asked
+      is_near_enough = estimated <= enough_alone*required .and. share_before*expected <= enough*required &
+         & .and. estimated**(1.0_wp - weight_before)*expected**weight_before <= enough_of_both*required
    end function is_near_enough
 
    !> Order observed between the estimates of two grids, limited to the range from one to the expected order
@@ -349,18 +349,18 @@ contains
    end function observed_order
 
    !> Number of elements across the contact that is expected to be sufficient
-   pure real(wp) function finer_across(across, estimated, asked, order) result(finer)
+   pure real(wp) function finer_across(across, estimated, required, order) result(finer)
       !> Number of elements across of the present grid
       real(wp), intent(in) :: across
       !> Its estimate, negative for none [-]
       real(wp), intent(in) :: estimated
       !> Accuracy [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
       !> Order of the error
       real(wp), intent(in) :: order
 
       finer = without_estimate
-      if (estimated >= 0.0_wp) finer = min(largest_factor, max(least_factor, (estimated/(aim*asked))**(1.0_wp/order)))
+      if (estimated >= 0.0_wp) finer = min(largest_factor, max(least_factor, (estimated/(aim*required))**(1.0_wp/order)))
       finer = usual_number(finer*across)
    end function finer_across
 
@@ -392,11 +392,11 @@ contains
    end function most_elements
 
    !> Tolerance of the solvers for an accuracy
-   pure real(wp) function solver_tolerance(asked) result(eps)
+   pure real(wp) function solver_tolerance(required) result(eps)
       !> Largest relative error of the forces [-]
-      real(wp), intent(in) :: asked
+      real(wp), intent(in) :: required
 
-      eps = min(largest_eps, max(smallest_eps, eps_share*asked))
+      eps = min(largest_eps, max(smallest_eps, eps_share*required))
    end function solver_tolerance
 
    !> A smaller tolerance, bounded by the smallest reasonable one

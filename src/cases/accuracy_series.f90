@@ -131,7 +131,7 @@ contains
       else if (.not. is_same_window(self%steps(1)%grid, spec%grid)) then
          why = "a window that moves from case to case"
       end if
-      if (why /= "") call fatal_error(error, "an accuracy was asked for, but the grid cannot be chosen with " // why, &
+      if (why /= "") call fatal_error(error, "an accuracy is required, but the grid cannot be chosen with " // why, &
          & error_kind%unsupported)
    end subroutine refuse
 

@@ -33,7 +33,7 @@ contains
       call a%own_choice("order", "order of the discretisation of rolling", ["1", "2"], iteration%order, usual=2)
       call a%own_number("accuracy", "largest relative error of the forces", iteration%accuracy, smallest_accuracy, &
          & largest_accuracy)
-      call visit_flag(a, "allow", "what may take the place of the full theory", allowances(2:1:-1), iteration%allows_approximate)
+      call visit_flag(a, "allow", "what may replace the full theory", allowances(2:1:-1), iteration%allows_approximate)
    end subroutine visit_own_iteration
 
    !> Keys of the group "heat"

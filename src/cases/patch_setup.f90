@@ -93,7 +93,7 @@ contains
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
       if (spec%slip_source == slip_source%given) then
          if (.not. allocated(spec%extra_slip)) then
-            call fatal_error(error, "an extra term of the rigid slip is asked for, but none was given")
+            call fatal_error(error, "an extra term of the rigid slip is requested, but none was given")
             return
          end if
          if (size(spec%extra_slip, 2) /= problem%grid%npot()) then

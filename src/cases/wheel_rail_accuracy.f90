@@ -95,8 +95,8 @@ contains
       type(approximate_method) :: chosen
       real(wp) :: sides(2), next(2), expected, before, began, force
 
-      report%asked = spec%iteration%accuracy
-      report%eps = solver_tolerance(report%asked)
+      report%required = spec%iteration%accuracy
+      report%eps = solver_tolerance(report%required)
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
       report%method = chosen%words
       law = expected_law(spec)
@@ -104,7 +104,7 @@ contains
       call prepare_level(report%eps, level)
       force = usual_force
       if (spec%normal == normal_control%force) force = spec%wheel_rail%wheelset%fz
-      sides = 2.0_wp*typical_half_side(spec, force)/min(first_across(law, report%asked), &
+      sides = 2.0_wp*typical_half_side(spec, force)/min(first_across(law, report%required), &
          & sqrt(most_in_time(spec))/usual_margin)
       if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
       expected = 0.0_wp
@@ -132,7 +132,7 @@ contains
          if (result%status%is_solved()) report%estimated = error_of_pair(session%memory)
          report%order = order_of(session%memory)
          report%sides = sides
-         if (is_near_enough(report%estimated, expected, report%asked)) exit
+         if (is_near_enough(report%estimated, expected, report%required)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(session%memory) /= 2) law = first_order_alone(law)
          call next_sides(spec, session%memory, report, observed_order(law, report%estimated, before, expected), sides, next)
@@ -224,7 +224,7 @@ contains
          box = contact_box(result%division)
          across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
          call shorten_aspect(across*[result%grid%dx, result%grid%dy], finer_across(minval(across), report%estimated, &
-            & report%asked, order), next)
+            & report%required, order), next)
          next = min(next, sides)
       end associate
       ! a few elements across need a small step in one direction only, which alone is not worth another grid
@@ -249,7 +249,7 @@ contains
       type(case_spec), allocatable, intent(out) :: solved
       type(log_type), intent(inout) :: log
 
-      report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%asked
+      report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%required
       if (size(result%patches) == 0) report%reason = "wheel and rail do not touch"
       if (report%is_met) then
          report%reason = ""
@@ -264,6 +264,6 @@ contains
       solved%iteration%order = 2
       solved%estimates_errors = .true.
       result%accuracy = report
-      if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
+      if (.not. report%is_met) call log%warning("the required accuracy was not reached: " // trim(report%reason))
    end subroutine complete_report
 end module contact_cases_wheel_rail_accuracy

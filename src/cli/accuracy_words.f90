@@ -38,7 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       allows = word == allowances(2)
-      if (.not. allows) call fatal_error(error, "what may take the place of the full theory, '" // word // &
+      if (.not. allows) call fatal_error(error, "what may replace the full theory, '" // word // &
          & "', is not known; approximate is")
    end subroutine read_permission
 end module contact_cli_accuracy_words

@@ -75,7 +75,7 @@ module contact_cli_arguments
       !> Limits of the run: time [s], and total size of its files [bytes]
       real(wp) :: run_seconds = huge(1.0_wp)
       integer(long) :: output_bytes = huge(1_long)
-      !> Exit with a status of its own if a case does not converge?
+      !> Exit with status 2 if a case does not converge?
       logical :: strict = .false.
       !> Resume a run that ended before all cases were finished?
       logical :: resume = .false.
@@ -115,7 +115,7 @@ contains
             return
          end if
          if (requested%resume .and. requested%mode == mode%check) then
-            call fatal_error(error, "--resume goes on with a computation, mode 2; a check, mode 3, has nothing to go on with")
+            call fatal_error(error, "--resume continues a computation, mode 2; a check, mode 3, has nothing to continue")
          else if (.not. allocated(requested%experiment)) then
             call prompt_experiment(requested, error)
          end if
@@ -264,7 +264,7 @@ contains
          call read_accuracy(value, requested%accuracy, error)
          return
       case ("--allow")
-         call read_value("what may take the place of the full theory: approximate")
+         call read_value("what may replace the full theory: approximate")
          if (allocated(error)) return
          call read_permission(value, requested%allows_approximate, error)
          return
@@ -455,8 +455,8 @@ contains
          & "IMODE   1  licence management (none is needed)", &
          & "        2  read EXPNAM.inp, compute, write EXPNAM.out and other results", &
          & "        3  read and check EXPNAM.inp, compute nothing", &
-         & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp or .toml; without, .inp is read", &
-         & "        where it is there, and .toml, the readable format, otherwise", &
+         & "EXPNAM  name of the experiment, with a folder if necessary, with or without .inp or .toml; without, .inp is read", &
+         & "        if it exists, and .toml, the readable format, otherwise", &
          & "Missing arguments are prompted for.", &
          & "convert writes an experiment in the other format; explain describes its cases in words", &
          & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
@@ -468,32 +468,32 @@ contains
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
          & "  --heat NAME       surface temperatures: established, as the established program (default for .inp), or", &
          & "                    moving-source, without counting the heat of an element twice at its centre", &
-         & "  --order N         discretisation of rolling: 1, the established one, or 2, whose errors fall with the", &
-         & "                    square of the size of elements; default is 1 for .inp, and what a case says for .toml", &
-         & "  --accuracy TOL    choose grid, order and EPS of each case such that the estimated error of the forces, relative to", &
+         & "  --order N         discretisation of rolling: 1, the established one, or 2, with errors proportional to the", &
+         & "                    square of the element size; default is 1 for .inp, and that of each case for .toml", &
+         & "  --accuracy TOL    choose grid, order and EPS of each case so that the estimated error of the forces, relative to", &
          & "                    the friction bound or to FN, is at most TOL, 1e-6 to 0.1", &
-         & "  --allow approximate  for that: simplified methods too, where their error is known and below TOL", &
+         & "  --allow approximate  allow simplified methods for that, if their error is known and below TOL", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
-         & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &
+         & "  --classical       use the solvers that G names; without it, the faster default solver is used", &
          & "  --errors          estimate the errors of all totals, from a coarser level of the same contact", &
          & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &
          & "  --vtk             write contact surfaces and subsurface blocks as VTK files, listed in EXPNAM.pvd", &
-         & "  --limit-time S    give up a case after S seconds, and go on with the next", &
+         & "  --limit-time S    abandon a case after S seconds, and continue with the next", &
          & "  --limit-memory MB, --limit-elements N  refuse cases that need more memory or elements", &
-         & "  --resume          go on with a run that was interrupted, or ended at an error of the input that is mended now", &
-         & "  --limit-run-time S, --limit-output MB  end the run after this time, or when its files take more", &
+         & "  --resume          continue a run that was interrupted, or that ended at an error of the input, corrected since", &
+         & "  --limit-run-time S, --limit-output MB  end the run after this time, or when its files are larger", &
          & "  --confine         for untrusted input: read and write ordinary files below the folder of the", &
          & "                    experiment only, with limits of 600 s and 3600 s, 4000 MB, 1000000 elements,", &
-         & "                    1000 MB of output where no others are given", &
-         & "  --strict          exit with status 2 when a case did not converge", &
+         & "                    1000 MB of output unless others are given", &
+         & "  --strict          exit with status 2 if a case did not converge", &
          & "  --quiet           write nothing but errors to the screen", &
          & "  --help            this text", &
          & "  --version         versions of program, compiler and libraries", &
          & "", &
-         & "The exit status is 0 when all went well, 1 after any error, and with --strict 2 when a case did not converge,", &
-         & "and 128 + n when signal n ended the run after the case in hand."
+         & "The exit status is 0 on success, 1 after any error, with --strict 2 if a case did not converge,", &
+         & "and 128 + n when signal n ended the run after the current case."
    end subroutine write_help
 end module contact_cli_arguments

@@ -16,7 +16,7 @@ static volatile sig_atomic_t caught = 0;
 
 /* The first signal from a user or a batch system ends the run after the current case, a second one at once */
 static void end_soon(int number) {
-  static const char message[] = "\ncontact: the run ends after the case in hand; a second signal ends it at once\n";
+  static const char message[] = "\ncontact: the run ends after the current case; a second signal ends it at once\n";
   const int before = errno;
   if (caught && caught != SIGPIPE && caught != SIGXCPU) _exit(128 + number);
   caught = number;

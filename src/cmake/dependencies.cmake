@@ -14,7 +14,7 @@ target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
 target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})
 
 # Transforms: FFTW, or MKL, which has the same interface, or pocketfft, whose source is here. CONTACT_FFT_LINK is what programs with
-# the static library need, CONTACT_FFT_NAME what contact --version tells, as the licence of the whole hangs on it
+# the static library need, CONTACT_FFT_NAME the name shown by contact --version, as the licence of the binary depends on it
 set(CONTACT_FFT fftw CACHE STRING "Library of Fourier transforms: fftw, mkl or pocketfft")
 set_property(CACHE CONTACT_FFT PROPERTY STRINGS fftw mkl pocketfft)
 if(CONTACT_FFT STREQUAL "fftw")

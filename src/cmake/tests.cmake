@@ -23,7 +23,7 @@ endif()
 # contact_test(<name> [BUILDERS] LABEL <labels> ROOMS <rooms> SOURCES <files> [TIMEOUT <seconds>])
 #
 # A Fortran test program. It sees the modules of the named rooms and of the harness, and is linked
-# with these rooms and all rooms below them, so that it builds whatever else is broken. It runs in
+# with these rooms and all rooms below them, so that it builds even if other parts do not. It runs in
 # a scratch directory of its own. BUILDERS adds the modules of tests/support that build a case. Exit status 77 means "skipped".
 # A second label `long` keeps a test out of the default run of tests/run.sh.
 function(contact_test name)
@@ -59,7 +59,7 @@ set(CONTACT_LONG_TESTS report_viewer:94 house_pages:48 campaign_module1:45 campa
 
 # contact_command_test(<name> LABEL <labels> COMMAND <program> <arguments> [TIMEOUT <seconds>])
 #
-# Any other test: a script, or the program itself. The environment tells CONTACT_SOURCE (top of the
+# Any other test: a script, or the program itself. Environment: CONTACT_SOURCE (top of the
 # checkout), CONTACT_PROGRAM (bin/contact) and CONTACT_REFERENCE.
 function(contact_command_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;COMMAND" ${ARGN})

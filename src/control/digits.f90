@@ -101,7 +101,7 @@ module contact_control_digits
       & digit_row("F", 2, force_control%fx_and_fy, module_3, .true., "forces FX and FY prescribed", "fx_and_fy"), &
       & digit_row("F", 0, force_control%creepages, module_1, .true., "velocities prescribed", "velocities"), &
       & digit_row("F", 1, force_control%longitudinal_force, module_1, .true., &
-      & "longitudinal force in place of the pitch velocity", "longitudinal_force"), &
+      & "longitudinal force instead of the pitch velocity", "longitudinal_force"), &
       & digit_row("F", 3, force_control%massless_rail, module_1, .true., "rail without mass on springs", "massless_rail"), &
       & digit_row("S", 0, 0, both, .true., "no subsurface stresses", "none"), &
       & digit_row("S", 1, 1, both, .true., "subsurface stresses in the points in store", "stored_points"), &

@@ -82,7 +82,7 @@ contains
          & "for wheel and rail (module 1)"
       case (library_code%not_module_3); text = "the routine is for wheel and rail (module 1), the result element is for " // &
          & "contact problems (module 3)"
-      case (library_code%bad_patch); text = "the number of a contact patch must be 1 to 9; -1 stands for wheel and rail as a whole"
+      case (library_code%bad_patch); text = "the number of a contact patch must be 1 to 9; -1 means wheel and rail as a whole"
       case (library_code%patch_needed); text = "the routine needs the number of a contact patch"
       case (library_code%patch_unwanted); text = "the routine works on wheel and rail as a whole, with -1 for the contact patch"
       case default; text = "elements in contact at the border of the potential contact area"

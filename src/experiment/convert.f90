@@ -58,7 +58,7 @@ contains
       output = place%results // suffix
       inquire(file=output, exist=is_there)
       if (is_there .and. .not. overwrite) then
-         call fatal_error(error, "the file is there already; --force replaces it", error_kind%file, output)
+         call fatal_error(error, "the file exists already; --force replaces it", error_kind%file, output)
          return
       end if
       temporary = place%results // ".converted" // suffix

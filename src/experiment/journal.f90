@@ -251,7 +251,7 @@ contains
       !> Get a line without its hash, and the end of the line
       subroutine get_line(k)
          integer, intent(in) :: k
-         integer(long) :: hash, wanted
+         integer(long) :: hash, expected
          integer :: space
 
          line = file%line_text(k)
@@ -259,11 +259,11 @@ contains
          space = index(line, " ", back=.true.)
          ! the line end is included: the last line may be incomplete
          if (space < 2 .or. k == file%count_lines()) return
-         read(line(space + 1:), *, iostat=status) wanted
+         read(line(space + 1:), *, iostat=status) expected
          if (status /= 0) return
          hash = empty_hash
          call add_to_hash(trim(line(:space - 1)), hash)
-         if (hash /= wanted) return
+         if (hash /= expected) return
          body = trim(line(:space - 1))
          behind = behind + len(line) + 1
          is_whole = .true.

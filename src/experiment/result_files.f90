@@ -164,7 +164,7 @@ contains
          & integer_text(state%run%ended(case_state%refused)) // " refused")
       if (.not. state%run%is_complete()) call state%log%line(" Not complete: " // trim(planned_text(state%run)) // " finished")
       if (state%silent .and. state%cases > 0) call state%log%line( &
-         & " No results were asked for: O, A and S are 0 in all cases.")
+         & " No results were requested: O, A and S are 0 in all cases.")
       call write_closing(state%log, state%errors > 0)
       call close_result(state%log%out, state%place%results // ".out", error)
       if (allocated(error)) call report_error(state, error)

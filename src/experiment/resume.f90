@@ -87,7 +87,7 @@ contains
             if (is_done) then
                call state%log%line(" " // results // ".out is complete: there is nothing to resume")
             else
-               call state%log%line(" There are no results of " // state%place%name // " to go on with: an ordinary run")
+               call state%log%line(" There are no results of " // state%place%name // " to continue: an ordinary run")
             end if
             return
          end if
@@ -103,9 +103,9 @@ contains
          point%active = point%at%cases > 0
          if (point%active) then
             call state%log%line(" " // results // ": " // counted(point%at%cases, "case") // &
-               & " finished before; the run goes on with the next one")
+               & " finished before; the run continues with the next one")
          else
-            call state%log%line(" No finished case of " // state%place%name // " stands in all its files: an ordinary run")
+            call state%log%line(" No finished case of " // state%place%name // " is in all its files: an ordinary run")
             if (allocated(state%exports%hdf5)) then
                call state%exports%hdf5%abandon()
                deallocate(state%exports%hdf5)
@@ -140,7 +140,7 @@ contains
       if (now%allows_approximate .and. .not. before%allows_approximate) what = "without --allow approximate"
       if (now%errors .and. .not. before%errors) what = "without --errors"
       if (len(what) > 0) then
-         call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
+         call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it again without --resume")
          return
       end if
       if (before%json) requested%exports%json = ""
@@ -259,7 +259,7 @@ contains
       if (is_there .and. hash == point%at%input) return
       if (allocated(error)) deallocate(error)
       call fatal_error(error, "the input was changed where it was computed already, up to case " // &
-         & integer_text(point%at%cases) // ": only later cases may be changed; run it anew without --resume", &
+         & integer_text(point%at%cases) // ": only later cases may be changed; run it again without --resume", &
          & file=state%place%input)
    end subroutine first_to_solve
 

@@ -68,7 +68,7 @@ contains
 
       call file%open_group("")
       call describe_run(file, run)
-      call file%text("reason", "", "the run goes on, or was ended from outside")
+      call file%text("reason", "", "the run continues, or was ended from outside")
       call file%close_attributes()
       call file%renew()
       if (file%container%failed) call file%finish_file(error)
@@ -203,7 +203,7 @@ contains
       call file%open_group("status")
       call file%text("status", "how the case ended", trim(head%status%word()))
       call file%text("iteration", "what did not converge", trim(head%status%iteration_word()))
-      call file%text("reason", "which iteration, and by how much it missed; or why there is no result", head%status%reason)
+      call file%text("reason", "which iteration failed, and by how much; or why there is no result", head%status%reason)
       call file%close_group()
       if (head%status%has_result()) return
       call file%open_group("failure")
@@ -247,7 +247,7 @@ contains
       end if
       if (any(contact%flx > 0.0_wp)) then
          call file%open_group("simplified")
-         call file%numbers("flx", "mm3/N", "flexibilities L1, L2, L3 of simplified theory, given or found", contact%flx)
+         call file%numbers("flx", "mm3/N", "flexibilities L1, L2, L3 of simplified theory, prescribed or computed", contact%flx)
          call file%close_group()
       end if
       if (side_sign(spec) < 0.0_wp) then

@@ -129,7 +129,7 @@ contains
       if (self%is_open) call h5fclose_f(self%file, status)
       self%is_open = .false.
       call remove_file(self%name // unfinished)
-      call fatal_error(error, "the file cannot be read to go on with it", error_kind%file, self%name)
+      call fatal_error(error, "the file cannot be read to continue it", error_kind%file, self%name)
    end subroutine refuse
 
    !> Create or open the file under its temporary name

@@ -78,7 +78,7 @@ contains
 
       call lexer%open_file(input, error, below)
       if (allocated(error)) then
-         container%lacking = "all results are there, but not the copy of the input: " // error%message
+         container%lacking = "all results are present, but not the copy of the input: " // error%message
          return
       end if
       call lexer%get_text(text)
@@ -200,7 +200,7 @@ contains
       if (confined) below = self%folder
       call lexer%open_file(path, error, below)
       if (allocated(error)) then
-         container%lacking = "all results are there, but not the hash of " // name // ": " // error%message
+         container%lacking = "all results are present, but not the hash of " // name // ": " // error%message
          return
       end if
       call lexer%get_text(text)

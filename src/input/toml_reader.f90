@@ -85,7 +85,7 @@ contains
          else
             if (node%kind == toml_kind%table) return
             call self%add_problem(severity%error, self%group_node, trim(text) // " is " // trim(toml_kind_text(node%kind)) // &
-               & "; wanted is a table, [case." // trim(text) // "]")
+               & "; expected is a table, [case." // trim(text) // "]")
          end if
       end associate
       self%group_node = 0
@@ -110,7 +110,7 @@ contains
       sets = sets_of(self)
       if (sets == 0) return
       if (self%document%nodes(sets)%count > self%part) call self%add_problem(severity%error, sets, "there are " // &
-         & integer_text(self%document%nodes(sets)%count) // " sets of friction, wanted are " // integer_text(self%part))
+         & integer_text(self%document%nodes(sets)%count) // " sets of friction, expected are " // integer_text(self%part))
    end subroutine refuse_more_sets
 
    !> Set the values of the current items
@@ -386,7 +386,7 @@ contains
          self%is_good = .false.
       else if (leaves_of(self%document, array) /= n) then
          call self%add_problem(severity%error, array, key // " has " // integer_text(leaves_of(self%document, array)) // &
-            & " numbers, wanted are " // integer_text(n))
+            & " numbers, expected are " // integer_text(n))
          self%is_good = .false.
       else
          filled = 0

@@ -41,8 +41,8 @@ module contact_input_toml_tables
       integer :: case_node = 0, group_node = 0, part_node = 0
       character(len=key_length) :: group = ""
       !> Groups and keys that the case has looked up, to suggest the nearest valid one
-      integer :: asked_count = 0
-      character(len=key_length) :: asked_groups(max_keys) = "", asked_keys(max_keys) = ""
+      integer :: known_count = 0
+      character(len=key_length) :: known_groups(max_keys) = "", known_keys(max_keys) = ""
       !> Is a value of the last line missing or wrong?
       logical :: line_is_bad = .false.
       !> Was the case read before, with other values? Then its keys are known already
@@ -157,13 +157,13 @@ contains
       integer :: k
 
       if (self%is_repeat) return
-      do k = 1, self%asked_count
-         if (self%asked_groups(k) == group .and. self%asked_keys(k) == key) return
+      do k = 1, self%known_count
+         if (self%known_groups(k) == group .and. self%known_keys(k) == key) return
       end do
       if (k > max_keys) return
-      self%asked_count = k
-      self%asked_groups(k) = group
-      self%asked_keys(k) = key
+      self%known_count = k
+      self%known_groups(k) = group
+      self%known_keys(k) = key
    end subroutine note_key
 
    !> Node of the friction sets of the case; 0 if there are none
@@ -344,16 +344,16 @@ contains
       integer :: place
 
       keys = ""
-      where (self%asked_groups == group) keys = self%asked_keys
+      where (self%known_groups == group) keys = self%known_keys
       message = '"' // printable(self%document%key_of(index)) // '"'
       if (any(known == self%document%key_of(index))) then
-         message = message // " has no meaning in this case, whose choices do not ask for it"
+         message = message // " has no meaning in this case, whose choices do not use it"
       else
          place = nearest_word(self%document%key_of(index), keys)
          if (place > 0) then
             ! S_WS on a roller: a number that is valid in other cases
             if (bounds_of(capital(self%document%key_of(index))) > 0) then
-               message = message // " has no meaning in this case, whose choices do not ask for it"
+               message = message // " has no meaning in this case, whose choices do not use it"
             else
                message = message // " is not known"
             end if

@@ -120,7 +120,7 @@ contains
       call record%number("seconds", "", "elapsed time of the solution", head%seconds)
       if (head%status%is_solved()) return
       call record%text("iteration", "what did not converge", trim(head%status%iteration_word()))
-      call record%text("reason", "which iteration, and by how much it missed; or why there is no result", head%status%reason)
+      call record%text("reason", "which iteration failed, and by how much; or why there is no result", head%status%reason)
       if (.not. head%status%has_result()) call record%text("failure", "why there is no result", head%status%reason)
    end subroutine describe_head
 
@@ -229,10 +229,10 @@ contains
       type(accuracy_report), intent(in) :: report
 
       call record%open_group("accuracy", columns=.true.)
-      call record%number("asked", "-", "largest relative error of the forces that was asked for", report%asked)
+      call record%number("asked", "-", "required accuracy: largest relative error of the forces", report%required)
       if (report%estimated >= 0.0_wp) call record%number("estimated", "-", "estimated relative error of the forces", &
          & report%estimated)
-      call record%flag("reached", "is the estimate within what was asked?", report%is_met)
+      call record%flag("reached", "is the estimate within the required accuracy?", report%is_met)
       if (report%elements(1) > 0) call record%count("mx", "elements along x that were chosen", report%elements(1))
       if (report%elements(1) > 0) call record%count("my", "elements along y that were chosen", report%elements(2))
       call record%number("dx", "mm", "side of elements along x that was chosen", report%sides(1))
@@ -304,15 +304,15 @@ contains
       method = trim(report%method)
       if (method == "") method = "none"
       call record%text(problem // "_method", "method that ended the iteration", method)
-      if (report%asked /= "") call record%text(problem // "_asked", "method of the input, where another one acts", &
+      if (report%asked /= "") call record%text(problem // "_asked", "method of the input, if another one was used", &
          & trim(report%asked))
-      if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
+      if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was abandoned", trim(report%gave_up))
       if (report%order > 0) call record%count(problem // "_order", "order of the discretisation", report%order)
       if (report%order_reason /= "") call record%text(problem // "_order_reason", "why order 1, or what order 2 leaves out", &
          & trim(report%order_reason))
       call record%text(problem // "_ended", "how the iteration ended", trim(ending_names(report%ended)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
       if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)
-      call record%number(problem // "_tolerance", "", "tolerance that was asked for", report%tolerance)
+      call record%number(problem // "_tolerance", "", "requested tolerance", report%tolerance)
    end subroutine describe_report
 end module contact_output_case_record

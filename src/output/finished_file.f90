@@ -130,7 +130,7 @@ contains
 
       call file%open_again(name, place, reason, limits%confined)
       if (.not. allocated(reason)) call file%charge_to(limits%output)
-      if (allocated(reason)) call fatal_error(error, "the file cannot be written to go on with it: " // reason, &
+      if (allocated(reason)) call fatal_error(error, "the file cannot be opened to continue it: " // reason, &
          & error_kind%file, name)
    end subroutine open_result_again
 

@@ -185,7 +185,7 @@ contains
       call put_renewal(a, is_first, old, spec)
    end subroutine put_choices
 
-   !> The earlier text of a choice that is kept by a rule of its own is ignored
+   !> The earlier text of a choice that is kept by a separate rule is ignored
    subroutine forget(a, key)
       type(toml_writer), intent(inout) :: a
       character(len=*), intent(in) :: key

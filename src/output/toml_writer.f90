@@ -51,7 +51,7 @@ module contact_output_toml_writer
       type(case_digits) :: digits
       !> Are preset numbers being recorded? Then nothing is written
       logical :: is_recording = .false.
-      !> Has each row of the grid a friction law of its own?
+      !> Does each row of the grid have its own friction law?
       logical :: has_rows = .false.
       !> Is the current table a set or block?
       logical :: in_part = .false.

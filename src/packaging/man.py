@@ -10,9 +10,9 @@ def escaped(text):
     return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", "\\e").replace("-", "\\-"), flags=re.MULTILINE)
 
 
-def page(told, version):
+def page(help_text, version):
     """The page from the answers to --help and --version"""
-    usage, _, rest = told.partition("\n\n")
+    usage, _, rest = help_text.partition("\n\n")
     title, _, rest = rest.partition("\n\n")
     words, _, options = rest.partition("\nOptions\n")
     options, _, status = options.partition("\n\n")

@@ -45,7 +45,7 @@ for file in /etc/apt/sources.list.d/debian.sources /etc/apt/apt.conf.d/99* /etc/
   borrow "$file"
 done
 [ -f "$root/etc/apt/sources.list.d/debian.sources" ] && rm -f "$root/etc/apt/sources.list"
-# Documents are wanted here, also where the image leaves them out
+# Documents are required here, even if the image excludes them
 rm -f "$root"/etc/dpkg/dpkg.cfg.d/*
 mount --bind /dev "$root/dev"
 mount -t proc proc "$root/proc"
@@ -78,9 +78,9 @@ try "its extras" 'clean/bin/pip -q install "$(ls packages/contact_mechanics-*.wh
 echo "== packages for Debian"
 try "apt install of the program alone" 'apt-get install -y --no-install-recommends ./packages/contact_*.deb && contact --version'
 try "contact 2 experiment" 'cp examples/wheel_on_rail.inp run/experiment.inp && cp -R examples/profiles run && cd run && contact 2 experiment'
-try "contact 3, explain, convert" 'cd run && contact 3 experiment && contact explain experiment > told.txt &&
-  contact convert experiment.inp && contact 3 experiment.toml && test -s told.txt'
-try "the report without its package says what is missing" 'cd run && ! contact report experiment 2> told.txt && grep -i "python" told.txt'
+try "contact 3, explain, convert" 'cd run && contact 3 experiment && contact explain experiment > output.txt &&
+  contact convert experiment.inp && contact 3 experiment.toml && test -s output.txt'
+try "the report without its package says what is missing" 'cd run && ! contact report experiment 2> output.txt && grep -i "python" output.txt'
 try "apt install of all" 'apt-get install -y ./packages/*.deb && dpkg -l | grep -c " contact\| libcontact\|python3-contact"'
 try "the Python example" 'python3 examples/library/manchester.py'
 try "a report" 'cd run && contact --hdf5 2 experiment && contact report experiment && ls *.html'

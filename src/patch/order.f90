@@ -1,8 +1,8 @@
-!> The order of discretisation that a patch is solved with, and what that needs
+!> Order of the discretisation of a patch, and the data of the second order
 !>
-!> The second order is for rolling, steady or in steps of one element along x, with the default solver, where pressures are a
-!> solution on half-spaces, or semi-ellipses by formula: they tell where the edge of contact lies. Elsewhere
-!> the established scheme acts, and the report says why.
+!> The second order is available for rolling, steady or in steps of one element along x, with the default solver, if pressures are
+!> a solution for half-spaces, or semi-ellipses by formula: the edge of contact is computed from them. Otherwise the established
+!> scheme is used, with the reason in the report.
 module contact_patch_order
    use contact_base_choices, only : is_classical, kernel_model, motion, pressure_model
    use contact_base_constants, only : excluded_threshold
@@ -18,21 +18,22 @@ module contact_patch_order
 
    public :: choose_order, edge_slip, lower_order, order_of_errors, spin_offset_of, set_second_order
 
-   !> Rigid slip of the second order is that in the middle of the step [steps]
+   !> The second order uses the rigid slip in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
-   !> Steps that differ by less than this part of an element are one element long: the edge is off by that part of it; chosen
+   !> Steps that differ from one element by less than this fraction are regarded as one element; the error of the edge position is
+!> the same fraction of an element; chosen
    real(wp), parameter :: step_slack = 0.01_wp
-   !> Largest change of pressures in central differences of edge terms, and the smallest one, which rounding requires, as fractions
+   !> Largest change of pressures in central differences of edge terms, and the smallest one, which round-off requires, as fractions
    !> of the largest pressure; largest change as a fraction of a pressure at the edge, as terms are quotients by it; chosen
-   real(wp), parameter :: pressure_step = 1.0e-6_wp, least_step = 1.0e-10_wp, edge_step = 1.0e-3_wp
+   real(wp), parameter :: pressure_step = 1.0e-6_wp, min_step = 1.0e-10_wp, edge_step = 1.0e-3_wp
 
 contains
 
-   !> Order of the tangential problem, with the reason where it is not the one that was asked for
+   !> Choose the order of the tangential problem, with the reason if it is not the requested one
    pure subroutine choose_order(problem, report)
-      !> Order that is asked for, and all that decides
+      !> Requested order, and the data that determine whether it is available
       type(patch_problem), intent(in) :: problem
-      !> Gets order and reason; nothing where the first order was asked for, or motion has none
+      !> Receives order and reason; unchanged if the first order was requested, or without motion
       type(solve_report), intent(inout) :: report
 
       if (problem%settings%order < 2 .or. problem%motion == motion%none) return
@@ -40,7 +41,7 @@ contains
       report%order = merge(2, 1, report%order_reason == "")
    end subroutine choose_order
 
-   !> What stands in the way of the second order, blank for nothing
+   !> Reason why the second order is not available; blank if it is
    pure function obstacle(problem) result(reason)
       type(patch_problem), intent(in) :: problem
       character(len=reason_length) :: reason
@@ -54,7 +55,7 @@ contains
          reason = "simplified theory"
       else if (problem%general_step .or. (problem%classical .and. is_classical(problem%solver))) then
          reason = "order 2 is for the default solver"
-      else if (.not. problem%solves_for_pressure() .and. .not. is_root(problem)) then
+      else if (.not. problem%solves_for_pressure() .and. .not. has_semi_ellipses(problem)) then
          reason = "pressures by formula"
       else if (problem%model%sheet > 0.0_wp) then
          reason = "elastic sheet"
@@ -68,14 +69,14 @@ contains
    end function obstacle
 
    !> Are pressures semi-ellipses in each row by formula?
-   pure logical function is_root(problem)
+   pure logical function has_semi_ellipses(problem)
       type(patch_problem), intent(in) :: problem
 
-      is_root = allocated(problem%given_pressure) &
+      has_semi_ellipses = allocated(problem%given_pressure) &
          & .and. any(problem%pressure == [pressure_model%elliptical, pressure_model%sdec])
-   end function is_root
+   end function has_semi_ellipses
 
-   !> Does a step of transient rolling take particles from element to element?
+   !> Does a step of transient rolling move particles by one element along x?
    pure logical function is_one_element(problem)
       type(patch_problem), intent(in) :: problem
 
@@ -85,35 +86,35 @@ contains
 
    !> Fall back to the first order
    pure subroutine lower_order(reason, report)
-      !> Why
+      !> Why the second order is not used
       character(len=*), intent(in) :: reason
-      !> Gets order and reason
+      !> Receives order and reason
       type(solve_report), intent(inout) :: report
 
       report%order = 1
       report%order_reason = reason
    end subroutine lower_order
 
-   !> Order of the errors of the discretisation: 2 only if nothing of order 2 is left out
+   !> Order of the discretisation errors: 2 only if all terms of the second order are included
    pure integer function order_of_errors(report) result(order)
-      !> Order that acted, with a reason where it is not the one asked for or not whole
+      !> Order that was used, with a reason if it is not the requested one or if terms are omitted
       type(solve_report), intent(in) :: report
 
       order = merge(2, 1, report%order == 2 .and. report%order_reason == "")
    end function order_of_errors
 
-   !> How far ahead of the elements the rigid slip is taken [steps]
+   !> Offset in rolling direction at which the rigid slip is evaluated [steps]
    pure real(wp) function spin_offset_of(problem, report) result(offset)
       !> Offset of the first order
       type(patch_problem), intent(in) :: problem
-      !> Order that acts
+      !> Order in use
       type(solve_report), intent(in) :: report
 
       offset = problem%spin_offset
       if (report%order == 2) offset = middle
    end function spin_offset_of
 
-   !> Edge terms of the tangential problem, from the pressures
+   !> Compute the edge terms of the tangential problem from the pressures
    subroutine set_second_order(problem, state, box, report, workspace)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
@@ -121,9 +122,9 @@ contains
       type(patch_state), intent(in) :: state
       !> Part of the grid of the tangential problem
       type(bounding_box), intent(in) :: box
-      !> Order that acts
+      !> Order in use
       type(solve_report), intent(in) :: report
-      !> Compliance of the box; its tangential problem gets the terms, or loses them
+      !> Compliance of the box; the terms of its tangential problem are set, or deallocated for the first order
       type(patch_workspace), intent(inout) :: workspace
       real(wp), allocatable :: gap(:, :)
 
@@ -135,13 +136,13 @@ contains
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
          allocate(gap(t%mx, t%my), source=unknown_gap)
-         if (.not. is_root(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
-         call find_edge_terms(t%contact, workspace%box_pn, gap, is_root(problem), t%dx, t%dy, t%direction, &
+         if (.not. has_semi_ellipses(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
+         call find_edge_terms(t%contact, workspace%box_pn, gap, has_semi_ellipses(problem), t%dx, t%dy, t%direction, &
             & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), problem%model%layer, t%second)
       end associate
    end subroutine set_second_order
 
-   !> How far surfaces are apart in the elements ahead of the leading ones, from the pressures
+   !> Compute the deformed distance in the elements ahead of the leading ones from the pressures
    subroutine find_gaps(problem, pn, box, direction, workspace, gap)
       type(patch_problem), intent(in) :: problem
       !> [N/mm2], shape of the grid
@@ -156,7 +157,7 @@ contains
       real(wp), allocatable :: un(:, :)
       integer :: ix, iy, jx
 
-      ! parts that act on each other with less than full strength have displacements of their own
+      ! parts with reduced interaction have separate displacements
       if (allocated(problem%parts)) return
       call prepare_window(problem, workspace)
       allocate(un, mold=pn)
@@ -167,26 +168,26 @@ contains
                jx = ix + direction
                if (jx < 1 .or. jx > problem%grid%mx .or. .not. pn(ix, iy) > 0.0_wp) cycle
                if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold) cycle
-               ! less what the solution has left in the leading element
+               ! minus the distance that remains in the leading element, an error of the solution
                gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = max(0.0_wp, normal%h(jx, iy) - normal%h(ix, iy) + un(jx, iy) - un(ix, iy))
             end do
          end do
       end associate
    end subroutine find_gaps
 
-   !> Slip of the leading elements by the change of their edge terms with the pressures
+   !> Derivative of the slip of the leading elements due to the change of their edge terms with the pressures
    subroutine edge_slip(problem, tangential, diagonal, p, pressure, change, gap_change, slip)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
-      !> With edge terms at the pressures
+      !> Tangential problem with edge terms at the current pressures
       type(tangential_problem), intent(in) :: tangential
       !> Compliance of an element A_xx(0) [mm/(N/mm2)]
       real(wp), intent(in) :: diagonal
       !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :)
-      !> Pressures [N/mm2] and how they change with some input, shape (mx, my)
+      !> Pressures [N/mm2] and their derivatives with respect to some input, shape (mx, my)
       real(wp), intent(in) :: pressure(:, :), change(:, :)
-      !> How distances in the elements ahead change with it [mm per unit], zero where they are not known, shape (mx, my)
+      !> Derivatives of the distances in the elements ahead [mm per unit], zero where these are unknown, shape (mx, my)
       real(wp), intent(in) :: gap_change(:, :)
       !> [mm per unit of the input], shape (mx, my, 2)
       real(wp), intent(out) :: slip(:, :, :)
@@ -200,7 +201,7 @@ contains
       do k = 1, 2
          side = real(2*k - 3, wp)*step
          call find_edge_terms(tangential%contact, pressure + side*change, tangential%second%gap + side*gap_change, &
-            & is_root(problem), tangential%dx, tangential%dy, tangential%direction, problem%model%material%nu, &
+            & has_semi_ellipses(problem), tangential%dx, tangential%dy, tangential%direction, problem%model%material%nu, &
             & problem%model%material%gg, diagonal, problem%model%layer, terms(k))
       end do
       do k = 1, size(terms(1)%at, 2)
@@ -228,6 +229,6 @@ contains
          d = abs(change(second%at(1, k), second%at(2, k)))
          if (step*d > edge_step*p) step = edge_step*p/d
       end do
-      step = max(step, least_step*largest)
+      step = max(step, min_step*largest)
    end function step_of
 end module contact_patch_order

@@ -262,13 +262,17 @@ contains
       call list%add("pen", "mm", "approach of the bodies", self%pen, law=error_law%normal)
       call list%add("pmax", "N/mm2", "largest pressure", self%pmax, law=error_law%peak)
       if (is_rolling(self%motion)) then
-         call list%add("cksi", "-", "longitudinal creepage, given or found", self%cksi, orientation%along, law=error_law%creepage)
-         call list%add("ceta", "-", "lateral creepage, given or found", self%ceta, orientation%across, law=error_law%creepage)
+         call list%add("cksi", "-", "longitudinal creepage, prescribed or computed", self%cksi, &
+            & orientation%along, law=error_law%creepage)
+         call list%add("ceta", "-", "lateral creepage, prescribed or computed", self%ceta, &
+            & orientation%across, law=error_law%creepage)
          call list%add("cphi", "rad/mm", "spin", self%cphi, orientation%across)
          call list%add("friction_power", "W", "frictional power, dissipation negative", self%friction_power, law=error_law%power)
       else if (self%motion == motion_choice%shift) then
-         call list%add("shift_x", "mm", "longitudinal shift, given or found", self%cksi, orientation%along, law=error_law%creepage)
-         call list%add("shift_y", "mm", "lateral shift, given or found", self%ceta, orientation%across, law=error_law%creepage)
+         call list%add("shift_x", "mm", "longitudinal shift, prescribed or computed", self%cksi, &
+            & orientation%along, law=error_law%creepage)
+         call list%add("shift_y", "mm", "lateral shift, prescribed or computed", self%ceta, &
+            & orientation%across, law=error_law%creepage)
          call list%add("rotation", "rad", "rotation", self%cphi, orientation%across)
          call list%add("friction_work", "J", "frictional work, dissipation negative", self%friction_power, law=error_law%power)
       end if

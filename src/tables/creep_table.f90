@@ -62,7 +62,7 @@ module contact_tables_creep_table
       real(wp) :: band = 0.0_wp
       !> Requested bound of the errors, largest errors found at points that were not used to make the table, relative to mu Fn
       !> for forces and to mu Fn c for the moment [-]; number of these points
-      real(wp) :: asked = 0.0_wp, error_force = 0.0_wp, error_moment = 0.0_wp, checked = 0.0_wp
+      real(wp) :: required = 0.0_wp, error_force = 0.0_wp, error_moment = 0.0_wp, checked = 0.0_wp
       !> Largest difference from results with three times as many elements per side, forces and moment [-]
       real(wp) :: grid_force = 0.0_wp, grid_moment = 0.0_wp
       !> Elements per side, and order of their discretisation

@@ -86,7 +86,7 @@ contains
       table%elements = whole(7)
       table%discretisation = whole(8)
       table%nu = number(1)
-      table%asked = number(2)
+      table%required = number(2)
       table%error_force = number(3)
       table%error_moment = number(4)
       table%checked = number(5)

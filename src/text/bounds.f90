@@ -358,9 +358,9 @@ module contact_text_bounds
       & -1.0e9_wp, 1.0e9_wp, .false., "read but not used", .true.), &
       & number_bounds("GAUGWD", "mm", "gauge", &
       & -far, far, .false., "a gauge of 1 km"), &
-      & number_bounds("RAILY0", "mm", "lateral place of the rail", &
+      & number_bounds("RAILY0", "mm", "lateral position of the rail", &
       & -far, far, .false., "1 km from the track"), &
-      & number_bounds("RAILZ0", "mm", "vertical place of the rail", &
+      & number_bounds("RAILZ0", "mm", "vertical position of the rail", &
       & -far, far, .false., "1 km from the track"), &
       & number_bounds("CANT", "rad", "cant of the rail", &
       & -two_turns, two_turns, .false., "an angle; in degrees with a suffix: 1.43d"), &
@@ -420,9 +420,9 @@ module contact_text_bounds
    type(number_bounds), parameter :: wheel_rows(*) = [ &
       & number_bounds("FBDIST", "mm", "flange-back distance", &
       & -far, far, .false., "a wheelset of 1 km"), &
-      & number_bounds("FBPOS", "mm", "place of the flange back in the profile", &
+      & number_bounds("FBPOS", "mm", "position of the flange back in the profile", &
       & -far, far, .false., "a wheel of 1 km"), &
-      & number_bounds("YTAPE", "mm", "place of the nominal radius", &
+      & number_bounds("YTAPE", "mm", "position of the nominal radius", &
       & -1.0e9_wp, 1.0e9_wp, .false., "from 999 on: no tape line"), &
       & number_bounds("S_WS", "mm", "position along the track", &
       & -far_along, far_along, .false., "1e6 km of track", .true.), &

@@ -46,11 +46,11 @@ module contact_toml_quantities
 contains
 
    !> Convert a number with a unit
-   subroutine read_quantity(text, wanted, value, complaint)
+   subroutine read_quantity(text, expected, value, complaint)
       !> Number, blank and unit
       character(len=*), intent(in) :: text
       !> Required unit, as in the table of bounds; "- or mm" allows either of two
-      character(len=*), intent(in) :: wanted
+      character(len=*), intent(in) :: expected
       !> Value in the internal unit
       real(wp), intent(out) :: value
       !> Why it is invalid; unallocated if it is valid
@@ -75,25 +75,25 @@ contains
       name = trim(adjustl(text(blank:)))
       call read_unit(name, given, is_known)
       if (.not. is_known) then
-         complaint = 'has the unit "' // name // '", which is not known; wanted is ' // trim(required_unit(wanted))
+         complaint = 'has the unit "' // name // '", which is not known; expected is ' // trim(required_unit(expected))
          return
       end if
       fits = .false.
       first = 1
-      do while (.not. fits .and. first <= len_trim(wanted))
-         last = index(wanted(first:), " or ")
-         last = merge(len_trim(wanted), first + last - 2, last == 0)
-         call read_unit(wanted(first:last), required, is_known)
+      do while (.not. fits .and. first <= len_trim(expected))
+         last = index(expected(first:), " or ")
+         last = merge(len_trim(expected), first + last - 2, last == 0)
+         call read_unit(expected(first:last), required, is_known)
          if (is_known) fits = all(required%dimensions == given%dimensions)
          first = last + 5
       end do
       ! kelvin: temperatures would need an offset and differences would not, and the table does not distinguish them
       if (name == "K" .and. fits) then
          complaint = "is in kelvin; temperatures are in degC"
-      else if (.not. fits .and. (wanted == "integer" .or. index(wanted, "...") > 0)) then
-         complaint = "has a unit, but a plain number is wanted"
+      else if (.not. fits .and. (expected == "integer" .or. index(expected, "...") > 0)) then
+         complaint = "has a unit, but a plain number is expected"
       else if (.not. fits) then
-         complaint = 'has the unit "' // name // '", wanted is ' // trim(required_unit(wanted)) // &
+         complaint = 'has the unit "' // name // '", expected is ' // trim(required_unit(expected)) // &
          & " or a unit that can be converted to it"
       end if
       if (allocated(complaint)) return
@@ -103,12 +103,12 @@ contains
    end subroutine read_quantity
 
    !> A unit as shown in a message, padded with blanks
-   pure function required_unit(wanted) result(text)
-      character(len=*), intent(in) :: wanted
-      character(len=len(wanted) + 14) :: text
+   pure function required_unit(expected) result(text)
+      character(len=*), intent(in) :: expected
+      character(len=len(expected) + 14) :: text
 
-      text = wanted
-      if (index(wanted, "-") == 1) text = "a plain number" // wanted(2:)
+      text = expected
+      if (index(expected, "-") == 1) text = "a plain number" // expected(2:)
    end function required_unit
 
    !> A number times a power of ten, rounded once

@@ -3,7 +3,7 @@ module contact_fuzz_resume_entry
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_loc, c_long
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : long
-   use contact_capi_arguments, only : give_message
+   use contact_capi_arguments, only : set_message
    use contact_experiment_run, only : run_experiment, run_settings
    use contact_text_file_text, only : add_to_hash, empty_hash
    implicit none (type, external)
@@ -35,9 +35,9 @@ contains
       call run_experiment(settings, error)
       fuzz_run = merge(1_c_int, 0_c_int, allocated(error))
       if (allocated(error)) then
-         call give_message(full_text(error), c_loc(message), length)
+         call set_message(full_text(error), c_loc(message), length)
       else
-         call give_message("", c_loc(message), length)
+         call set_message("", c_loc(message), length)
       end if
    end function fuzz_run
 

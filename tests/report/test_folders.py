@@ -131,8 +131,8 @@ class Folders(unittest.TestCase):
         values = {name: third[0][0] if isinstance(third, list) else rest[0] if rest else None for name, _, third, *rest in fields}
         values.update({"rail": "profiles/60E1.prr", "wheel": "profiles/S1002.prw"} if which == "wheel" else {})
         values.update(changes.pop("values", {}))
-        asked = dict(kind=which, folder="", name="new", format="toml", values=values, vary="", to=0, count=1)
-        return self.ask("POST", "/new", json.dumps({**asked, **changes}))
+        body = dict(kind=which, folder="", name="new", format="toml", values=values, vary="", to=0, count=1)
+        return self.ask("POST", "/new", json.dumps({**body, **changes}))
 
     def test_new_experiments_in_both_formats(self):
         offered = json.loads(self.ask("GET", "/form", folder="")[1])

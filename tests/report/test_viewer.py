@@ -512,7 +512,7 @@ class Compared(Page):
         page = self.open(self.page_of("cattaneo"))
         self.assertTrue(page.is_hidden("#compared"))
         page.set_input_files("#compare-file", os.path.join(SOURCE, "README.md"))
-        page.wait_for_function("() => document.getElementById('readout').innerText.includes('no page')")
+        page.wait_for_function("() => document.getElementById('readout').innerText.includes('not a page')")
         other = self.page_of("less")[len("file://"):]
         page.set_input_files("#compare-file", other)
         page.wait_for_selector("#compared", state="visible")

@@ -101,7 +101,7 @@ class Plane extends Frame {
   }
   describe(b, flat) {
     const [low, high] = rangeOf(flat);
-    this.describe(
+    this.announce(
       `${STRESSES[b.name]}${WHOSE[b.mode]} in ${b.plane} = ${figures(b[b.plane][b.place])} mm, ` +
         `from ${figures(low)} to ${figures(high)} ${stressUnit(b.name)}`,
     );

@@ -43,7 +43,7 @@ KINDS: dict[str, dict[str, Any]] = {
                    ("vs", "Forward speed", "mm/s", 20000.0), ("fstat", "Coefficient of friction", "", 0.3), *STEEL,
                    ("gaugwd", "Gauge", "mm", 1435.0), ("gaught", "Height of the gauge point", "mm", 14.0),
                    ("cant", "Cant of the rail", "rad", 0.025), ("fbdist", "Flange-back distance", "mm", 1360.0),
-                   ("fbpos", "Place of the flange back in the profile", "mm", -70.0),
+                   ("fbpos", "Position of the flange back in the profile", "mm", -70.0),
                    ("nomradw", "Nominal radius of the wheel", "mm", 460.0),
                    ("dx", "Size of the elements", "mm", 0.4)],
         "vary": {"fz": "position", "y_ws": "position", "yaw": "position", "fx_ws": "velocity"}},

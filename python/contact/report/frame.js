@@ -53,10 +53,10 @@ class Picture {
     c.textBaseline = "middle";
     c.fillText(text, this.width / 2, this.height / 2);
     this.shown = null;
-    this.describe(text);
+    this.announce(text);
   }
   // Description of the plot in words, for screen readers
-  describe(text) {
+  announce(text) {
     const name = `${this.title}: ${text}`;
     if (!this.file && this.canvas.getAttribute("aria-label") !== name) this.canvas.setAttribute("aria-label", name);
   }

@@ -70,7 +70,7 @@ class ElementMap extends Frame {
         `${shown.mode === "this" ? "" : shown.mode + ", "}${nameOf(name)}, ` +
         `${caseName(nowCase())}, patch ${shown.patch.number}`;
     if (name === "eldiv")
-      return this.describe(
+      return this.announce(
         `${what}; ` +
           STATES.map(([text], k) => [text, inside.reduce((n, v) => n + (v === k), 0)])
             .filter(s => s[1])
@@ -88,7 +88,7 @@ class ElementMap extends Frame {
     const place = i =>
       `x ${figures(grid.xl + ((i % grid.mx) + 0.5) * grid.dx, 3)}, ` +
       `y ${figures(grid.yl + (Math.floor(i / grid.mx) + 0.5) * grid.dy, 3)} mm`;
-    return this.describe(
+    return this.announce(
       high < 0
         ? `${what}; no contact`
         : `${what}; from ${withUnit(values[low], unitOf(shown.patch, name))} at ${place(low)} ` +
@@ -311,7 +311,7 @@ class Section extends Frame {
       : `column ${at + 1} of ${mx}, x = ${figures(place)} mm`;
     byId("section-row").textContent = section;
     byId("section-row").title = `${section}; click a map for another`;
-    this.describe(
+    this.announce(
       `${section}; ` +
         this.drawn
           .filter(l => l.name && !l.name.startsWith("\u00b1"))

@@ -77,7 +77,7 @@ class Curve extends Frame {
     }
     this.end(label(name[0]), label(name[1]));
     legend(c, this, entries);
-    this.describe(
+    this.announce(
       `${name[1]} over ${name[0]}, ${this.points.length} points in ${series.length} line${series.length > 1 ? "s" : ""}; ` +
         `${name[1]} from ${withUnit(y0, meta(name[1]).unit)} to ${withUnit(y1, meta(name[1]).unit)}` +
         (now ? `; this case: ${figures(now.y, 5)} at ${figures(now.x, 5)}` : ""),
@@ -187,7 +187,7 @@ class Profiles extends Frame {
       ["rail", "#1d2733"],
       ["pressure over the row", "#d2434c"],
     ]);
-    this.describe(
+    this.announce(
       `${caseName(c0)}; ` +
         (c0.patches
           .map(

@@ -66,7 +66,7 @@ class Scene extends Picture {
     c.fillStyle = "rgba(255,255,255,.8)";
     c.fillRect(this.width - this.right + 2, 0, this.right, this.height);
     colourBar(this, scale, unit);
-    this.describe(
+    this.announce(
       `${nameOf(name)} on the rail, ${caseName(c0)}; ` +
         c0.patches.map(p => `patch ${p.number} at y ${figures(p.totals.ycp_tr, 5)} mm`).join(", ") +
         "; arrows: tangential tractions on the rail",
