@@ -11,11 +11,12 @@ module contact_normal_conjugate_gradient
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_elastic_new_compliance, only : new_compliance
+   use contact_elastic_shelf, only : operator_shelf
    use contact_grid_coarsening, only : shortest_side
    use contact_normal_coarse_problem, only : coarsen, prolong
    use contact_normal_few_elements, only : area_factor, solve_few
    use contact_normal_few_limits, only : add_limits, find_limits, limited_pressures
-   use contact_normal_overlap, only : overlap_window, window_type
+   use contact_normal_overlap, only : overlap_window, window_near, window_type
    use contact_normal_gradient_loops, only : choose_free, go_along, mean_gap, mean_of_free, project, &
       & residuals, turn_direction
    use contact_normal_last_answer, only : answer_type
@@ -44,6 +45,12 @@ module contact_normal_conjugate_gradient
       type(answer_type), private :: last
       !> Window around the overlap, in a potential contact area that is much larger
       type(level_type), private :: overlap
+      !> Window around the estimated pressures of a problem in a sequence, and operators of such windows
+      type(level_type) :: near
+      type(operator_shelf), private :: near_operators
+      type(window_type) :: near_window
+      !> Displacements in the window of the whole problem [mm]
+      real(wp), allocatable, private :: displacement(:, :)
       !> Factor of the last contact of few elements, for sequences of problems
       type(area_factor) :: factor
    end type normal_workspace
@@ -106,6 +113,8 @@ contains
       products_before = operator%products
       report%ended = ending%not_started
       if (problem%follows) call solve_few(problem, operator, workspace%factor, p, pen, report)
+      workspace%near_window = window_type()
+      if (report%ended /= ending%converged) call solve_near(problem, operator, workspace, p, pen, report, log)
       if (report%ended /= ending%converged) then
          window = overlap_window(problem, operator, pen)
          if (window%mx > 0) then
@@ -123,6 +132,51 @@ contains
       end do
    end subroutine solve_normal
 
+   !> Solve in a window around the estimated pressures, and check the other elements
+   subroutine solve_near(problem, operator, workspace, p, pen, report, log)
+      !> One of a sequence of problems, with a prescribed approach
+      type(normal_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(normal_workspace), intent(inout) :: workspace
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp), intent(inout) :: pen
+      !> Not converged if there is no such window, or if other elements overlap; p is an estimate then
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout), optional :: log
+      type(window_type) :: window
+      integer :: products_before
+      real(wp) :: worst
+
+      window = window_near(problem, operator, p)
+      if (window%mx == 0) return
+      associate (near => workspace%near)
+         call window%cut(problem, near%problem)
+         call workspace%near_operators%fetch(operator%model, problem%dx, problem%dy, window%mx, window%my, near%operator)
+         call new_compliance(operator%model, near%operator)
+         call near%operator%prepare(operator%model, problem%dx, problem%dy, window%mx, window%my, 1, &
+            & operator%y_first + window%before_y*problem%dy)
+         products_before = near%operator%products
+         near%operator%transforms = 0
+         near%p = window%part_of(p)
+         call solve_level(near%problem, near%operator, workspace, 1, near%p, pen, problem%eps, report, log)
+         call window%put_back(near%p, p)
+         report%products = report%products + near%operator%products - products_before
+         call near%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
+      end associate
+      if (report%ended /= ending%converged) return
+      if (allocated(workspace%displacement)) then
+         if (any(shape(workspace%displacement) /= shape(p))) deallocate(workspace%displacement)
+      end if
+      if (.not. allocated(workspace%displacement)) allocate(workspace%displacement(problem%mx, problem%my))
+      call pressure_displacement(problem, operator, p, workspace%displacement)
+      worst = maxval(pen - problem%h - workspace%displacement, .not. p > 0.0_wp)
+      if (worst > problem%eps*approach_scale(pen, minval(problem%h), worst)) then
+         report%ended = ending%not_started
+      else
+         workspace%near_window = window
+      end if
+   end subroutine solve_near
+
    !> Solve in a window that contains all elements that can be in contact
    subroutine solve_in_window(problem, operator, workspace, window, p, pen, report, log)
       !> Problem with a prescribed approach
@@ -135,20 +189,17 @@ contains
       real(wp), intent(inout) :: pen
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout), optional :: log
-      integer :: products_before, last_x, last_y
+      integer :: products_before
 
-      last_x = window%before_x + window%mx
-      last_y = window%before_y + window%my
       associate (part => workspace%overlap)
          call window%cut(problem, part%problem)
          call new_compliance(operator%model, part%operator)
          call part%operator%prepare(operator%model, problem%dx, problem%dy, window%mx, window%my, 1, &
             & operator%y_first + window%before_y*problem%dy)
          products_before = part%operator%products
-         part%p = p(window%before_x + 1:last_x, window%before_y + 1:last_y)
+         part%p = window%part_of(p)
          call solve_level(part%problem, part%operator, workspace, 1, part%p, pen, problem%eps, report, log)
-         p = 0.0_wp
-         p(window%before_x + 1:last_x, window%before_y + 1:last_y) = part%p
+         call window%put_back(part%p, p)
          report%products = report%products + part%operator%products - products_before
          call part%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
       end associate
@@ -426,6 +477,8 @@ contains
 
       if (.not. allocated(workspace%level)) return
       if (allocated(workspace%overlap%operator)) call workspace%overlap%operator%release()
+      if (allocated(workspace%near%operator)) call workspace%near%operator%release()
+      call workspace%near_operators%release()
       do k = 1, size(workspace%level)
          if (allocated(workspace%level(k)%operator)) call workspace%level(k)%operator%release()
       end do

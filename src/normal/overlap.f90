@@ -9,7 +9,7 @@ module contact_normal_overlap
    implicit none (type, external)
    private
 
-   public :: overlap_window, window_type
+   public :: overlap_window, window_near, window_type
 
    !> A window of elements within a larger one
    type :: window_type
@@ -20,12 +20,17 @@ module contact_normal_overlap
    contains
       !> Cut a problem out of a larger one
       procedure :: cut
+      !> Cut out a field, and set the larger field to one that was cut out, zero elsewhere
+      procedure :: part_of
+      procedure :: put_back
    end type window_type
 
    !> A window with a larger fraction of the elements is not worth its own coefficients; chosen
-   real(wp), parameter :: much_smaller = 0.6_wp
+   real(wp), parameter :: much_smaller = 0.6_wp, somewhat_smaller = 0.75_wp
    !> Sides are multiples of this number, so that the window is the same for similar approaches; chosen
    integer, parameter :: unit_side = 8
+   !> The same for a window around estimated pressures, with its margin on each side in elements; chosen
+   integer, parameter :: unit_near = 4, margin = 2
 
 contains
 
@@ -51,25 +56,75 @@ contains
          end associate
       end do
       if (last(1) == 0) return
-      call fit_side(problem%mx, first(1), last(1))
-      call fit_side(problem%my, first(2), last(2))
+      call fit_side(problem%mx, unit_side, first(1), last(1))
+      call fit_side(problem%my, unit_side, first(2), last(2))
       if (real(last(1) - first(1) + 1, wp)*(last(2) - first(2) + 1) > much_smaller*problem%mx*problem%my) return
       if (.not. all(operator%table%nn >= 0.0_wp)) return
       window = window_type(last(1) - first(1) + 1, last(2) - first(2) + 1, first(1) - 1, first(2) - 1)
    end function overlap_window
 
-   !> Extend a range of elements to a multiple of the unit, within the larger window
-   pure subroutine fit_side(n, first, last)
-      !> Number of elements of the larger window
-      integer, intent(in) :: n
+   !> Window around estimated pressures; of size 0 if it is not much smaller than that of the problem
+   type(window_type) function window_near(problem, operator, p) result(window)
+      !> One of a sequence of problems, with a prescribed approach
+      type(normal_problem), intent(in) :: problem
+      !> Prepared for the window of the problem
+      class(compliance), intent(in) :: operator
+      !> Estimated pressures [N/mm2], shape (mx, my)
+      real(wp), intent(in) :: p(:, :)
+      integer :: first(2), last(2), ix, iy
+
+      if (problem%force_prescribed .or. .not. problem%follows .or. allocated(problem%parts)) return
+      if (.not. operator%has_table() .or. allocated(operator%model%memory) .or. allocated(operator%model%inclination)) return
+      first = huge(1)
+      last = 0
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. p(ix, iy) > 0.0_wp) cycle
+            first = min(first, [ix, iy])
+            last = max(last, [ix, iy])
+         end do
+      end do
+      if (last(1) == 0) return
+      first = max(1, first - margin)
+      last = min([problem%mx, problem%my], last + margin)
+      call fit_side(problem%mx, unit_near, first(1), last(1))
+      call fit_side(problem%my, unit_near, first(2), last(2))
+      if (real(last(1) - first(1) + 1, wp)*(last(2) - first(2) + 1) > somewhat_smaller*problem%mx*problem%my) return
+      window = window_type(last(1) - first(1) + 1, last(2) - first(2) + 1, first(1) - 1, first(2) - 1)
+   end function window_near
+
+   !> Extend a range of elements to a multiple of a unit, within the larger window
+   pure subroutine fit_side(n, unit, first, last)
+      !> Number of elements of the larger window, and the unit
+      integer, intent(in) :: n, unit
       !> First and last element
       integer, intent(inout) :: first, last
       integer :: length
 
-      length = min(n, unit_side*((last - first + unit_side)/unit_side))
+      length = min(n, unit*((last - first + unit)/unit))
       first = max(1, min(first, n - length + 1))
       last = first + length - 1
    end subroutine fit_side
+
+   pure function part_of(self, whole) result(part)
+      class(window_type), intent(in) :: self
+      !> Field on the larger window
+      real(wp), intent(in) :: whole(:, :)
+      real(wp) :: part(self%mx, self%my)
+
+      part = whole(self%before_x + 1:self%before_x + self%mx, self%before_y + 1:self%before_y + self%my)
+   end function part_of
+
+   pure subroutine put_back(self, part, whole)
+      class(window_type), intent(in) :: self
+      !> Field on this window
+      real(wp), intent(in) :: part(:, :)
+      !> Field on the larger window
+      real(wp), intent(inout) :: whole(:, :)
+
+      whole = 0.0_wp
+      whole(self%before_x + 1:self%before_x + self%mx, self%before_y + 1:self%before_y + self%my) = part
+   end subroutine put_back
 
    subroutine cut(self, whole, part)
       class(window_type), intent(in) :: self
@@ -82,7 +137,7 @@ contains
       part%my = self%my
       part%dx = whole%dx
       part%dy = whole%dy
-      part%h = whole%h(self%before_x + 1:self%before_x + self%mx, self%before_y + 1:self%before_y + self%my)
+      part%h = self%part_of(whole%h)
       part%force_prescribed = .false.
       part%eps = whole%eps
       part%maxgs = whole%maxgs

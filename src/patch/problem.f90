@@ -158,6 +158,8 @@ module contact_patch_problem
       logical :: started = .false.
       !> Present and previous time step
       type(traction_fields) :: now, before
+      !> Solution of the case before the last one, in a loop over time, for extrapolations; not used if its grid is empty
+      type(traction_fields) :: earlier
       !> Last creepages [-]
       real(wp) :: creep(2) = 0.0_wp
    end type patch_state

@@ -9,7 +9,7 @@ module contact_patch_sensitivities
    use contact_base_log, only : log_type
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_normal_few_elements, only : area_factor
+   use contact_normal_conjugate_gradient, only : normal_workspace
    use contact_normal_stiffness, only : pressure_derivative
    use contact_patch_order, only : spin_offset_of
    use contact_patch_problem, only : patch_problem, patch_state
@@ -50,7 +50,7 @@ contains
       reached = 0.0_wp
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
       if (problem%sensitivity >= sensitivity_choice%normal .and. problem%solves_for_pressure()) &
-         & call normal_stiffness(problem, workspace%window, workspace%normal_work%factor, state, result, q, reached)
+         & call normal_stiffness(problem, workspace%window, workspace%normal_work, state, result, q, reached)
       ! there is no linearised problem for steps of other length than one element
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified) .and. .not. problem%general_step) &
          & call tangential_part()
@@ -69,11 +69,11 @@ contains
    end subroutine find_sensitivities
 
    !> dFn/dpen [N/mm], and the derivative of the pressures with respect to the approach
-   subroutine normal_stiffness(problem, operator, factor, state, result, q, reached)
+   subroutine normal_stiffness(problem, operator, solver, state, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> Factorisation, possibly that of the contact area
-      type(area_factor), intent(inout) :: factor
+      !> Work space of the solution: factorisation, possibly that of the contact area, and window around it
+      type(normal_workspace), intent(inout) :: solver
       type(patch_state), intent(inout) :: state
       type(patch_result), intent(inout) :: result
       !> Derivative of the pressures [N/mm3], shape (mx, my); unallocated if it is stored in the state and not needed elsewhere
@@ -85,19 +85,19 @@ contains
       if (problem%follows_approach) then
          has_estimate = allocated(state%now%rate)
          if (.not. has_estimate) allocate(state%now%rate, mold=result%pn)
-         call find_rate(problem, operator, factor, has_estimate, result, state%now%rate, reached)
+         call find_rate(problem, operator, solver, has_estimate, result, state%now%rate, reached)
          if (problem%sensitivity >= sensitivity_choice%all) q = state%now%rate
       else
          allocate(q, mold=result%pn)
-         call find_rate(problem, operator, factor, .false., result, q, reached)
+         call find_rate(problem, operator, solver, .false., result, q, reached)
       end if
    end subroutine normal_stiffness
 
    !> Derivative of the pressures, and dFn/dpen as its sum
-   subroutine find_rate(problem, operator, factor, has_estimate, result, q, reached)
+   subroutine find_rate(problem, operator, solver, has_estimate, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      type(area_factor), intent(inout) :: factor
+      type(normal_workspace), intent(inout) :: solver
       !> Is q an estimate on entry?
       logical, intent(in) :: has_estimate
       type(patch_result), intent(inout) :: result
@@ -113,13 +113,42 @@ contains
       reached = 0.0_wp
       is_found = .false.
       if (problem%follows_approach .and. .not. allocated(problem%parts)) &
-         & call factor%pressure_derivative(operator, result%pn, q, is_found)
+         & call solver%factor%pressure_derivative(operator, result%pn, q, is_found)
       tolerance = problem%epsens
       if (has_estimate) tolerance = max(tolerance, rough)
-      if (.not. is_found) call pressure_derivative(operator, problem%parts, result%division > element%exterior, tolerance, &
-         & problem%mxsens, q, reached, has_estimate)
+      if (.not. is_found .and. solver%near_window%mx > 0) then
+         call find_rate_nearby(problem, solver, tolerance, has_estimate, result, q, reached)
+      else if (.not. is_found) then
+         call pressure_derivative(operator, problem%parts, result%division > element%exterior, tolerance, problem%mxsens, q, &
+            & reached, has_estimate)
+      end if
       result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
    end subroutine find_rate
+
+   !> The same in the window around the contact area in which the normal problem was solved
+   subroutine find_rate_nearby(problem, solver, tolerance, has_estimate, result, q, reached)
+      type(patch_problem), intent(in) :: problem
+      type(normal_workspace), intent(inout) :: solver
+      !> Of the relative residual [-]
+      real(wp), intent(in) :: tolerance
+      !> Is q an estimate on entry?
+      logical, intent(in) :: has_estimate
+      type(patch_result), intent(in) :: result
+      !> Derivative of the pressures with respect to the approach [N/mm3], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: q(:, :)
+      !> Relative residual [-]
+      real(wp), intent(out) :: reached
+      logical, allocatable :: contact(:, :)
+      real(wp), allocatable :: part(:, :)
+
+      associate (window => solver%near_window)
+         allocate(part, source=window%part_of(q))
+         allocate(contact, source=window%part_of(result%pn) > 0.0_wp)
+         call pressure_derivative(solver%near%operator, problem%parts, contact, tolerance, problem%mxsens, part, reached, &
+            & has_estimate)
+         call window%put_back(part, q)
+      end associate
+   end subroutine find_rate_nearby
 
    !> Derivatives of the tangential forces with respect to the requested inputs
    subroutine force_changes(problem, wanted, q, workspace, result, worst)

@@ -33,11 +33,14 @@ module contact_wheelrail_course
       real(wp), private :: softness(2) = 0.0_wp
       !> Ratio of the derivative of the force with respect to the height to its value by the stiffness of the contacts [-]
       real(wp) :: stiffer = 1.0_wp
+      !> Deviation of the force in the first trial of the last case, relative to it [-]
+      real(wp) :: first_miss = 1.0_wp
    contains
       !> Is the last case near this one?
       procedure :: is_near
-      !> Estimated penetration
+      !> Estimated penetration, and the multiple of the last step for extrapolations
       procedure :: penetration
+      procedure :: part
       !> Store the result of a case
       procedure :: note
       !> Remove all cases
@@ -71,19 +74,27 @@ contains
       type(wheelset_spec), intent(in) :: wheelset
       !> Prescribed force [N], positive
       real(wp), intent(in) :: force
-      real(wp) :: way(n_place), softness, part
+      real(wp) :: softness
 
       softness = self%softness(1)
-      if (self%known > 1) then
-         way = self%place(:, 1) - self%place(:, 2)
-         if (dot_product(way, way) > no_way) then
-            part = dot_product(place_of(wheelset) - self%place(:, 1), way)/dot_product(way, way)
-            part = min(max(part, furthest_back), furthest_on)
-            softness = softness*(self%softness(1)/self%softness(2))**part
-         end if
-      end if
+      if (self%known > 1) softness = softness*(self%softness(1)/self%softness(2))**self%part(wheelset)
       penetration = softness*force**power
    end function penetration
+
+   !> Step from the last case to this one, along the step from the case before to the last one, relative to it [-]; 0 if not known
+   pure real(wp) function part(self, wheelset)
+      class(course_type), intent(in) :: self
+      !> Present position of the wheelset, near the last case
+      type(wheelset_spec), intent(in) :: wheelset
+      real(wp) :: way(n_place)
+
+      part = 0.0_wp
+      if (self%known < 2) return
+      way = self%place(:, 1) - self%place(:, 2)
+      if (.not. dot_product(way, way) > no_way) return
+      part = dot_product(place_of(wheelset) - self%place(:, 1), way)/dot_product(way, way)
+      part = min(max(part, furthest_back), furthest_on)
+   end function part
 
    !> Store the result of a solved case
    pure subroutine note(self, wheelset, force, penetration)
@@ -110,5 +121,6 @@ contains
 
       self%known = 0
       self%stiffer = 1.0_wp
+      self%first_miss = 1.0_wp
    end subroutine forget
 end module contact_wheelrail_course

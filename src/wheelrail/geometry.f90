@@ -64,6 +64,10 @@ module contact_wheelrail_geometry
       real(wp) :: pressure_eps = 1.0_wp
       !> Tolerance of the tangential tractions in the present trial, as a fraction of EPS
       real(wp) :: traction_eps = 1.0_wp
+      !> Is the present trial the first one of a case that follows the last one? Then tractions are extrapolated from the last
+      !> two cases by this multiple of their difference [-]
+      logical :: is_first = .false.
+      real(wp) :: ahead = 0.0_wp
       !> Ratio of the sides of elements in the present trial to the prescribed ones
       integer :: coarser = 1
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or those of the present trial

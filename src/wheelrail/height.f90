@@ -167,7 +167,8 @@ contains
       if (memory%geometry%follows_height) then
          if (memory%geometry%follows_last) &
             & search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
-         call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)
+         call search%follow(problem, memory, memory%course%stiffer, memory%course%first_miss, &
+            & is_settled, log, error)
          if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
       end if
       if (.not. (is_settled .or. allocated(error))) then

@@ -38,7 +38,7 @@ module contact_wheelrail_height_search
       integer, private :: trials_before = 0
       !> Are the pressures of all trials solved closer than within EPS? Their starting values do not matter to the force then
       logical :: is_sharp = .false.
-      !> But for the first one, which only has to tell the next height?
+      !> But for the first one, which only has to give the next height?
       logical, private :: is_rough = .false.
    contains
       procedure :: begin
@@ -65,13 +65,19 @@ module contact_wheelrail_height_search
       & most_stiff = 3.0_wp
    !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
    !> rotation of patches: this effect may be at most `turned` times EPS of the force
-   real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
+   real(wp), parameter :: finished = 30.0_wp, turned = 0.2_wp
    !> The same for approximate pressures, which are scaled: the derivative of their force is known to a tenth
    real(wp), parameter :: finished_scaled = 2.0_wp
+   !> If the first trial of the last case missed the force by less than this multiple of EPS, pressures of this first trial are
+   !> solved accurately enough to be final
+   real(wp), parameter :: near_enough = 60.0_wp
+   !> Maximum number of steps of this extrapolation
+   integer, parameter :: max_rounds = 4
    !> Tolerance of tangential tractions relative to that of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
-   !> Tolerance of pressures and tractions in the first trial, relative to EPS: it is not the last one
-   real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
+   !> Tolerance of pressures and tractions in a first trial that only gives the next height, relative to EPS, and of tractions in
+   !> another first trial: they are solved anew at the end
+   real(wp), parameter :: rough_pressures = 20.0_wp, rough_tractions = 300.0_wp, first_tractions = 30.0_wp
    !> Minimum difference of two heights for the computation of a derivative, relative to the penetration: for smaller ones the
    !> change of grids is not negligible. It causes steps of the force up to this fraction of the force
    real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
@@ -167,7 +173,7 @@ contains
    !> the true derivative, estimated from two trials, serves for the next trials, and for the next case. The force is reached more
    !> accurately than to EPS: the deviation would be noise between successive cases. If a step makes too little progress, the search
    !> fails, and only its time is lost.
-   subroutine follow(self, problem, memory, stiffer, is_settled, log, error)
+   subroutine follow(self, problem, memory, stiffer, first_miss, is_settled, log, error)
       class(height_search), intent(inout) :: self
       !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
@@ -175,6 +181,8 @@ contains
       type(wheel_rail_memory), intent(inout) :: memory
       !> Ratio of the derivative of the force to its value by the stiffness [-]: last known value on entry, found value on exit
       real(wp), intent(inout) :: stiffer
+      !> Deviation of the force in the first trial, relative to it [-]: in the last case on entry, in this one on exit
+      real(wp), intent(inout) :: first_miss
       !> Was the force reached? z is the height, or the best one that was tried
       logical, intent(out) :: is_settled
       !> Receives the trace of the trials
@@ -182,16 +190,19 @@ contains
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
-      logical :: is_plain, has_derivative
+      logical :: is_simplified, is_plain, has_derivative, may_finish
       integer :: k
 
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max_followed, forces_are_estimates=.false.)
       is_settled = .false.
       ! without iterations in the patches, the first trial is as accurate as any
-      is_plain = .not. problem%template%solves_for_pressure() .and. allocated(problem%template%simplified)
+      is_simplified = allocated(problem%template%simplified)
+      is_plain = .not. problem%template%solves_for_pressure() .and. is_simplified
       has_derivative = problem%template%solves_for_pressure()
       self%is_sharp = .true.
+      memory%geometry%ahead = 0.0_wp
+      if (memory%geometry%follows_last) memory%geometry%ahead = memory%course%part(problem%spec%wheelset)
       z = self%guess
       best = huge(best)
       last_miss = huge(last_miss)
@@ -200,18 +211,22 @@ contains
       low = huge(low)
       high = huge(high)
       do k = 1, max_followed
-         self%is_rough = k == 1
+         self%is_rough = k == 1 .and. first_miss > near_enough*problem%template%settings%eps
+         memory%geometry%is_first = k == 1
          call self%try(problem, memory, z, .true., log, error)
+         memory%geometry%is_first = .false.
          if (allocated(error)) exit
          miss = abs(self%force - self%target)
+         if (k == 1) first_miss = miss/self%target
          if (k > 1) call self%compare_stiffness(z, last_z, last_force, stiffer)
          if (miss < best) then
             best = miss
             self%z = z
          end if
          is_settled = (k > 1 .or. is_plain) .and. miss <= smooth_part(problem)*self%balance%tolerance
-         if ((k > 1 .or. is_plain) .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
-            call finish(self, memory, stiffer, z, log, is_settled)
+         may_finish = k > 1 .or. is_plain .or. .not. (self%is_rough .or. is_simplified)
+         if (may_finish .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
+            call finish(self, problem, memory, k == 1 .and. .not. is_simplified, stiffer, z, log, is_settled)
             if (.not. is_settled .and. miss <= self%balance%tolerance) &
                & is_settled = k == max_followed .or. miss > quick_progress*last_miss
          end if
@@ -283,11 +298,16 @@ contains
 
    !> Last Newton step as a linear extrapolation, if all patches allow it: to the prescribed force itself
    !>
-   !> If the deviation exceeds EPS, tractions are solved anew, and a second step scales them to the force.
-   subroutine finish(self, memory, stiffer, z, log, is_done)
+   !> If the deviation exceeds EPS, or if tractions are rough, they are solved anew, which changes the force, and another step
+   !> follows: one within EPS scales them to the force.
+   subroutine finish(self, problem, memory, has_rough_tractions, stiffer, z, log, is_done)
       type(height_search), intent(inout) :: self
+      !> The problem of wheel and rail
+      type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches; updated to the new height
       type(wheel_rail_memory), intent(inout) :: memory
+      !> Were tractions solved with the tolerance of a first trial?
+      logical, intent(in) :: has_rough_tractions
       !> Ratio of the derivative of the force to its value by the stiffness [-]
       real(wp), intent(in) :: stiffer
       !> Height of the last trial on entry, the new one on exit [mm]
@@ -298,15 +318,20 @@ contains
       logical, intent(out) :: is_done
       logical :: is_far
       real(wp) :: step
-      integer :: k
+      integer :: k, round
 
       is_done = .false.
       if (.not. self%stiffness > 0.0_wp .or. memory%used == 0) return
       do k = 1, memory%used
          if (.not. can_step(memory%slot(k)%problem, memory%slot(k)%state)) return
       end do
-      is_far = abs(self%force - self%target) > self%balance%tolerance
-      do
+      is_far = abs(self%force - self%target) > self%balance%tolerance .or. has_rough_tractions
+      if (has_rough_tractions) then
+         do k = 1, memory%used
+            memory%slot(k)%problem%traction_eps = fine_tractions(problem)
+         end do
+      end if
+      do round = 1, max_rounds
          step = (self%target - self%force)/(stiffer*self%stiffness)
          do k = 1, memory%used
             associate (slot => memory%slot(k), change => stiffer*memory%slot(k)%plane%axes(3, 3)*step)
@@ -318,13 +343,15 @@ contains
                   call small_step(slot%problem, change, slot%state, slot%result)
                end if
                call find_forces(slot)
+               if (is_far .and. slot%result%fn > 0.0_wp .and. .not. allocated(slot%problem%simplified)) &
+                  & slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
             end associate
          end do
          z = z + step
          self%force = vertical_force(memory) + self%spring*(z - self%touch)
          is_done = .not. is_far
-         if (is_done .or. abs(self%force - self%target) > self%balance%tolerance) return
-         is_far = .false.
+         if (is_done .or. .not. can_finish(self, abs(self%force - self%target), stiffer, .true.)) return
+         is_far = abs(self%force - self%target) > self%balance%tolerance
       end do
    end subroutine finish
 
@@ -336,6 +363,13 @@ contains
 
       smooth_part = min(1.0_wp, max(smooth, finest/problem%template%settings%eps))
    end function smooth_part
+
+   !> Tolerance of tangential tractions relative to EPS [-]
+   pure real(wp) function fine_tractions(problem)
+      type(wheel_rail_problem), intent(in) :: problem
+
+      fine_tractions = min(1.0_wp, smooth_tractions*smooth_part(problem))
+   end function fine_tractions
 
    !> Search with a bracket
    subroutine bracket(self, problem, memory, with_friction, eps, max_trials, log, error)
@@ -369,7 +403,8 @@ contains
             last_z = trial
             last_force = self%force
             if (abs(self%force - self%target) > self%balance%tolerance .and. can_finish(self, abs(self%force - self%target), &
-               & stiffer, problem%template%solves_for_pressure())) call finish(self, memory, stiffer, trial, log, is_done)
+               & stiffer, problem%template%solves_for_pressure())) call finish(self, problem, memory, .false., stiffer, trial, &
+               & log, is_done)
          else
             last_z = trial
             last_force = self%force
@@ -402,8 +437,9 @@ contains
          & memory%geometry%pressure_eps = sharper*self%small
       memory%geometry%traction_eps = 1.0_wp
       if (self%is_sharp) then
-         memory%geometry%pressure_eps = merge(first_pressures, smooth_part(problem), self%is_rough)*self%small
-         memory%geometry%traction_eps = merge(first_tractions, min(1.0_wp, smooth_tractions*smooth_part(problem)), self%is_rough)
+         memory%geometry%pressure_eps = merge(rough_pressures, smooth_part(problem), self%is_rough)*self%small
+         memory%geometry%traction_eps = fine_tractions(problem)
+         if (memory%geometry%is_first) memory%geometry%traction_eps = merge(rough_tractions, first_tractions, self%is_rough)
       end if
       call evaluate(problem, memory, z, with_friction, log, error)
       self%trials = self%trials + 1

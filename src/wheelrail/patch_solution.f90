@@ -5,6 +5,7 @@ module contact_wheelrail_patch_solution
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_patch_time_steps, only : link_time_steps
+   use contact_patch_extrapolation, only : extrapolate
    use contact_patch_problem, only : traction_fields
    use contact_patch_solve, only : solve_patch
    use contact_wheelrail_carry_over, only : carried_step, max_patches
@@ -50,7 +51,7 @@ contains
       slot%friction_share = share_at(problem, geometry, slot)
       if (problem%geometry_only) return
 
-      call link_slot(geometry%before, number, slot, error)
+      call link_slot(geometry%before, number, geometry%is_first, geometry%ahead, slot, error)
       if (allocated(error)) return
       if (geometry%coarser > 1) then
          if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
@@ -132,10 +133,13 @@ contains
    !>
    !> The last solution is the estimate, within a case, and from the previous case if requested. The previous time step is that of
    !> the previous case in every solution of this one.
-   subroutine link_slot(before, number, slot, error)
+   subroutine link_slot(before, number, is_first, ahead, slot, error)
       type(carried_step), intent(in) :: before
       !> Index of the patch
       integer, intent(in) :: number
+      !> See wheel_rail_geometry
+      logical, intent(in) :: is_first
+      real(wp), intent(in) :: ahead
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
       type(traction_fields) :: estimate
@@ -155,6 +159,11 @@ contains
          state%started = continues
          call link_time_steps(problem, time_link%initiate, state, error)
          if (allocated(error)) return
+         if (.not. continues .or. transient) then
+            state%earlier%grid%mx = 0
+         else if (is_first) then
+            call extrapolate(state, ahead)
+         end if
          if (transient) then
             estimate = state%now
             call before%hand_over(number, problem, slot%window, state%now)

@@ -1,4 +1,4 @@
-!> The normal problem in a window around the overlap, and displacements after a few limited pressures
+!> The normal problem in a window around the overlap or around estimated pressures, and displacements after a few limited pressures
 program test_overlap_window
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
@@ -61,6 +61,7 @@ program test_overlap_window
    call suite%check(.not. any(p > 0.0_wp), "and no pressures")
    call check_limits(5)
    call check_limits(1000)
+   call check_sequence()
    call operator%release()
    call suite%finish()
 
@@ -78,6 +79,40 @@ contains
       products = operator%products - products
       call release_normal(workspace)
    end function solve
+
+   !> A problem that follows a similar one is solved around its pressures, with one product of the whole window to check the others
+   subroutine check_sequence()
+      real(wp) :: other(mx, my)
+
+      ! more elements in contact than are solved by a factor
+      problem%follows = .false.
+      pen = minval(problem%h) + 0.1_wp
+      p = 0.0_wp
+      if (solve(p, pen) < 0) return
+      call suite%check(count(p > 0.0_wp) > 250, "many elements in contact")
+      pen = minval(problem%h) + 0.101_wp
+      problem%follows = .true.
+      call suite%equal(solve(p, pen), 1, "one product of the whole window in a sequence")
+      problem%follows = .false.
+      q = 0.0_wp
+      call suite%check(solve(q, pen) /= 1, "another window without a sequence")
+      call suite%close_to(reshape(p, [mx*my]), reshape(q, [mx*my]), 1.0e-6_wp*maxval(p), "the same pressures around the last ones")
+      ! a second contact, of which the estimate has no pressures
+      other = problem%h
+      do iy = 1, my
+         do ix = 1, mx
+            problem%h(ix, iy) = min(problem%h(ix, iy), 2.0e-4_wp*(2*(ix - 22)**2 + (iy - 50)**2))
+         end do
+      end do
+      problem%follows = .true.
+      call suite%check(solve(p, pen) > 1, "an overlap elsewhere takes the whole window")
+      call operator%normal(p, u)
+      call suite%check(any(p(:40, :) > 0.0_wp), "the second contact")
+      call suite%check(maxval(abs(problem%h + u - pen), p > 0.0_wp) <= 2.0_wp*eps*0.2_wp, "no distance in both contacts")
+      call suite%check(minval(problem%h + u - pen) >= -2.0_wp*eps*0.2_wp, "no overlap with both contacts")
+      problem%h = other
+      problem%follows = .false.
+   end subroutine check_sequence
 
    !> Update displacements after a step that makes some pressures negative, and compare with a product
    subroutine check_limits(several)
