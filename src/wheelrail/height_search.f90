@@ -65,7 +65,7 @@ module contact_wheelrail_height_search
       & most_stiff = 3.0_wp
    !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
    !> rotation of patches: this effect may be at most `turned` times EPS of the force
-   real(wp), parameter :: finished = 30.0_wp, turned = 0.2_wp
+   real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
    !> The same for approximate pressures, which are scaled: the derivative of their force is known to a tenth
    real(wp), parameter :: finished_scaled = 2.0_wp
    !> If the first trial of the last case missed the force by less than this multiple of EPS, pressures of this first trial are
