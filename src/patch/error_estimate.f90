@@ -147,6 +147,7 @@ contains
          end associate
       end if
       scale = scales(problem, order, result)
+      scale%coarse_sticking = real(level%result%nadh, wp)/level%result%ncon
       scale%energy(1) = normal_energy(result)
       scale%energy(2) = result%elastic_energy - scale%energy(1)
       scale%energy_change(1) = scale%energy(1) - load**(5.0_wp/3.0_wp)*normal_energy(level%result)

@@ -52,6 +52,8 @@ module contact_patch_error_scales
       real(wp) :: adhesion = 0.0_wp
       !> The same without lower bound [-]
       real(wp) :: sticking = 0.0_wp
+      !> The same on the coarse level [-]
+      real(wp) :: coarse_sticking = 1.0_wp
       !> Fraction of the traction bound carried by neighbouring elements between which slip reverses [-]
       real(wp) :: reversal = 0.0_wp
       !> Lower bound of the tangential forces' solver error, relative to that of the pressures [-]

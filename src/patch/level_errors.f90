@@ -27,10 +27,13 @@ module contact_patch_level_errors
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Work of friction in shifts: usual error over n^-2 of the work of full sliding, if slip has the same direction everywhere and if it
-   !> does not; part of the bound that cancels from which on the latter holds; exponent of the ratio of the error by the levels to it,
-   !> see trusted. Of random contacts (kinds shift and shifts, seeds 61001 and 61002)
-   real(wp), parameter :: work_floor(2) = [0.05_wp, 0.105_wp], turned_work = 0.3_wp, work_trust = 0.25_wp
+   !> Work of friction in shifts: usual error over n^-2 of the work of full sliding, if slip has the same direction everywhere, if it
+   !> does not, and where little slips, so that single elements count; part of the bound that cancels from which on the second holds;
+   !> fractions in adhesion between which the last one becomes valid; exponent of the ratio of the error by the levels to it, see
+   !> trusted; ratio of the error of the normal problem to its lower bound up to which that is usual. Of random contacts (kinds shift
+   !> and shifts, seeds 61001, 61002 and 97001)
+   real(wp), parameter :: work_floor(3) = [0.05_wp, 0.105_wp, 0.1_wp], turned_work = 0.3_wp, little_slip(2) = [0.75_wp, 0.85_wp], &
+      & work_trust = 0.25_wp, usual_irregularity = 2.0_wp
    !> Full sliding in a shift: largest part of the bound that cancels if slip has the same direction everywhere; chosen
    real(wp), parameter :: one_direction = 0.1_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
@@ -223,14 +226,15 @@ contains
       type(scale_type), intent(in) :: scale
       !> Difference between the levels, and work in full sliding, positive [J]
       real(wp), intent(in) :: difference, full_work
-      real(wp) :: floor
+      real(wp) :: floor, sticks
 
       if (sliding_part(scale%sticking) >= 1.0_wp .and. scale%cancelled < one_direction) then
          e = 2.0_wp*error_of_energy(scale)*abs(scale%energy(2))/max(sum(scale%energy), tiny(e))
          return
       end if
-      floor = (work_floor(1) + (work_floor(2) - work_floor(1))*min(1.0_wp, scale%cancelled/turned_work)) &
-         & *scale%irregular/scale%across**2
+      floor = work_floor(1) + (work_floor(2) - work_floor(1))*min(1.0_wp, scale%cancelled/turned_work)
+      sticks = min(1.0_wp, max(0.0_wp, (scale%sticking - little_slip(1))/(little_slip(2) - little_slip(1))))
+      floor = (floor + sticks*(work_floor(3) - floor))*max(1.0_wp, scale%irregular/usual_irregularity)/scale%across**2
       e = max(floor, trusted(part_of(scale, scale%order)*difference/full_work, floor, work_trust))*full_work
    end function error_of_work
 

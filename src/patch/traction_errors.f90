@@ -37,6 +37,9 @@ module contact_patch_traction_errors
    !> The same of forces in steady rolling by the first order unless most of the contact slides: about a third of the usual error
    !> (seeds 81001, 84001, 90001 and 90005, and wheels with seeds 85001, 90101 and 90102)
    real(wp), parameter :: adhesive_floor = 0.15_wp
+   !> The same, about the usual error, where the coarse level has no elements in adhesion and shows nothing of it (seeds 90103 and
+   !> 97001)
+   real(wp), parameter :: lost_floor = 0.35_wp
    !> Order of forces in rolling by the second order, with jitter (same seeds); power and energy have that of the scales
    real(wp), parameter :: force_order = 1.8_wp
    !> Lower bound of the part that sticks for moments by the second order: errors of pressures remain in full sliding (same seeds)
@@ -168,8 +171,10 @@ contains
          floor = merge(rolling_floor(1), layer_floor, scale%clean .or. scale%steps)
          least = 0.0_wp
          if (is_first(scale) .and. .not. (in_power .or. scale%is_moment_alone)) then
+            ! bodies that relax have such errors in sliding as well
+            if (scale%relaxation > 0.0_wp) floor = adhesive_floor
             floor = adhesive_floor + sliding_part(scale%sticking)*(floor - adhesive_floor)
-            least = adhesive_floor*sqrt(scale%sticking/adhesion)
+            least = merge(adhesive_floor, lost_floor, scale%coarse_sticking > 0.0_wp)*sqrt(scale%sticking/adhesion)
          end if
          floor = max(floor, least)/scale%mean_across
       else
@@ -265,14 +270,14 @@ contains
       power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
    end function trust_in
 
-   !> Is it full sliding of like bodies in steady rolling by the first-order scheme, where the error of forces is that of the direction
-   !> of slip?
+   !> Is it full sliding of like elastic bodies in steady rolling by the first-order scheme, where the error of forces is that of the
+   !> direction of slip?
    pure logical function is_sliding_force(scale)
       !> See type scale_type
       type(scale_type), intent(in) :: scale
 
       is_sliding_force = is_first(scale) .and. .not. (scale%is_moment_alone .or. scale%sticking > 0.0_wp &
-         & .or. scale%coupling > 0.0_wp)
+         & .or. scale%coupling > 0.0_wp .or. scale%relaxation > 0.0_wp)
    end function is_sliding_force
 
    !> General error, reduced where that by the levels is smaller
