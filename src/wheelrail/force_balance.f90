@@ -31,9 +31,10 @@ module contact_wheelrail_force_balance
    !> Ways in which the search ends
    type(balance_ending_list), parameter :: balance_ending = balance_ending_list()
 
-   !> One trial: height [mm], force [N], slope dF/dz [N/mm] or 0 if unknown, number of contact patches
+   !> One trial: height [mm], force [N], slope dF/dz [N/mm] or 0 if unknown, its estimate by the stiffness of the contacts [N/mm],
+   !> number of contact patches
    type :: height_trial
-      real(wp) :: z = 0.0_wp, force = 0.0_wp, slope = 0.0_wp
+      real(wp) :: z = 0.0_wp, force = 0.0_wp, slope = 0.0_wp, stiffness = 0.0_wp
       integer :: patches = 0
    end type height_trial
 
@@ -86,6 +87,8 @@ module contact_wheelrail_force_balance
    real(wp), parameter :: seems_to_jump = 5.0_wp, jumps = 20.0_wp
    !> Accuracy of the position of a jump [mm], absolute and relative to the penetration
    real(wp), parameter :: place_of_jump = 1.0e-6_wp, part_of_penetration = 1.0e-3_wp
+   !> Factor of the absolute accuracy if the slope of the force is not known
+   real(wp), parameter :: steep_part = 1.0e-3_wp
 
    !> Width of a bracket that is regarded as a point, relative to the height of first touch or 1 mm: of the order of round-off
    real(wp), parameter :: point_width = 1.0e-12_wp
@@ -310,13 +313,13 @@ contains
       real(wp), intent(in) :: times
       real(wp) :: stiffness
 
-      stiffness = max(self%low%slope, self%high%slope)
+      stiffness = max(self%low%stiffness, self%high%stiffness)
       rises_more = self%has_high .and. stiffness > 0.0_wp &
          & .and. self%high%force - self%low%force > times*stiffness*(self%high%z - self%low%z)
    end function rises_more
 
    !> Process the force of a trial, and its slope if that is known
-   subroutine record(self, z, force, slope, patches)
+   subroutine record(self, z, force, slope, patches, stiffness)
       class(force_balance), intent(inout) :: self
       !> Height [mm] and force [N]
       real(wp), intent(in) :: z, force
@@ -324,11 +327,14 @@ contains
       real(wp), intent(in) :: slope
       !> Number of contact patches
       integer, intent(in) :: patches
+      !> Estimate of dF/dz that shows jumps if the slope is not known [N/mm]
+      real(wp), intent(in), optional :: stiffness
       real(wp) :: width
 
       self%trials = self%trials + 1
       self%before = self%last
-      self%last = height_trial(z, force, slope, patches)
+      self%last = height_trial(z, force, slope, slope, patches)
+      if (present(stiffness)) self%last%stiffness = max(slope, stiffness)
       if (.not. ieee_is_finite(force)) then
          self%ended = balance_ending%out_of_reach
          return
@@ -384,11 +390,15 @@ contains
       class(force_balance), intent(in) :: self
       !> Width of the bracket [mm]
       real(wp), intent(in) :: width
+      real(wp) :: place
 
       if (self%forces_are_estimates) then
          jump_is_known = rises_more(self, seems_to_jump)
       else
-         jump_is_known = width <= min(place_of_jump, part_of_penetration*(self%high%z - self%touch))
+         place = place_of_jump
+         ! approximate pressures rise steeply, but not abruptly, where elements enter the contact
+         if (.not. max(self%low%slope, self%high%slope) > 0.0_wp) place = steep_part*place_of_jump
+         jump_is_known = width <= min(place, part_of_penetration*(self%high%z - self%touch))
          if (jump_is_known) jump_is_known = rises_more(self, jumps)
       end if
    end function jump_is_known

@@ -303,7 +303,7 @@ contains
             if (low%patches /= high%patches) then
                why = why // "join or separate (" // integer_text(low%patches) // ", then " // integer_text(high%patches) // ")"
             else
-               why = why // "change their position or angle"
+               why = why // "change their position or angle, or elements enter them"
             end if
          case (balance_ending%above_touch)
             why = "it is exceeded at first touch"

@@ -2,6 +2,7 @@
 !>
 !> The heights are chosen by contact_wheelrail_force_balance, the forces are computed by contact_wheelrail_trial.
 module contact_wheelrail_height_search
+   use contact_base_choices, only : motion
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -9,7 +10,7 @@ module contact_wheelrail_height_search
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_patch_small_step, only : can_step, small_step, step_with_tractions
    use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
-   use contact_wheelrail_patch_solution, only : find_forces
+   use contact_wheelrail_patch_solution, only : find_forces, update_share
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_trial, only : evaluate
    implicit none (type, external)
@@ -343,8 +344,8 @@ contains
                   call small_step(slot%problem, change, slot%state, slot%result)
                end if
                call find_forces(slot)
-               if (is_far .and. slot%result%fn > 0.0_wp .and. .not. allocated(slot%problem%simplified)) &
-                  & slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+               ! new tractions have another ratio to the pressures
+               if (is_far .and. slot%problem%motion /= motion%none) call update_share(slot)
             end associate
          end do
          z = z + step
@@ -409,7 +410,7 @@ contains
             last_z = trial
             last_force = self%force
          end if
-         call self%balance%record(trial, self%force, self%slope, memory%used)
+         call self%balance%record(trial, self%force, self%slope, memory%used, self%stiffness)
       end do
       self%z = self%balance%z
    end subroutine bracket

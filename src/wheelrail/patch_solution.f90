@@ -17,7 +17,7 @@ module contact_wheelrail_patch_solution
    implicit none (type, external)
    private
 
-   public :: solve_slot, find_forces
+   public :: solve_slot, find_forces, update_share
 
 contains
 
@@ -62,10 +62,18 @@ contains
       if (allocated(error)) return
       call find_forces(slot)
       if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
-         slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+         call update_share(slot)
          if (is_new) call add_share(geometry, slot)
       end if
    end subroutine solve_slot
+
+   !> Ratio of tangential to normal force of a patch whose tangential problem is solved, for the total forces
+   pure subroutine update_share(slot)
+      !> With its forces, see `find_forces`
+      type(patch_slot), intent(inout) :: slot
+
+      if (slot%result%fn > 0.0_wp) slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+   end subroutine update_share
 
    !> Forces and moments of a solved patch in the axes of its plane
    subroutine find_forces(slot)
