@@ -67,6 +67,8 @@ module contact_wheelrail_height_search
    !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
    !> rotation of patches: this effect may be at most `turned` times EPS of the force
    real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
+   !> The same limit in the first trial of simplified theory on pressures of the full theory
+   real(wp), parameter :: first_finished = 5.0_wp
    !> The same for approximate pressures, which are scaled: the derivative of their force is known to a tenth
    real(wp), parameter :: finished_scaled = 2.0_wp
    !> If the first trial of the last case missed the force by less than this multiple of EPS, pressures of this first trial are
@@ -191,15 +193,14 @@ contains
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
-      logical :: is_simplified, is_plain, has_derivative, may_finish
+      logical :: is_plain, has_derivative, may_finish
       integer :: k
 
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
          & self%touch + deepest*memory%geometry%placement%wheel_radius, max_followed, forces_are_estimates=.false.)
       is_settled = .false.
-      ! without iterations in the patches, the first trial is as accurate as any
-      is_simplified = allocated(problem%template%simplified)
-      is_plain = .not. problem%template%solves_for_pressure() .and. is_simplified
+      ! tractions of simplified theory have no tolerance: with sharp pressures the first trial is as accurate as any
+      is_plain = allocated(problem%template%simplified)
       has_derivative = problem%template%solves_for_pressure()
       self%is_sharp = .true.
       memory%geometry%ahead = 0.0_wp
@@ -212,7 +213,7 @@ contains
       low = huge(low)
       high = huge(high)
       do k = 1, max_followed
-         self%is_rough = k == 1 .and. first_miss > near_enough*problem%template%settings%eps
+         self%is_rough = k == 1 .and. .not. is_plain .and. first_miss > near_enough*problem%template%settings%eps
          memory%geometry%is_first = k == 1
          call self%try(problem, memory, z, .true., log, error)
          memory%geometry%is_first = .false.
@@ -225,9 +226,11 @@ contains
             self%z = z
          end if
          is_settled = (k > 1 .or. is_plain) .and. miss <= smooth_part(problem)*self%balance%tolerance
-         may_finish = k > 1 .or. is_plain .or. .not. (self%is_rough .or. is_simplified)
+         may_finish = .not. self%is_rough
+         ! the derivative of the last case may not hold here
+         if (k == 1 .and. is_plain .and. has_derivative) may_finish = miss <= first_finished*self%balance%tolerance
          if (may_finish .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
-            call finish(self, problem, memory, k == 1 .and. .not. is_simplified, stiffer, z, log, is_settled)
+            call finish(self, problem, memory, k == 1 .and. .not. is_plain, stiffer, z, log, is_settled)
             if (.not. is_settled .and. miss <= self%balance%tolerance) &
                & is_settled = k == max_followed .or. miss > quick_progress*last_miss
          end if
