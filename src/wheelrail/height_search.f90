@@ -78,9 +78,8 @@ module contact_wheelrail_height_search
    integer, parameter :: max_rounds = 4
    !> Tolerance of tangential tractions relative to that of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
-   !> Tolerance of pressures and tractions in a first trial that only gives the next height, relative to EPS, and of tractions in
-   !> another first trial: they are solved anew at the end
-   real(wp), parameter :: rough_pressures = 20.0_wp, rough_tractions = 300.0_wp, first_tractions = 30.0_wp
+   !> Tolerance of pressures in a first trial that only gives the next height, and of tractions in any first trial, relative to EPS
+   real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
    !> Minimum difference of two heights for the computation of a derivative, relative to the penetration: for smaller ones the
    !> change of grids is not negligible. It causes steps of the force up to this fraction of the force
    real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
@@ -441,9 +440,9 @@ contains
          & memory%geometry%pressure_eps = sharper*self%small
       memory%geometry%traction_eps = 1.0_wp
       if (self%is_sharp) then
-         memory%geometry%pressure_eps = merge(rough_pressures, smooth_part(problem), self%is_rough)*self%small
+         memory%geometry%pressure_eps = merge(first_pressures, smooth_part(problem), self%is_rough)*self%small
          memory%geometry%traction_eps = fine_tractions(problem)
-         if (memory%geometry%is_first) memory%geometry%traction_eps = merge(rough_tractions, first_tractions, self%is_rough)
+         if (memory%geometry%is_first) memory%geometry%traction_eps = first_tractions
       end if
       call evaluate(problem, memory, z, with_friction, log, error)
       self%trials = self%trials + 1
