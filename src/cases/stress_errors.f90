@@ -37,8 +37,8 @@ module contact_cases_stress_errors
    !> Lower bound of the error of second order: factor of the stress over the number of elements in contact, for points at which
    !> the second derivative vanishes; chosen
    real(wp), parameter :: least_curvature = 0.05_wp
-   !> Lower bound: fraction of the relative error of the largest pressure, for peaks that are not resolved; of random profiles (seeds
-   !> 95001 and 97001)
+   !> Lower bound: fraction of the relative error of the largest pressure, for peaks that are not resolved; of random profiles
+   !> (seeds 95001 and 97001)
    real(wp), parameter :: peak_share = 0.3_wp
    !> Stresses due to tangential tractions: unknown fraction of their error by the levels; factor of n^-1 times the root of the
    !> fraction in adhesion for steady rolling by the first order, about half of the usual error

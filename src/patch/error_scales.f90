@@ -66,8 +66,8 @@ module contact_patch_error_scales
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
-      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady rolling and
-      !> shifts [-]
+      !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady
+      !> rolling and shifts [-]
       real(wp) :: cancelled = 0.0_wp
       !> Moment of the force across the rolling direction with an arm of one element, in rolling, over that of the friction bound
       !> [-]

@@ -20,18 +20,18 @@ module contact_patch_level_errors
    !> Order of frictional power with the first-order scheme: its error decreases to 1/(1 + 1.65) with elements of a third; median of
    !> tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
-   !> Contact of fewer elements than `resolved`: relative error of normal force and approach, times n^-2, of second patches of wheels
-   !> with 3 to 5 elements across (seed 31101). That of forces is `unresolved_floor` times the root of the fraction in adhesion,
-   !> which is taken as at least the last
+   !> Contact of fewer elements than `resolved`: relative error of normal force and approach, times n^-2, of second patches of
+   !> wheels with 3 to 5 elements across (seed 31101). That of forces is `unresolved_floor` times the root of the fraction in
+   !> adhesion, which is taken as at least the last
    real(wp), parameter :: unresolved_normal = 0.2_wp, unresolved_adhesion = 0.1_wp
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1, in that case also of the energy of tractions
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
-   !> Work of friction in shifts: usual error over n^-2 of the work of full sliding, if slip has the same direction everywhere, if it
-   !> does not, and where little slips, so that single elements count; part of the bound that cancels from which on the second holds;
-   !> fractions in adhesion between which the last one becomes valid; exponent of the ratio of the error by the levels to it, see
-   !> trusted; ratio of the error of the normal problem to its lower bound up to which that is usual. Of random contacts (kinds shift
-   !> and shifts, seeds 61001, 61002 and 97001)
+   !> Work of friction in shifts: usual error over n^-2 of the work of full sliding, if slip has the same direction everywhere, if
+   !> it does not, and where little slips, so that single elements count; part of the bound that cancels from which on the second
+   !> holds; fractions in adhesion between which the last one becomes valid; exponent of the ratio of the error by the levels to
+   !> it, see trusted; ratio of the error of the normal problem to its lower bound up to which that is usual. Of random contacts
+   !> (kinds shift and shifts, seeds 61001, 61002 and 97001)
    real(wp), parameter :: work_floor(3) = [0.05_wp, 0.105_wp, 0.1_wp], turned_work = 0.3_wp, little_slip(2) = [0.75_wp, 0.85_wp], &
       & work_trust = 0.25_wp, usual_irregularity = 2.0_wp
    !> Full sliding in a shift: largest part of the bound that cancels if slip has the same direction everywhere; chosen
@@ -220,8 +220,8 @@ contains
 
    !> Error of the work of friction in a shift without contributions of solvers and window [J]
    !>
-   !> Forces and elastic energy have larger errors, most of which cancel in the work, and the levels show little of the rest. In full
-   !> sliding in one direction the work of the motion is exact, and the rest is twice the energy of the tractions.
+   !> Forces and elastic energy have larger errors, most of which cancel in the work, and the levels show little of the rest. In
+   !> full sliding in one direction the work of the motion is exact, and the rest is twice the energy of the tractions.
    pure real(wp) function error_of_work(scale, difference, full_work) result(e)
       type(scale_type), intent(in) :: scale
       !> Difference between the levels, and work in full sliding, positive [J]

@@ -64,21 +64,25 @@ contains
       real(wp), intent(in) :: coarse_peak
       type(peak_shape) :: shape(2)
       real(wp) :: peak, floor, across, bend, cusp
-      integer :: at(2)
+      integer :: at(2), k
 
       at = maxloc(result%pn)
       shape = [shape_of(result%pn(:, at(2)), at(1)), shape_of(result%pn(at(1), :), at(2))]
       ! the peak may belong to a part of the contact, and be narrower than the contact
       across = min(scale%across, real(minval(shape%n, mask=shape%n > 0), wp))
       bend = maxval(shape%bend)/result%pmax
-      cusp = maxval(shape%cusp)/result%pmax
+      cusp = 0.0_wp
+      do k = 1, size(shape)
+         if (shape(k)%n > 0) cusp = max(cusp, shape(k)%cusp/result%pmax &
+            & - usual_bend*smooth_bend/min(scale%across, real(shape(k)%n, wp))**2)
+      end do
       peak = peak_of(result%pn)
       floor = peak_floor*max(1.0_wp/scale%across**2, bend/smooth_bend)
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
       floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
-      e = max(e, floor, unresolved*(cusp - usual_bend*smooth_bend/across**2), hidden_edge*maxval(shape%step), &
+      e = max(e, floor, unresolved*cusp, hidden_edge*maxval(shape%step), &
          & rough_peak*max(0.0_wp, scale%roughness - usual_roughness)*scale%across)
       e = max(e, hidden_peak(result%pn)/result%pmax - 1.0_wp)
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax

@@ -65,8 +65,8 @@ module contact_patch_traction_errors
    !> returns to 1 at twice this fraction
    real(wp), parameter :: usual_ratio = 2.0_wp, sliding_trust = 0.6_wp, sliding = 0.03_wp
    !> Forces in full sliding: multiple of the general error, and exponent of the ratio of an error by the levels to it, if smaller
-   !> than 1 and at least the last; of wheels (seeds 61003, 90101 and 90103) and contacts (seed 95001) without adhesion, whose errors
-   !> were 0.06 to 15 times the general one and 0.1 to 5 times those by the levels
+   !> than 1 and at least the last; of wheels (seeds 61003, 90101 and 90103) and contacts (seed 95001) without adhesion, whose
+   !> errors were 0.06 to 15 times the general one and 0.1 to 5 times those by the levels
    real(wp), parameter :: sliding_ratio = 1.2_wp, blend = 0.35_wp, least_level = 0.02_wp
    !> Forces with the second-order scheme if friction decreases with slip: factor of its relative deviations times n^-2; if the
    !> direction of slip turns: of its turn across the contact times n^-2 (seeds 31001 and 31002)
@@ -270,8 +270,8 @@ contains
       power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
    end function trust_in
 
-   !> Is it full sliding of like elastic bodies in steady rolling by the first-order scheme, where the error of forces is that of the
-   !> direction of slip?
+   !> Is it full sliding of like elastic bodies in steady rolling by the first-order scheme, where the error of forces is that of
+   !> the direction of slip?
    pure logical function is_sliding_force(scale)
       !> See type scale_type
       type(scale_type), intent(in) :: scale
