@@ -87,7 +87,6 @@ module contact_wheelrail_height_search
    real(wp), parameter :: mostly_friction = 20.0_wp
    !> If the force is exceeded at first touch, the wheel is lifted by up to this multiple of the approach of its patches, at least
    !> by this length [mm]
-   !> this length [mm]
    real(wp), parameter :: lifted_approaches = 6.0_wp, lifted_length = 1.0e-6_wp
    !> Maximum penetration of trials, in radii of the wheel
    real(wp), parameter :: deepest = 1.1_wp

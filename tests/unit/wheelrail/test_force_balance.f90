@@ -39,6 +39,7 @@ program test_force_balance
    end do
    call over_a_jump(suite)
    call jump_with_slopes(suite)
+   call jump_with_stiffness(suite)
    call out_of_reach(suite)
    call suite%finish()
 
@@ -79,22 +80,26 @@ contains
    end subroutine force_at
 
    !> Run a search
-   subroutine search(shape, target, guess, with_slope, most, estimated, balance)
+   subroutine search(shape, target, guess, with_slope, most, estimated, balance, with_stiffness)
       integer, intent(in) :: shape
       real(wp), intent(in) :: target, guess
       logical, intent(in) :: with_slope
       integer, intent(in) :: most
       logical, intent(in) :: estimated
       type(force_balance), intent(inout) :: balance
+      !> Is the slope passed as an estimate by the stiffness?
+      logical, intent(in), optional :: with_stiffness
       real(wp), parameter :: touch = 0.7_wp
-      real(wp) :: z, force, slope
+      real(wp) :: z, force, slope, stiffness
 
       call balance%start(target, 1.0e-8_wp, touch, 500.0_wp, most, estimated)
       do while (balance%ended == balance_ending%running)
          z = balance%next_trial(touch + guess)
          call force_at(shape, z - touch, force, slope)
+         stiffness = 0.0_wp
+         if (present(with_stiffness)) stiffness = merge(slope, 0.0_wp, with_stiffness)
          if (.not. with_slope) slope = 0.0_wp
-         call balance%record(z, force, slope, merge(2, 1, z > touch + 0.1_wp))
+         call balance%record(z, force, slope, merge(2, 1, z > touch + 0.1_wp), stiffness)
       end do
    end subroutine search
 
@@ -156,6 +161,20 @@ contains
       call search(second_patch, 3.0e3_wp, 0.02_wp, .true., 12, .true., balance)
       call suite%check(balance%ended == balance_ending%reached, "a kink is not a jump")
    end subroutine jump_with_slopes
+
+   !> Where only an estimate of the slope is known, a jump is found before the limit of trials
+   subroutine jump_with_stiffness(suite)
+      type(test_suite), intent(inout) :: suite
+      type(force_balance) :: balance
+      real(wp), parameter :: foot = 1.0e5_wp*0.1_wp**1.5_wp
+      integer :: k
+
+      do k = 1, 9
+         call search(jump_up, foot + 1.0e2_wp*k, 0.03_wp*k, .false., 60, .false., balance, with_stiffness=.true.)
+         call suite%check(balance%ended == balance_ending%jump .and. balance%trials < 50, "a jump is found by the stiffness")
+         call suite%check(balance%high%z - balance%low%z < 1.1e-9_wp, "within a narrower bracket")
+      end do
+   end subroutine jump_with_stiffness
 
    subroutine out_of_reach(suite)
       type(test_suite), intent(inout) :: suite
