@@ -12,7 +12,7 @@ module contact_wheelrail_error_estimate
    use contact_patch_error_estimate, only : compare_levels, normal_stiffness, solve_coarse_level
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
-   use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
+   use contact_wheelrail_memory, only : make_coarse_level, patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
@@ -54,7 +54,7 @@ contains
       stiffness = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            if (.not. allocated(slot%coarse)) allocate(slot%coarse)
+            call make_coarse_level(slot)
             slot%coarse%state%started = .false.
             call solve_coarse_level(slot%problem, slot%state, problem%link, slot%coarse, slot%result, error)
             if (allocated(error)) return

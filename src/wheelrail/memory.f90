@@ -7,7 +7,7 @@ module contact_wheelrail_memory
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
-   use contact_wheelrail_carry_over, only : carried_step, lattice_window
+   use contact_wheelrail_carry_over, only : carried_step, lattice_window, max_patches
    use contact_wheelrail_course, only : course_type, power
    use contact_wheelrail_creepage, only : contact_motion
    use contact_wheelrail_curved_patch, only : curved_reference
@@ -19,7 +19,8 @@ module contact_wheelrail_memory
    implicit none (type, external)
    private
 
-   public :: patch_slot, wheel_rail_memory, release_wheel_rail, total_force, vertical_force, vertical_slope
+   public :: make_coarse_level, make_coarse_workspace, make_slots, patch_slot, wheel_rail_memory, release_wheel_rail, total_force, &
+      & vertical_force, vertical_slope
 
    !> One patch with its data
    type :: patch_slot
@@ -79,6 +80,30 @@ module contact_wheelrail_memory
    end type wheel_rail_memory
 
 contains
+
+   ! What has initial values is allocated here, not where it is used: the compiler makes a copy of them on the stack, of up to 40 kB,
+   ! which lasts as long as the procedure
+
+   !> Allocate the patches of a pair, unless they are there
+   subroutine make_slots(memory)
+      type(wheel_rail_memory), intent(inout) :: memory
+
+      if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
+   end subroutine make_slots
+
+   !> Allocate the work space of trials with larger elements, unless it is there
+   subroutine make_coarse_workspace(slot)
+      type(patch_slot), intent(inout) :: slot
+
+      if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
+   end subroutine make_coarse_workspace
+
+   !> Allocate the coarse level of an estimate of errors, unless it is there
+   subroutine make_coarse_level(slot)
+      type(patch_slot), intent(inout) :: slot
+
+      if (.not. allocated(slot%coarse)) allocate(slot%coarse)
+   end subroutine make_coarse_level
 
    !> Release the memory that is allocated outside Fortran
    subroutine release_wheel_rail(memory)

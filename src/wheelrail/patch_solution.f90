@@ -11,7 +11,7 @@ module contact_wheelrail_patch_solution
    use contact_wheelrail_carry_over, only : carried_step, max_patches
    use contact_wheelrail_curved_patch, only : curved_forces
    use contact_wheelrail_geometry, only : learned_share, wheel_rail_geometry
-   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_memory, only : make_coarse_workspace, patch_slot
    use contact_wheelrail_patch_inputs, only : set_up_patch
    use contact_wheelrail_problem, only : wheel_rail_problem
    implicit none (type, external)
@@ -54,7 +54,7 @@ contains
       call link_slot(geometry%before, number, geometry%is_first, geometry%ahead, slot, error)
       if (allocated(error)) return
       if (geometry%coarser > 1) then
-         if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
+         call make_coarse_workspace(slot)
          call solve_patch(slot%problem, slot%state, slot%coarse_workspace, log, slot%result, error)
       else
          call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)

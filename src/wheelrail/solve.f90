@@ -8,13 +8,12 @@ module contact_wheelrail_solve
    use contact_patch_derived, only : complete
    use contact_patch_problem, only : patch_problem
    use contact_text_words, only : real_text
-   use contact_wheelrail_carry_over, only : max_patches
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
    use contact_wheelrail_gather, only : gather
    use contact_wheelrail_geometry, only : box_on_lattice, place, wheel_rail_geometry
    use contact_wheelrail_height, only : find_height
-   use contact_wheelrail_memory, only : wheel_rail_memory
+   use contact_wheelrail_memory, only : make_slots, wheel_rail_memory
    use contact_wheelrail_pitch_rate, only : search_pitch_rate
    use contact_wheelrail_placement, only : gauge_point
    use contact_wheelrail_problem, only : keeps_lattice, wheel_rail_problem, rate_of_pure_rolling
@@ -41,7 +40,7 @@ contains
       real(wp) :: z
       integer :: k
 
-      if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
+      call make_slots(memory)
       memory%geometry%follows = seeks_height_alone(problem)
       memory%geometry%follows_last = memory%geometry%follows .and. follows_last(problem, memory)
       memory%geometry%follows_height = memory%geometry%follows .and. has_one_height(problem%template)

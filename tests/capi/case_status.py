@@ -93,7 +93,7 @@ TABLE = [
     ),
     (3, "refused", module3(digits="203110", motion="100 1.5 0 0"), 2, "none", None),
     (1, "solved", module1(), 0, "none", 0),
-    (1, "normal", module1(limits="2 100 30 1 1e-9"), 1, "normal", 0),
+    (1, "normal", module1(limits="1 100 30 1 1e-9"), 1, "normal", 0),
     (1, "tangential", module1(output="0201201", limits=GS.format(14)), 1, "tangential", 0),
     # a given approach: no search for the force starts the second pass, the last one, from the result of another
     (
