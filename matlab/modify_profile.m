@@ -56,7 +56,7 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, vara
    if (mirror_y==1)
       y = -y;
    end
-   if (mirror_z==1 || (mirror_z==0 && is_upside_down(z, is_wheel)))
+   if (mirror_z==1 || (mirror_z==0 && is_upside_down(y, z, is_wheel)))
       z = -z;
    end
    y = scale_yz * y;
@@ -188,7 +188,7 @@ end % function goes_on
 
 %------------------------------------------------------------------------------------------------------
 
-function [ upside_down ] = is_upside_down( z, is_wheel )
+function [ upside_down ] = is_upside_down( y, z, is_wheel )
 % Does z point up? The sides of a rail hang down; of a wheel the flange does, and the field side is highest
 
    n = numel(z);
@@ -197,7 +197,10 @@ function [ upside_down ] = is_upside_down( z, is_wheel )
    if (is_wheel)
       near = max(1, fix(0.05*n));
       if (at_end(lowest, near, n))
-         upside_down = false;
+         % a wheel may end at the tip of a flange that points up; the tip has the lowest y
+         width = max(y) - min(y);
+         upside_down = zmax-zmin > 0.1*width && y(highest)-y(lowest) > 0.5*width && ...
+                       z(fix((lowest+highest)/2)) > (zmin+zmax)/2;
       elseif (at_end(highest, near, n))
          upside_down = true;
       else

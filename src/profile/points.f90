@@ -175,16 +175,16 @@ contains
    end subroutine remove_zig_zags
 
    !> Does z point upwards? Determined from the side faces
-   pure logical function needs_mirror_z(side, z) result(mirror)
+   pure logical function needs_mirror_z(side, y, z) result(mirror)
       !> Member of profile_side
       integer, intent(in) :: side
-      !> Vertical coordinates [mm] in the order of the file
-      real(wp), intent(in) :: z(:)
+      !> Coordinates in the order of the file and in any unit; y positive towards the field side
+      real(wp), intent(in) :: y(:), z(:)
 
       if (side == profile_side%rail) then
          mirror = rail_is_upside_down(z)
       else
-         mirror = wheel_is_upside_down(z)
+         mirror = wheel_is_upside_down(z) .or. wheel_ends_at_raised_tip(y, z)
       end if
    end function needs_mirror_z
 
@@ -234,6 +234,26 @@ contains
          mirror = z((lowest + highest)/2) > 0.5_wp*(z(lowest) + z(highest))
       end if
    end function wheel_is_upside_down
+
+   !> Does a wheel profile without flange back end at the tip of a flange that points upwards? The tip is the lowest z at the end
+   !> with the lowest y, and the tread, with most of the points, has high z
+   pure logical function wheel_ends_at_raised_tip(y, z) result(ends)
+      real(wp), intent(in) :: y(:), z(:)
+      !> Fraction of the points considered at the end
+      real(wp), parameter :: zone = 0.05_wp
+      !> Least height of a flange, and least distance of its tip from the highest z, relative to the width of the profile
+      real(wp), parameter :: visible = 0.1_wp, far = 0.5_wp
+      real(wp) :: width
+      integer :: n, near, lowest, highest
+
+      n = size(z)
+      near = max(1, int(zone*n))
+      lowest = minloc(z, 1)
+      highest = maxloc(z, 1)
+      width = maxval(y) - minval(y)
+      ends = (lowest <= near .or. lowest > n - near) .and. z(highest) - z(lowest) > visible*width &
+         & .and. y(highest) - y(lowest) > far*width .and. z((lowest + highest)/2) > 0.5_wp*(z(lowest) + z(highest))
+   end function wheel_ends_at_raised_tip
 
    !> Must the order be reversed? Determined from the steps at the top of a rail and at the tip of a flange
    pure logical function needs_reversal(side, y, z) result(reverse)

@@ -162,7 +162,7 @@ contains
          return
       end if
       if (mirrors_y(file, request)) y = -y
-      if (mirrors_z(file, request, z)) z = -z
+      if (mirrors_z(file, request, y, z)) z = -z
       y = y*request%scale/file%units_per_mm
       z = z*request%scale/file%units_per_mm
       length = sum(hypot(y(2:) - y(:size(y) - 1), z(2:) - z(:size(y) - 1)))
@@ -301,13 +301,14 @@ contains
    end function mirrors_y
 
    !> As for y; if the file leaves it open, it is determined from the shape unless the user sets it
-   pure logical function mirrors_z(file, request, z) result(mirror)
+   pure logical function mirrors_z(file, request, y, z) result(mirror)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
-      real(wp), intent(in) :: z(:)
+      !> Coordinates, y as mirrored
+      real(wp), intent(in) :: y(:), z(:)
 
       mirror = request%mirror_z + merge(1, 0, file%mirror_z) == 1
-      if (file%guess_z .and. request%mirror_z == 0) mirror = needs_mirror_z(request%side, z)
+      if (file%guess_z .and. request%mirror_z == 0) mirror = needs_mirror_z(request%side, y, z)
    end function mirrors_z
 
    !> Smooth points in canonical order, and determine the visible parts of the curve

@@ -161,9 +161,9 @@ contains
 
       y = [(1.0_wp*i, i=-20, 20)]
       z = 0.02_wp*y**2
-      call suite%check(.not. needs_mirror_z(profile_side%rail, z), "rail with z down")
-      call suite%check(needs_mirror_z(profile_side%rail, -z), "rail with z up")
-      call suite%check(.not. needs_mirror_z(profile_side%rail, 0.0_wp*z + [(merge(5.0_wp, 0.0_wp, i < 3), i=1, 41)]), &
+      call suite%check(.not. needs_mirror_z(profile_side%rail, y, z), "rail with z down")
+      call suite%check(needs_mirror_z(profile_side%rail, y, -z), "rail with z up")
+      call suite%check(.not. needs_mirror_z(profile_side%rail, y, 0.0_wp*z + [(merge(5.0_wp, 0.0_wp, i < 3), i=1, 41)]), &
          & "rail with one side")
       call suite%check(.not. needs_reversal(profile_side%rail, y, z), "rail in order")
       call suite%check(needs_reversal(profile_side%rail, -y, z), "rail in reverse order")
@@ -171,8 +171,18 @@ contains
       y = -y
       z = -0.05_wp*y
       where (y < -10.0_wp) z = 20.0_wp - 0.2_wp*(y + 15.0_wp)**2
-      call suite%check(.not. needs_mirror_z(profile_side%wheel, z), "wheel with z down")
-      call suite%check(needs_mirror_z(profile_side%wheel, -z), "wheel with z up")
+      call suite%check(.not. needs_mirror_z(profile_side%wheel, y, z), "wheel with z down")
+      call suite%check(needs_mirror_z(profile_side%wheel, y, -z), "wheel with z up")
+      ! the first 36 points end at the tip of the flange
+      associate (u => y(:36), v => z(:36))
+         call suite%check(.not. needs_mirror_z(profile_side%wheel, u, v), "wheel that ends at the tip, z down")
+         call suite%check(needs_mirror_z(profile_side%wheel, u, -v), "wheel that ends at the tip, z up")
+         call suite%check(needs_mirror_z(profile_side%wheel, u(36:1:-1), -v(36:1:-1)), "the same in reverse order")
+         call suite%check(.not. needs_mirror_z(profile_side%wheel, -u, v), "the same of the other side, z down")
+      end associate
+      ! a tread without flange, bevelled at the field side
+      call suite%check(.not. needs_mirror_z(profile_side%wheel, y(:31), [(-5.0_wp*(5 - min(i, 5)) + 0.05_wp*i, i=1, 31)]), &
+         & "bevelled tread with z down")
       call suite%check(.not. needs_reversal(profile_side%wheel, y, z), "wheel in order")
       call suite%check(needs_reversal(profile_side%wheel, y(41:1:-1), z(41:1:-1)), "wheel in reverse order")
       call suite%check(needs_reversal(profile_side%wheel, -y, z), "wheel of the other side")
