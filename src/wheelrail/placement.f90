@@ -150,7 +150,7 @@ contains
       end associate
    end subroutine place_wheel_rail
 
-   !> Motion of the rail, or of the roller about its axle
+   !> Motion of the rail, or of the roller about its axle; the roll rate is about the origin of the rail profile, as the roll is
    pure function rail_motion(wheel_rail, placement) result(motion)
       !> Velocities of rail and roller, as they were given
       class(pair_spec), intent(in) :: wheel_rail
@@ -165,7 +165,8 @@ contains
             yaw_rate = -s*placement%roller_radius*wheel_rail%wheelset%rpitch*wheel_rail%track%curvature
             motion%origin = [0.0_wp, placement%rail%origin(2), placement%roller_radius]
             motion%rotation = [s*rail%vroll, wheel_rail%wheelset%rpitch, yaw_rate]
-            motion%velocity = [0.0_wp, s*rail%vy, rail%vz]
+            ! from the origin of the profile to the axle
+            motion%velocity = [0.0_wp, s*rail%vy - s*rail%vroll*(placement%roller_radius - placement%rail%origin(3)), rail%vz]
          else
             yaw_rate = -s*wheel_rail%wheelset%vs*wheel_rail%track%curvature
             motion%origin = placement%rail%origin

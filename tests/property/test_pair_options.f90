@@ -31,6 +31,8 @@ contains
       integer :: k
 
       track%spec = railway_case(3.0_wp, 0.004_wp)
+      ! the rail rolls about the origin of its profile, not about the axle of the roller
+      track%spec%wheel_rail%rail%vroll = 0.05_wp
       ! a gauge would put the top of a rail at height zero, but not that of a roller
       track%spec%wheel_rail%track%gaught = -1.0_wp
       track%spec%wheel_rail%track%raily0 = 755.0_wp
