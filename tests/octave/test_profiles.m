@@ -57,6 +57,9 @@ q = modify_profile(struct('ProfileY',p.ProfileY/1000,'ProfileZ',-p.ProfileZ/1000
 check_near([q.ProfileY q.ProfileZ], [p.ProfileY p.ProfileZ], 1e-9, 'upside down in metres');
 q = modify_profile(struct('ProfileY',flipud(wheel.ProfileY),'ProfileZ',-flipud(wheel.ProfileZ)), 1);
 check_near([q.ProfileY q.ProfileZ], [wheel.ProfileY wheel.ProfileZ], 1e-12, 'wheel upside down and reversed');
+[~, tip] = max(wheel.ProfileZ);
+q = modify_profile(struct('ProfileY',wheel.ProfileY(1:tip),'ProfileZ',-wheel.ProfileZ(1:tip)), 1);
+check_near([q.ProfileY q.ProfileZ], [wheel.ProfileY(1:tip) wheel.ProfileZ(1:tip)], 1e-12, 'wheel upside down that ends at the flange tip');
 check_error(@() modify_profile(struct('ProfileY',[0;1],'ProfileZ',[0;0]), 1, 0, -1, 1, 0), 'must decrease');
 check_error(@() modify_profile(struct('ProfileY',0,'ProfileZ',0)), 'at least two points');
 
