@@ -81,11 +81,12 @@ module contact_wheelrail_memory
 
 contains
 
-   ! What has initial values is allocated here, not where it is used: the compiler makes a copy of them on the stack, of up to 40 kB,
-   ! which lasts as long as the procedure
+   ! Data with initial values are allocated here, not where they are used: the compiler makes a copy of the values on the stack,
+   ! of up to 40 kB, which lasts as long as the procedure
 
    !> Allocate the patches of a pair, unless they are there
    subroutine make_slots(memory)
+      !> Data of the pair
       type(wheel_rail_memory), intent(inout) :: memory
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
@@ -93,6 +94,7 @@ contains
 
    !> Allocate the work space of trials with larger elements, unless it is there
    subroutine make_coarse_workspace(slot)
+      !> Patch with such trials
       type(patch_slot), intent(inout) :: slot
 
       if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
@@ -100,6 +102,7 @@ contains
 
    !> Allocate the coarse level of an estimate of errors, unless it is there
    subroutine make_coarse_level(slot)
+      !> Solved patch
       type(patch_slot), intent(inout) :: slot
 
       if (.not. allocated(slot%coarse)) allocate(slot%coarse)
