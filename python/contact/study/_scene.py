@@ -164,9 +164,10 @@ def _merged(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _with_meaning(case: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """A merged case without the values of earlier cases that have no meaning in it, such as those of another form of the grid.
+    """A merged case without values of earlier cases that do not apply to it, such as those of another form of the grid.
 
-    Which they are is what the library complains of; `given` is what the case gives itself, which is not taken away.
+    The case is written to a file, and the library reports them as errors with their lines. Values of `given`, the input of the
+    case itself, are kept.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "case.toml")
