@@ -169,12 +169,13 @@ class Velocities(Case):
             on_profile = apply(about(0, angle), [0.0, p["ycp_r"], p["zcp_r"]])
             marker = minus(on_rail, on_profile)
             marker[0] = 0.0
-            turn = [rail[2], 0.0, 0.0]
-            if side >= 4:
-                marker[2] = NOMRADR
-                turn[1] = forward
             arm = minus(on_rail, marker)
-            v_rail = plus([0.0, rail[0], rail[1]], [turn[1]*arm[2], -turn[0]*arm[2], turn[0]*arm[1] - turn[1]*arm[0]])
+            turn = [rail[2], 0.0, 0.0]
+            v_rail = plus([0.0, rail[0], rail[1]], [0.0, -turn[0]*arm[2], turn[0]*arm[1]])
+            if side >= 4:
+                # a roller turns about its axle, and rolls about the origin of its profile, as a rail does
+                turn[1] = forward
+                v_rail = plus(v_rail, [turn[1]*(on_rail[2] - NOMRADR), 0.0, -turn[1]*on_rail[0]])
             v_wheel = wheel.velocity_of(on_wheel)
             a, b, c = (turned_back(axes, v) for v in (v_rail, v_wheel, turning.velocity_of(on_wheel)))
             if side < 4:
