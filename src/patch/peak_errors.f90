@@ -146,6 +146,7 @@ contains
       if (i > 1) decrease(1) = line(i) - line(i - 1)
       if (i < size(line)) decrease(2) = line(i) - line(i + 1)
       shape%bend = sum(decrease)
+      if (minval(decrease) > 0.0_wp) shape%cusp = 4.0_wp*product(decrease)/sum(decrease)
       ! where the grid cuts off the contact there is no edge
       if (first > 1) shape%step = excess_at_edge(line(first)/line(i), i - first)
       if (last < size(line)) shape%step = max(shape%step, excess_at_edge(line(last)/line(i), last - i))
