@@ -21,7 +21,7 @@ module contact_patch_order
    !> The second order uses the rigid slip in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
    !> Steps that differ from one element by less than this fraction are regarded as one element; the error of the edge position is
-!> the same fraction of an element; chosen
+   !> the same fraction of an element; chosen
    real(wp), parameter :: step_slack = 0.01_wp
    !> Largest change of pressures in central differences of edge terms, and the smallest one, which round-off requires, as fractions
    !> of the largest pressure; largest change as a fraction of a pressure at the edge, as terms are quotients by it; chosen

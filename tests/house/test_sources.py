@@ -31,6 +31,11 @@ CHANGED_INPUT = re.compile(r"(?:type|class)\((?:\w+_spec|input_case)\), intent\(
 MADE_RESULT = re.compile(r"(?:type|class)\(\w+_result\), intent\((?:inout|out)\)")
 # First line of a comment that begins in the middle of a sentence
 CUT_OFF = re.compile(r"   !> [a-z]{3,}(?:$|,| [a-z])")
+# A derived type with its components, the names in a declaration of components, and statements that may set a component
+TYPE = re.compile(r"^ *type(?:, [^\n:]*)? ?:: (\w+)\n(.*?)^ *(?:contains|end type)\b", re.MULTILINE | re.DOTALL)
+COMPONENTS = re.compile(r"^(?!.*\bprocedure\b).*?:: (.*)$", re.MULTILINE)
+COMPONENT = re.compile(r"(\w+)(?:\([^()]*\))?(?: *=>? *[^,()]*(?:\([^()]*\))?)?(?:, |$)")
+SETS = r"%{}\b[^=]*(?<![=/<>])=(?!=)|\b(?:call|allocate|move_alloc|read|open|inquire|source)\b|=>"
 
 
 def written_back(text):
@@ -43,7 +48,11 @@ def written_back(text):
 
 def offences(lines, room="base"):
     """Number, line and reason of each line that breaks a rule"""
+    inside = False
     for number, line in enumerate(lines, 1):
+        if inside and line.startswith("!"):
+            yield number, line, "comments within a module are indented"
+        inside = (inside or bool(re.match(r"(?:module|program) ", line))) and not line.startswith("end ")
         if CUT_OFF.match(line) and not (number > 1 and lines[number - 2].lstrip().startswith("!")):
             yield number, line.strip(), "a sentence begins with a capital: its first line was lost"
         if room not in DOORS and DIGIT.search(line):
@@ -72,6 +81,25 @@ def unknown_choices(text, keys, words):
                 yield f'{key} = "{word}"'
 
 
+def unset_components(texts):
+    """Components of derived types that are read and never set; types with structure constructors are not judged"""
+    code = [re.sub(r" *&\n *&", " ", re.sub(r"^ *!.*\n", "", text, flags=re.MULTILINE)) for text in texts]
+    used, owners, constructed = {}, {}, set()
+    for text in code:
+        for line in text.splitlines():
+            for name in re.findall(r"%(\w+)", line):
+                used.setdefault(name, []).append(line)
+        constructed.update(re.findall(r"(?<!type\()(?<!class\()\b(\w+)\(", text))
+        for kind, body in TYPE.findall(text):
+            for name in (name for names in COMPONENTS.findall(body) for name in COMPONENT.findall(names)):
+                owners.setdefault(name, set()).add(kind)
+    for name, kinds in sorted(owners.items()):
+        if len(kinds) == 1 and not kinds & constructed and name in used:
+            sets = re.compile(SETS.format(name))
+            if not any(sets.search(line) for line in used[name]):
+                yield f"{min(kinds)}%{name}"
+
+
 def main():
     """All files of src"""
     planted = list(offences(["   write(text, '(a, i0)') what", "   if (bad) write(unit, '(es12.4)', iostat=status) x",
@@ -93,6 +121,12 @@ def main():
     made = ("   pure subroutine a(spec, result)\n      type(case_spec), intent({}) :: spec\n"
             "      type(patch_result), intent(out) :: result\n   end subroutine a\n")
     assert list(written_back(made.format("inout"))) == ["a"] and not list(written_back(made.format("in"))), "results in the input"
+    comments = ["!> A module", "module a", "!> a component", "   !> Another", "end module a", "! behind it"]
+    assert [line[0] for line in offences(comments)] == [3], "comments that are not indented"
+    shape = ("type :: shape\n real(wp) :: bend = 0.0_wp, cusp = 0.0_wp\nend type shape\n"
+             "s%bend = 1.0_wp\nif (s%cusp == 0.0_wp) e = s%bend + s%cusp\n")
+    assert list(unset_components([shape])) == ["shape%cusp"], "components that are never set"
+    assert not list(unset_components([shape, "call find(&\n & s%cusp)\n"])), "a component that a call may set"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
     keys = {f"{group}.{key}" if group else key: name
@@ -101,8 +135,11 @@ def main():
     words = set(re.findall(r'digit_row\("(\w+)",[^"]*"[^"]*",[ &]*"(\w+)"\)', digits))
     assert list(unknown_choices('"motion = ""none"", ""shift"" &\n   &or ""rest"""', keys, words)) == ['motion = "rest"']
     files = sorted(pathlib.Path(top, "src").rglob("*.f90"))
+    unset = list(unset_components(file.read_text(encoding="utf-8") for file in files))
     left_out = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
-    bad = len(left_out)
+    bad = len(left_out) + len(unset)
+    if unset:
+        print(f"FAILED components that are read and never set: {', '.join(unset)}")
     if left_out:
         print(f"FAILED {top} holds {left_out[:10]}: left by a test that ran there, or misplaced")
     for file in files:
