@@ -43,11 +43,11 @@ module contact_normal_conjugate_gradient
       type(level_type), allocatable :: level(:)
       !> The last problem and its solution: tables of creep forces repeat one normal problem
       type(answer_type), private :: last
-      !> Window around the overlap, in a potential contact area that is much larger
-      type(level_type), private :: overlap
-      !> Window around the estimated pressures of a problem in a sequence, and operators of such windows
-      type(level_type) :: near
-      type(operator_shelf), private :: near_operators
+      !> Part of a larger potential contact area: around the overlap, or around the estimated pressures of a problem in a sequence;
+      !> operators of the parts in a sequence
+      type(level_type) :: part
+      type(operator_shelf), private :: part_operators
+      !> The part in which the last problem of a sequence was solved; of size 0 if it was not
       type(window_type) :: near_window
       !> Displacements in the window of the whole problem [mm]
       real(wp), allocatable, private :: displacement(:, :)
@@ -144,25 +144,11 @@ contains
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout), optional :: log
       type(window_type) :: window
-      integer :: products_before
       real(wp) :: worst
 
       window = window_near(problem, operator, p)
       if (window%mx == 0) return
-      associate (near => workspace%near)
-         call window%cut(problem, near%problem)
-         call workspace%near_operators%fetch(operator%model, problem%dx, problem%dy, window%mx, window%my, near%operator)
-         call new_compliance(operator%model, near%operator)
-         call near%operator%prepare(operator%model, problem%dx, problem%dy, window%mx, window%my, 1, &
-            & operator%y_first + window%before_y*problem%dy)
-         products_before = near%operator%products
-         near%operator%transforms = 0
-         near%p = window%part_of(p)
-         call solve_level(near%problem, near%operator, workspace, 1, near%p, pen, problem%eps, report, log)
-         call window%put_back(near%p, p)
-         report%products = report%products + near%operator%products - products_before
-         call near%operator%collect_pairs(problem%mx*problem%my, report%fft_pairs)
-      end associate
+      call solve_in_window(problem, operator, workspace, window, p, pen, report, log)
       if (report%ended /= ending%converged) return
       if (allocated(workspace%displacement)) then
          if (any(shape(workspace%displacement) /= shape(p))) deallocate(workspace%displacement)
@@ -177,7 +163,7 @@ contains
       end if
    end subroutine solve_near
 
-   !> Solve in a window that contains all elements that can be in contact
+   !> Solve in a window that contains the contact
    subroutine solve_in_window(problem, operator, workspace, window, p, pen, report, log)
       !> Problem with a prescribed approach
       type(normal_problem), intent(in) :: problem
@@ -191,12 +177,16 @@ contains
       type(log_type), intent(inout), optional :: log
       integer :: products_before
 
-      associate (part => workspace%overlap)
+      associate (part => workspace%part)
          call window%cut(problem, part%problem)
+         if (problem%follows) call workspace%part_operators%fetch(operator%model, problem%dx, problem%dy, window%mx, window%my, &
+            & part%operator)
          call new_compliance(operator%model, part%operator)
          call part%operator%prepare(operator%model, problem%dx, problem%dy, window%mx, window%my, 1, &
             & operator%y_first + window%before_y*problem%dy)
          products_before = part%operator%products
+         ! derivatives of the last solution are not counted here
+         part%operator%transforms = 0
          part%p = window%part_of(p)
          call solve_level(part%problem, part%operator, workspace, 1, part%p, pen, problem%eps, report, log)
          call window%put_back(part%p, p)
@@ -476,9 +466,8 @@ contains
       integer :: k
 
       if (.not. allocated(workspace%level)) return
-      if (allocated(workspace%overlap%operator)) call workspace%overlap%operator%release()
-      if (allocated(workspace%near%operator)) call workspace%near%operator%release()
-      call workspace%near_operators%release()
+      if (allocated(workspace%part%operator)) call workspace%part%operator%release()
+      call workspace%part_operators%release()
       do k = 1, size(workspace%level)
          if (allocated(workspace%level(k)%operator)) call workspace%level(k)%operator%release()
       end do

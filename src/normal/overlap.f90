@@ -56,11 +56,9 @@ contains
          end associate
       end do
       if (last(1) == 0) return
-      call fit_side(problem%mx, unit_side, first(1), last(1))
-      call fit_side(problem%my, unit_side, first(2), last(2))
-      if (real(last(1) - first(1) + 1, wp)*(last(2) - first(2) + 1) > much_smaller*problem%mx*problem%my) return
-      if (.not. all(operator%table%nn >= 0.0_wp)) return
-      window = window_type(last(1) - first(1) + 1, last(2) - first(2) + 1, first(1) - 1, first(2) - 1)
+      window = window_around(problem, first, last, unit_side, much_smaller)
+      if (window%mx == 0) return
+      if (.not. all(operator%table%nn >= 0.0_wp)) window = window_type()
    end function overlap_window
 
    !> Window around estimated pressures; of size 0 if it is not much smaller than that of the problem
@@ -85,13 +83,29 @@ contains
          end do
       end do
       if (last(1) == 0) return
-      first = max(1, first - margin)
-      last = min([problem%mx, problem%my], last + margin)
-      call fit_side(problem%mx, unit_near, first(1), last(1))
-      call fit_side(problem%my, unit_near, first(2), last(2))
-      if (real(last(1) - first(1) + 1, wp)*(last(2) - first(2) + 1) > somewhat_smaller*problem%mx*problem%my) return
-      window = window_type(last(1) - first(1) + 1, last(2) - first(2) + 1, first(1) - 1, first(2) - 1)
+      window = window_around(problem, max(1, first - margin), min([problem%mx, problem%my], last + margin), unit_near, &
+         & somewhat_smaller)
    end function window_near
+
+   !> Window around a range of elements; of size 0 if it is not smaller than a fraction of the larger window
+   pure type(window_type) function window_around(problem, first, last, unit, fraction) result(window)
+      !> Problem on the larger window
+      type(normal_problem), intent(in) :: problem
+      !> First and last column and row
+      integer, intent(in) :: first(2), last(2)
+      !> The sides are multiples of this number of elements
+      integer, intent(in) :: unit
+      !> Fraction of the elements [-]
+      real(wp), intent(in) :: fraction
+      integer :: from(2), to(2)
+
+      from = first
+      to = last
+      call fit_side(problem%mx, unit, from(1), to(1))
+      call fit_side(problem%my, unit, from(2), to(2))
+      if (real(to(1) - from(1) + 1, wp)*(to(2) - from(2) + 1) > fraction*problem%mx*problem%my) return
+      window = window_type(to(1) - from(1) + 1, to(2) - from(2) + 1, from(1) - 1, from(2) - 1)
+   end function window_around
 
    !> Extend a range of elements to a multiple of a unit, within the larger window
    pure subroutine fit_side(n, unit, first, last)

@@ -144,7 +144,7 @@ contains
       associate (window => solver%near_window)
          allocate(part, source=window%part_of(q))
          allocate(contact, source=window%part_of(result%pn) > 0.0_wp)
-         call pressure_derivative(solver%near%operator, problem%parts, contact, tolerance, problem%mxsens, part, reached, &
+         call pressure_derivative(solver%part%operator, problem%parts, contact, tolerance, problem%mxsens, part, reached, &
             & has_estimate)
          call window%put_back(part, q)
       end associate
