@@ -1,6 +1,5 @@
 !> Cases of callers, written as an input file of the program (flag 2002)
 module contact_capi_input_dump
-   use contact_base_choices, only : is_rolling
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
@@ -10,7 +9,7 @@ module contact_capi_input_dump
    use contact_cases_spec, only : case_parts, case_spec, part_source
    use contact_output_finished_file, only : finished_file
    use contact_output_input_case, only : write_contact_case, write_input_case
-   use contact_text_words, only : real_text
+   use contact_output_unwritten, only : unwritten_setting, unwritten_settings
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
@@ -36,7 +35,6 @@ contains
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call write_missing(spec)
       call write_contact_case(library%input_dump, spec, problem%result)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
@@ -48,7 +46,9 @@ contains
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       type(case_spec) :: written
+      type(unwritten_setting), allocatable :: settings(:)
       character(len=80) :: line
+      integer :: k
       logical :: ignored
 
       if (problem%write_input < as_given) return
@@ -68,34 +68,16 @@ contains
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call write_missing(written)
-      if (has_canted_roller(written)) call library%input_dump%line(" % without CANT = " // &
-         & real_text(written%wheel_rail%track%cant) // " rad: input files have no cant of a roller; results differ")
       call write_input_case(library%input_dump, written)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
-      if (has_canted_roller(written)) call warn(this, "the input file that is written does not have the cant of the roller")
+      settings = unwritten_settings(written)
+      do k = 1, size(settings)
+         if (settings(k)%fact /= "" .and. settings(k)%option == "") call warn(this, trim(settings(k)%fact) // &
+            & ", which is not in the input file that is written")
+      end do
       ignored = dumps_input()
    end subroutine dump_wheel_rail_case
-
-   !> Does a case have a roller with a cant, which input files cannot express?
-   pure logical function has_canted_roller(spec)
-      !> A wheel on a roller or rail
-      type(case_spec), intent(in) :: spec
-
-      has_canted_roller = spec%wheel_rail%roller .and. abs(spec%wheel_rail%track%cant) > 0.0_wp
-   end function has_canted_roller
-
-   !> Write comments on settings that are options of the program; that of temperatures is beside their data
-   subroutine write_missing(spec)
-      !> The case
-      type(case_spec), intent(in) :: spec
-
-      if (is_rolling(spec%motion) .and. spec%iteration%order == 2) call library%input_dump%line(" % needs --order 2")
-      if (.not. allocated(spec%wheel_rail)) return
-      if (.not. spec%wheel_rail%search%angle_below_axle) call library%input_dump%line(" % needs --contact-angle contact, if the &
-         &rail varies along the track")
-   end subroutine write_missing
 
    !> Name of a profile for the input file; a profile that was given by values is written to a file, once
    subroutine name_profile(this, number, body, profile, given)

@@ -95,8 +95,6 @@ module contact_cases_archive
       procedure :: refuse_group
       procedure :: warn_of_group
       procedure :: report_group => report_nothing_of_group
-      !> A remark on the current group for readers of a file
-      procedure :: comment => ignore_name
       !> Add the position at which reading stopped, if it did
       procedure :: add_context => ignore_name
       !> Check the bounds of a number of the last line that was collected as unchecked

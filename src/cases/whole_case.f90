@@ -1,6 +1,6 @@
 !> All groups of the input that a case gives, in the order of the input files, once for all formats
 module contact_cases_whole_case
-   use contact_base_choices, only : force_control, grid_form, heat_source, is_classical, kernel_model, material_model, &
+   use contact_base_choices, only : force_control, grid_form, kernel_model, material_model, &
       & motion, normal_control, planform_choice, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
@@ -38,7 +38,6 @@ contains
          if (parts%iteration == part_source%given) then
             call a%open_group("iteration")
             ! module 3 may give a maximum number of elements, which has no effect there
-            if (spec%classical .and. is_classical(spec%solver)) call a%comment("the solver runs with --classical only")
             call visit_own_iteration(a, spec%iteration)
             call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
             call a%close_group()
@@ -58,7 +57,6 @@ contains
          if (parts%damping == part_source%given) call visit_damping_group(a, spec)
          if (parts%heat == part_source%given .and. spec%has_heat) then
             call a%open_group("heat")
-            if (spec%heat%source == heat_source%moving) call a%comment("temperatures as with --heat moving-source")
             call visit_own_heat(a, spec%heat)
             call visit_heat(a, spec%heat, with_plastic_work=spec%material_model == material_model%interfacial_layer)
             call a%close_group()

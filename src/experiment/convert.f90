@@ -1,6 +1,5 @@
 !> Conversion of experiments between the two input formats
 module contact_experiment_convert
-   use contact_base_choices, only : heat_source, is_rolling
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
@@ -11,6 +10,7 @@ module contact_experiment_convert
    use contact_output_finished_file, only : move_file, open_result
    use contact_output_input_case, only : write_input_case
    use contact_output_toml_case_writer, only : toml_experiment_writer
+   use contact_output_unwritten, only : unwritten_setting, unwritten_settings
    use contact_text_buffer, only : text_buffer
    use contact_text_words, only : integer_text
    use contact_toml_document, only : toml_document
@@ -191,17 +191,13 @@ contains
       type(experiment_reader) :: reader
       type(input_case) :: this
       character(len=:), allocatable :: remarks
-      logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy, allows, has_wear
+      type(unwritten_setting), allocatable :: lost(:)
+      logical :: begins_module
+      integer :: k
 
       names_files = .false.
       cases = 0
       begins_module = .true.
-      is_moving = .false.
-      is_second = .false.
-      has_errors = .false.
-      has_wear = .false.
-      asks_accuracy = .false.
-      allows = .false.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
          call next_good_case(reader, this, messages, error)
@@ -213,25 +209,35 @@ contains
          if (len(remarks) > 0) call file%line(remarks(:len(remarks) - 1))
          if (begins_module) call write_module_line(file, this)
          begins_module = this%spec%ends_module
-         if (this%spec%has_heat .and. this%spec%heat%source == heat_source%moving) is_moving = .true.
-         if (is_rolling(this%spec%motion) .and. this%spec%iteration%order == 2) is_second = .true.
-         if (this%spec%estimates_errors) has_errors = .true.
-         if (this%spec%has_wear) has_wear = .true.
-         if (this%spec%iteration%accuracy > 0.0_wp) asks_accuracy = .true.
-         if (this%spec%iteration%allows_approximate) allows = .true.
+         call collect_unwritten(this%spec, lost)
          call write_input_case(file, this%spec)
       end do
       if (allocated(error)) return
       call file%line(" 0   % MODULE: end")
-      if (is_moving) call messages%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
-         & "--heat moving-source to have them")
-      if (is_second) call messages%add_line(" Rolling of " // input // " is of order 2; the new file needs --order 2 for that")
-      if (has_errors) call messages%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
-      if (has_wear) call messages%add_line(" Wear and fatigue of " // input // " are computed; the new file cannot request them")
-      if (asks_accuracy) call messages%add_line(" Accuracies are requested in " // input // "; the new file needs --accuracy &
-         &for that")
-      if (allows) call messages%add_line(" Simplified methods are allowed in " // input // "; the new file needs --allow for that")
+      if (.not. allocated(lost)) return
+      do k = 1, size(lost)
+         if (lost(k)%option /= "") then
+            call messages%add_line(" In " // input // " " // trim(lost(k)%fact) // "; the new file needs " // trim(lost(k)%option))
+         else if (lost(k)%fact /= "") then
+            call messages%add_line(" In " // input // " " // trim(lost(k)%fact) // "; the new file cannot request this")
+         end if
+      end do
    end subroutine write_established
+
+   !> Collect settings that the new file cannot express, of each kind the first one
+   subroutine collect_unwritten(spec, lost)
+      type(case_spec), intent(in) :: spec
+      !> Those found so far; allocated here
+      type(unwritten_setting), allocatable, intent(inout) :: lost(:)
+      type(unwritten_setting), allocatable :: found(:)
+      integer :: k
+
+      found = unwritten_settings(spec)
+      if (.not. allocated(lost)) lost = found
+      do k = 1, size(lost)
+         if (lost(k)%fact == "") lost(k) = found(k)
+      end do
+   end subroutine collect_unwritten
 
    !> Write the line MODULE {REID {CPID}}
    subroutine write_module_line(file, this)

@@ -19,13 +19,9 @@ module contact_output_file_writer
    type, extends(case_archive) :: file_writer
       !> An open file
       type(output_file), pointer :: file => null()
-      !> Remark after the names on the lines of the current group
-      character(len=:), allocatable, private :: remark
    contains
       procedure :: end_line => write_line
       procedure :: list => write_list
-      procedure :: comment => keep_remark
-      procedure :: close_group => drop_remark
    end type file_writer
 
 contains
@@ -52,25 +48,9 @@ contains
             names = names // " " // trim(item%name)
          end associate
       end do
-      if (allocated(self%remark)) names = names // self%remark
       call put_line(self, values, names(2:))
       call self%finish_line()
    end subroutine write_line
-
-   !> Store the remark on the current group
-   subroutine keep_remark(self, text)
-      class(file_writer), intent(inout) :: self
-      character(len=*), intent(in) :: text
-
-      self%remark = ", " // text
-   end subroutine keep_remark
-
-   !> Remove the remark at the end of the group
-   subroutine drop_remark(self)
-      class(file_writer), intent(inout) :: self
-
-      if (allocated(self%remark)) deallocate(self%remark)
-   end subroutine drop_remark
 
    !> Write a list
    subroutine write_list(self, name, values, n, units, bounds)

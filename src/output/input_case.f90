@@ -8,6 +8,7 @@ module contact_output_input_case
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_base_output_file, only : output_file
    use contact_output_file_writer, only : file_writer, put_words
+   use contact_output_unwritten, only : unwritten_setting, unwritten_settings
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -19,7 +20,7 @@ module contact_output_input_case
 
 contains
 
-   !> Write a case: its control words and the groups that it gives
+   !> Write a case: remarks on settings that the file cannot express, control words, and the groups that the case gives
    subroutine write_input_case(file, spec)
       !> An open file
       type(output_file), target, intent(in) :: file
@@ -28,6 +29,7 @@ contains
       type(file_writer) :: a
       type(case_spec), target :: written
 
+      call write_remarks(file, spec)
       a%file => file
       written = spec
       ! not in the format
@@ -35,6 +37,25 @@ contains
       call put_words(a, digits_of(spec), module_number=merge(1, 3, allocated(spec%wheel_rail)))
       call visit_case(a, written)
    end subroutine write_input_case
+
+   !> Write a remark for each setting of a case that the file cannot express
+   subroutine write_remarks(file, spec)
+      type(output_file), intent(in) :: file
+      type(case_spec), intent(in) :: spec
+      type(unwritten_setting), allocatable :: settings(:)
+      integer :: k
+
+      settings = unwritten_settings(spec)
+      do k = 1, size(settings)
+         associate (setting => settings(k))
+            if (setting%option /= "") then
+               call file%line(" % needs " // trim(setting%option))
+            else if (setting%fact /= "") then
+               call file%line(" % not in this file: " // trim(setting%fact))
+            end if
+         end associate
+      end do
+   end subroutine write_remarks
 
    !> Write a solved case of module 3; a grid that is not Hertzian is cut to the contact area with a margin
    subroutine write_contact_case(file, spec, result)

@@ -138,7 +138,10 @@ class Readable(unittest.TestCase):
         self.assertEqual([group is not None for group in groups], [False, True, True, False])
         self.assertGreater(groups[1]["fx_error"]["value"], 0.0)
         self.assertIn("Errors of the totals are estimated.", self.run_program("explain", "a.toml")[1])
-        self.assertIn("needs --errors", "".join(self.run_program("convert", "a.toml")[1:]))
+        converted = "".join(self.run_program("convert", "a.toml")[1:])
+        self.assertEqual(converted.count("needs --errors"), 1, converted)
+        remarks = (self.folder / "a.inp").read_text(encoding="utf-8").count("% needs --errors")
+        self.assertEqual(remarks, 2, "each case has a remark of its own")
         self.assertIn("errors must be true or false", self.complaints(HEAD + REST + case.format("errors = 1\n")))
 
     def test_places_and_nearest_words(self):
