@@ -4,6 +4,7 @@
 module contact_base_limits
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_memory, only : megabytes_text
    use contact_base_output_file, only : output_budget
    implicit none (type, external)
    private
@@ -121,8 +122,8 @@ contains
       if (what == "elements" .and. number > self%elements) then
          write(text, "(I0, 3A, I0)") number, " ", what, " are more than the limit of ", self%elements
       else if (number > self%bytes/bytes_each) then
-         write(text, "(I0, 3A, I0, A, I0, A)") number, " ", what, " need about ", number*bytes_each/1000000_long, &
-            & " MB of memory, more than the limit of ", self%bytes/1000000_long, " MB"
+         write(text, "(I0, 6A)") number, " ", what, " need about ", megabytes_text(number*bytes_each), &
+            & " of memory, more than the limit of ", megabytes_text(self%bytes)
       else
          return
       end if

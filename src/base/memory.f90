@@ -3,11 +3,11 @@ module contact_base_memory
    use, intrinsic :: iso_fortran_env, only : int8
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : expect_refusals
-   use contact_base_kinds, only : long
+   use contact_base_kinds, only : long, wp
    implicit none (type, external)
    private
 
-   public :: require_memory, bytes_per_element
+   public :: require_memory, bytes_per_element, megabytes_text
 
    !> Upper estimate of the memory of a contact problem: about 1200 bytes per element were measured for bodies of the same
    !> material, 1400 for dissimilar bodies
@@ -41,8 +41,25 @@ contains
          deallocate(probe)
          return
       end if
-      write(text, "(I0, 3A, I0, A)") number, " ", what, " need about ", number*bytes_each/1000000_long, &
-         & " MB of memory, which is not available"
+      write(text, "(I0, 5A)") number, " ", what, " need about ", megabytes_text(number*bytes_each), &
+         & " of memory, which is not available"
       call fatal_error(error, trim(text), kind=error_kind%memory)
    end subroutine require_memory
+
+   !> A size in words, such as "12 MB"; below 10 MB with decimals
+   pure function megabytes_text(bytes) result(text)
+      !> Size [bytes]
+      integer(long), intent(in) :: bytes
+      character(len=:), allocatable :: text
+      character(len=24) :: number
+
+      if (bytes >= 10000000_long) then
+         write(number, "(I0)") bytes/1000000_long
+      else
+         write(number, "(F8.6)") real(bytes, wp)/1.0e6_wp
+         number = number(:verify(trim(number), "0", back=.true.))
+         if (number(len_trim(number):) == ".") number = number(:len_trim(number) - 1)
+      end if
+      text = trim(number) // " MB"
+   end function megabytes_text
 end module contact_base_memory

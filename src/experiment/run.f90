@@ -14,6 +14,7 @@ module contact_experiment_run
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long
+   use contact_base_memory, only : megabytes_text
    use contact_cases_slot, only : release_slot
    use contact_control_digit_terms, only : translate_to_digits
    use contact_experiment_check, only : check_all_cases
@@ -212,8 +213,7 @@ contains
       if (.not. state%limits%output%is_exceeded()) return
       call state%log%out%charge_to(null())
       call fatal_error(error, "the results would take more than the limit of " // &
-         & integer_text(int(min(state%limits%output%allowed/1000000_long, int(huge(1), long)))) // " MB (--limit-output)", &
-         & error_kind%limit)
+         & megabytes_text(state%limits%output%allowed) // " (--limit-output)", error_kind%limit)
    end subroutine check_output_limit
 
    !> Check that the name is not empty after removing folder and suffix

@@ -47,6 +47,8 @@ class Limits(unittest.TestCase):
         _done, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=1")
         self.assertEqual([line["status"] for line in lines], ["refused", "solved"])
         self.assertIn("more than the limit of 1 MB", lines[0]["reason"])
+        _, lines = self.run_program(case(20) + "0\n", "--limit-memory=0.25")
+        self.assertIn("400 elements need about 0.6 MB of memory, more than the limit of 0.25 MB", lines[0]["reason"])
         _, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=800")
         self.assertEqual([line["status"] for line in lines], ["solved", "solved"])
 
