@@ -77,15 +77,20 @@ int contact_run_limited(const char *experiment, int mode, const char *output_dir
 int contact_convert_experiment(const char *experiment, const char *output_dir, int overwrite, char *message,
                     int message_length);
 
-/* Tell in words what the cases of an experiment simulate, what they leave out, and what they will cost.
+/* Describe in words what the cases of an experiment simulate, what they leave out, and the expected cost.
  *
  * experiment      path of the input file, with or without suffix
- * text            receives the words, or what was told before a failure and its reason, cut to fit; NULL if not wanted
+ * text            receives the description, or that of the cases before a failure and its reason, cut to fit; may be NULL
  * text_length     size of text in bytes, the final null included
- * needed          receives the size that the whole text needs; NULL if not wanted
+ * needed          receives the size that the whole text needs; may be NULL
  *
  * Returns 0 on success, another number on failure. */
 int contact_explain_experiment(const char *experiment, char *text, int text_length, int *needed);
+
+/* Write the cases of an experiment in the readable format, each with all input that it keeps from earlier cases.
+ *
+ * Arguments and result are those of contact_explain_experiment; on failure text receives only the reason. */
+int contact_complete_cases(const char *experiment, char *text, int text_length, int *needed);
 
 /* What went wrong last, for callers of contact_addon.h.
  *

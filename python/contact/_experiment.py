@@ -26,18 +26,7 @@ def explain(path: str | os.PathLike[str]) -> str:
     ContactError
         If the input is invalid. The message has the reason and its position.
     """
-    room = 65536
-    while True:
-        text = ctypes.create_string_buffer(room)
-        needed = ctypes.c_int(0)
-        status = library().contact_explain_experiment(os.fsencode(path), text, room, ctypes.byref(needed))
-        if needed.value <= room:
-            break
-        room = needed.value
-    words = text.value.decode("utf-8", errors="replace")
-    if status != 0:
-        raise ContactError(words.strip())
-    return words
+    return _text_of("contact_explain_experiment", path)
 
 
 def convert(path: str | os.PathLike[str], output_dir: str | os.PathLike[str] | None = None, *, overwrite: bool = False) -> Path:
@@ -68,18 +57,25 @@ def convert(path: str | os.PathLike[str], output_dir: str | os.PathLike[str] | N
     return Path(output_dir) / new.name if output_dir is not None else new
 
 
-def read(path: str | os.PathLike[str]) -> list[dict[str, Any]]:
+def read(path: str | os.PathLike[str], *, complete: bool = False) -> list[dict[str, Any]]:
     """Read the cases of an experiment, in either format.
 
     Parameters
     ----------
     path
         The input with its suffix.
+    complete
+        Whether each case has all input that it keeps from earlier cases, without numbers that have preset values.
 
     Returns
     -------
-    One dictionary for each case, with the keys and tables of the readable format. A case has only what differs from
-    the previous one, as in the file.
+    One dictionary for each case, with the keys and tables of the readable format. Unless ``complete``, a case has only what
+    differs from the previous one, as in the file.
+
+    Raises
+    ------
+    ContactError
+        If the input is invalid. The message has the reason and its position.
 
     Examples
     --------
@@ -91,9 +87,27 @@ def read(path: str | os.PathLike[str]) -> list[dict[str, Any]]:
         import tomllib
     except ImportError as reason:
         raise ContactError("contact.read needs Python 3.11 or later, which can read TOML") from reason
+    if complete:
+        return list(tomllib.loads(_text_of("contact_complete_cases", path))["case"])
     explain(path)
     given = Path(path)
     if given.suffix == ".toml":
         return list(tomllib.loads(given.read_text(encoding="utf-8"))["case"])
     with tempfile.TemporaryDirectory() as folder:
         return list(tomllib.loads(convert(given, folder).read_text(encoding="utf-8"))["case"])
+
+
+def _text_of(routine: str, path: str | os.PathLike[str]) -> str:
+    """Text that a routine of the library writes about an experiment"""
+    room = 65536
+    while True:
+        text = ctypes.create_string_buffer(room)
+        needed = ctypes.c_int(0)
+        status = getattr(library(), routine)(os.fsencode(path), text, room, ctypes.byref(needed))
+        if needed.value <= room:
+            break
+        room = needed.value
+    words = text.value.decode("utf-8", errors="replace")
+    if status != 0:
+        raise ContactError(words.strip())
+    return words

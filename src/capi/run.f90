@@ -9,6 +9,7 @@ module contact_capi_run
    use contact_base_limits, only : case_limits, fill_limits
    use contact_capi_arguments, only : copy_text, first_failure, set_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
+   use contact_experiment_complete_cases, only : list_complete_cases
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
    use contact_experiment_run, only : run_experiment, run_settings
@@ -16,7 +17,7 @@ module contact_capi_run
    implicit none (type, external)
    private
 
-   public :: contact_run_limited, contact_convert_experiment, contact_explain_experiment
+   public :: contact_run_limited, contact_convert_experiment, contact_explain_experiment, contact_complete_cases
 
    !> Modes that a host may request, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
@@ -26,11 +27,11 @@ module contact_capi_run
    integer(c_int), parameter :: all_outputs = 255
 
    !> Tasks of a call
-   integer, parameter :: to_run = 1, to_convert = 2, to_explain = 3
+   integer, parameter :: to_run = 1, to_convert = 2, to_explain = 3, to_complete = 4
 
    !> A call
    type :: request_type
-      !> Member of the tasks: to_run, to_convert or to_explain
+      !> Member of the tasks, of which to_run is the first
       integer :: task
       !> Names of the experiment and of the folder of its results, null-terminated; the latter may be null
       type(c_ptr) :: experiment, folder = c_null_ptr
@@ -120,6 +121,25 @@ contains
       status = request%status
    end function contact_explain_experiment
 
+   !> Write all cases of an experiment with what they keep from earlier cases, in the readable format
+   function contact_complete_cases(experiment, text, text_length, needed) result(status) bind(c, name="contact_complete_cases")
+      !> Path of the experiment, null-terminated
+      type(c_ptr), value :: experiment
+      !> Buffer for the cases, null if not requested
+      type(c_ptr), value :: text
+      !> Size of the buffer, including the terminating null [bytes]
+      integer(c_int), value :: text_length
+      !> Size required by the whole text [bytes]
+      integer(c_int), intent(out), optional :: needed
+      integer(c_int) :: status
+      type(request_type), target :: request
+
+      request = request_type(to_complete, experiment, text=text, length=text_length)
+      call do_request(request)
+      if (present(needed)) needed = request%needed
+      status = request%status
+   end function contact_complete_cases
+
    !> Do a task under the guard against lack of memory
    subroutine do_request(request)
       type(request_type), intent(inout), target :: request
@@ -168,6 +188,8 @@ contains
          request%status = wrong_call
       else if (request%task == to_explain) then
          call explain_experiment(experiment, answer, error)
+      else if (request%task == to_complete) then
+         call list_complete_cases(experiment, answer, error)
       else
          call convert_experiment(experiment, folder, request%overwrite, answer, output, error)
       end if

@@ -7,6 +7,7 @@ from bases import EXAMPLES, rolling
 from contact.study import log_span, sample, span, table
 from contact.study._expression import evaluate, names_in
 from contact.study._progress import Progress, duration
+from contact.study._scene import write_case
 from contact.study._space import make_space
 
 
@@ -123,7 +124,8 @@ def test_a_base_with_errors_is_refused():
             reasons(change)
 
 
-@pytest.mark.parametrize("name, case", [("cattaneo", 2), ("layer_traction", 3), ("manchester", 2), ("bentall", 5)])
+@pytest.mark.parametrize("name, case", [("cattaneo", 2), ("layer_traction", 3), ("manchester", 2), ("bentall", 5),
+                                        ("conformal_wheel", 8)])
 def test_a_case_keeps_what_those_before_it_gave(name, case):
     """The base is a case with all that it keeps, also in a group whose form changes, without what has no meaning in it"""
     results = contact.Study(EXAMPLES / (name + ".toml"), case=case, vary={}).run(workers=1)
@@ -131,6 +133,28 @@ def test_a_case_keeps_what_those_before_it_gave(name, case):
     if name == "cattaneo":
         # 19 x 19 elements of case 1, in the window of case 2
         assert float(results.fx.values.ravel()[0]) == pytest.approx(-3.21839, abs=1e-4)
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in EXAMPLES.glob("*.inp")))
+def test_complete_cases_stand_alone(name, tmp_path):
+    """A complete case is a whole experiment, and is the same when it is read from there"""
+    cases = contact.read(EXAMPLES / name, complete=True)
+    assert len(cases) == len(contact.read(EXAMPLES / name))
+    for number, case in enumerate(cases):
+        alone = tmp_path / f"{number}.toml"
+        alone.write_text(write_case(case), encoding="utf-8")
+        again = contact.read(alone, complete=True)[0]
+        for key in ("sequence", "estimate"):
+            # a first case has nothing to continue
+            case.pop(key, None)
+            again.pop(key, None)
+        assert again == case, f"case {number + 1}"
+
+
+def test_complete_cases_need_a_right_input(tmp_path):
+    (tmp_path / "a.toml").write_text(write_case(rolling()) + "[[case]]\n[case.material]\nfoo = 1.0\n", encoding="utf-8")
+    with pytest.raises(contact.ContactError, match='"foo" is not known'):
+        contact.read(tmp_path / "a.toml", complete=True)
 
 
 def test_one_name_is_a_list_of_one():

@@ -5,13 +5,12 @@ import copy
 import hashlib
 import json
 import os
-import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .._experiment import explain, read
+from .._experiment import read
 from ..errors import ContactError
 
 #: Inputs that are short for several keys
@@ -53,7 +52,7 @@ class Scene:
         if case is not None:
             if not 1 <= case <= len(cases):
                 raise ContactError(f"case = {case}: the base has {len(cases)} cases")
-            self.cases = [_with_meaning(_merged(self.cases[:case]), self.cases[case - 1])]
+            self.cases = [_complete(self.cases[:case])]
         if len(self.cases) == 1:
             # the input of a case must not depend on the previous case
             self.cases[0].update(sequence="initiate", estimate="fresh")
@@ -140,67 +139,15 @@ def _with_slices(file: Path) -> list[Path]:
     return [file] + sorted(other for other in file.parent.rglob("*") if other.is_file() and other != file)
 
 
-def _merged(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Complete input of the last case, including that kept from earlier cases"""
-    result: dict[str, Any] = {}
-    for case in cases:
-        for key in _DROPPED:
-            result.pop(key, None)
-        for key, value in case.items():
-            if not isinstance(value, dict) or not isinstance(result.get(key), dict):
-                result[key] = copy.deepcopy(value)
-                continue
-            before = result[key]
-            for name in value:
-                # gg and gg1 are the same number
-                for other in (f"{name}1", f"{name}2", name.rstrip("12")):
-                    if other != name:
-                        _forget(before, name, other)
-            before.update(copy.deepcopy(value))
-    for key in _DROPPED:
-        result.pop(key, None)
-    result.pop("solve", None)
-    return result
-
-
-def _with_meaning(case: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """A merged case without values of earlier cases that do not apply to it, such as those of another form of the grid.
-
-    The case is written to a file, and the library reports them as errors with their lines. Values of `given`, the input of the
-    case itself, are kept.
-    """
+def _complete(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The last of some cases, with all that it keeps from earlier ones"""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "case.toml")
-        path.write_text(write_case(case), encoding="utf-8")
-        try:
-            explain(path)
-            return case
-        except ContactError as error:
-            complaints = str(error)
-        lines = path.read_text(encoding="utf-8").split("\n")
-    for number in map(int, re.findall(r':(\d+):\d+: "[^"]*" (?:is not known|has no meaning)', complaints)):
-        line = lines[number - 1]
-        group = next((before[6:-1] for before in lines[number - 1::-1] if before.startswith("[case.")), "")
-        name = "" if line.startswith("[") else line.partition(" = ")[0]
-        if not name or not group:
-            if (name or group) not in given:
-                case.pop(name or group, None)
-        elif name not in given.get(group, {}):
-            case.get(group, {}).pop(name, None)
-            if not case.get(group) and group not in given:
-                case.pop(group, None)
-    return case
-
-
-def _forget(group: dict[str, Any], name: str, other: str) -> None:
-    """An array of two values, and single values whose names end with a digit, are the same numbers"""
-    if other not in group:
-        return
-    if isinstance(group[other], list) and len(group[other]) == 2 and name[-1:] in "12":
-        pair = group.pop(other)
-        group[f"{other}1"], group[f"{other}2"] = pair
-    elif other[:-1] == name:
-        group.pop(other)
+        path = Path(folder, "cases.toml")
+        path.write_text("".join(write_case(one) for one in cases), encoding="utf-8")
+        last = read(path, complete=True)[-1]
+    for key in (*_DROPPED, "solve"):
+        last.pop(key, None)
+    return last
 
 
 def _gives(case: Mapping[str, Any], key: str) -> bool:
