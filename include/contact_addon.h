@@ -139,7 +139,7 @@ void cntc_setfrictionmethod(const int *ire, const int *icp, const int *imeth, co
  *   ipotcn    params
  *   wheel and rail:
  *   0         dx, ds [L], unused
- *   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], and if wanted d_turn [L], g_miss [L]
+ *   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], optional d_turn [L], g_miss [L]
  *   basic contact:
  *   1         mx, my, xl, yl, dx, dy [L]             lower left corner, sizes of elements
  *   2         mx, my, xl, yl, xh, yh [L]             lower left and upper right corner
@@ -233,16 +233,16 @@ void cntc_setprofileinputvalues(const int *ire, const int *npoint, const double 
  *   ztrack    params
  *   0         none                                              as before
  *   1         gaught [L]; then, for gaught > 0, gaugsq [-], gaugwd [L], else raily0, railz0 [L];
- *             cant [A], nomradr [L], and if wanted curv [1/L]
+ *             cant [A], nomradr [L], optional curv [1/L]
  *   2         dyrail, dzrail [L], drollr [A], vyrail, vzrail [V], vrollr [A/T]
  *   3         those of 1 and 2
- *   32, 33    kyrail [F/L], fyrail [F], kzrail [F/L], fzrail [F], and if wanted dystep0 [L] */
+ *   32, 33    kyrail [F/L], fyrail [F], kzrail [F/L], fzrail [F], optional dystep0 [L] */
 void cntc_settrackdimensions(const int *ire, const int *ztrack, const int *nparam,
                              const double *params);
 
 /* Set the dimensions of the wheelset.
  *   ewheel: 3, 5: new dimensions; 0, 1, 2, 4: as before
- *   params: fbdist, fbpos, nomradw, and if wanted ytape [L] */
+ *   params: fbdist, fbpos, nomradw, optional ytape [L] */
 void cntc_setwheelsetdimensions(const int *ire, const int *ewheel, const int *nparam,
                                 const double *params);
 
@@ -473,13 +473,13 @@ void subs_calculate(const int *ire, const int *icp, int *ierror);
 
 /* Get the numbers of points of a block.
  *   iblk: number of the block
- *   nx, ny, nz: numbers of points, -1 when there is no such block */
+ *   nx, ny, nz: numbers of points, -1 if there is no such block */
 void subs_getblocksize(const int *ire, const int *icp, const int *iblk, int *nx, int *ny, int *nz);
 
 /* Get results below the surface.
  *   iblk: number of the block
  *   lenarr: number of points
- *   icol: columns wanted: 1-3 x, y, z [L]; 4-6 ux, uy, uz [L]; 7-9 hydrostatic, von Mises,
+ *   icol: requested columns: 1-3 x, y, z [L]; 4-6 ux, uy, uz [L]; 7-9 hydrostatic, von Mises,
  *       Tresca stress; 10-12 principal stresses; 13-21 tensor xx, yx, zx, xy, yy, zy, xz, yz, zz
  *       [F/L2]
  *   values: the columns one after the other */

@@ -6,7 +6,7 @@ module contact_table
 
    public :: contact_table_open, contact_table_close, contact_table_force, contact_table_force_derivatives
 
-   !> What a look-up answers with: inside; outside of the shapes of the table, where that at its border acts; something is no number
+   !> Results of a look-up: inside; outside of the shapes of the table, replaced by those at its border; an input is not a number
    integer(c_int), parameter, public :: contact_table_inside = 0, contact_table_outside = 1, contact_table_wrong = 2
 
    !> A contact. Units are free but consistent: N, mm, N/mm2 and 1/mm, or N, m, N/m2 and 1/m
@@ -18,7 +18,7 @@ module contact_table
    end type contact_table_patch
 
    interface
-      !> Read a table; the result is null when it cannot be used. Texts end with c_null_char
+      !> Read a table; the result is null if it cannot be used. Texts end with c_null_char
       function contact_table_open(file, message, message_length) result(table) bind(c)
          import :: c_char, c_int, c_ptr
          character(kind=c_char), intent(in) :: file(*)

@@ -7,7 +7,7 @@ function cntc_setpotcontact( ire, icp, ipotcn, params )
 %   ipotcn    params
 %   wheel and rail:
 %   0         dx, ds [L], unused
-%   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], and if wanted d_turn [L], g_miss [L]
+%   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], optional d_turn [L], g_miss [L]
 %   basic contact:
 %   1         mx, my, xl, yl, dx, dy [L]             lower left corner, sizes of elements
 %   2         mx, my, xl, yl, xh, yh [L]             lower left and upper right corner

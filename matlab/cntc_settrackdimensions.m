@@ -7,10 +7,10 @@ function cntc_settrackdimensions( ire, ztrack, params )
 %   ztrack    params
 %   0         none                                              as before
 %   1         gaught [L]; then, for gaught > 0, gaugsq [-], gaugwd [L], else raily0, railz0 [L];
-%             cant [A], nomradr [L], and if wanted curv [1/L]
+%             cant [A], nomradr [L], optional curv [1/L]
 %   2         dyrail, dzrail [L], drollr [A], vyrail, vzrail [V], vrollr [A/T]
 %   3         those of 1 and 2
-%   32, 33    kyrail [F/L], fyrail [F], kzrail [F/L], fzrail [F], and if wanted dystep0 [L]
+%   32, 33    kyrail [F/L], fyrail [F], kzrail [F/L], fzrail [F], optional dystep0 [L]
 %   Default: params = [].
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.

@@ -5,7 +5,7 @@ function cntc_setwheelsetdimensions( ire, ewheel, params )
 %
 %   ire       result element of a wheel-rail problem (default 1)
 %   ewheel    3, 5: new dimensions; 0, 1, 2, 4: as before (default 3)
-%   params    fbdist, fbpos, nomradw, and if wanted ytape [L]
+%   params    fbdist, fbpos, nomradw, optional ytape [L]
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 

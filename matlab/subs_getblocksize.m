@@ -5,7 +5,7 @@ function [ nx, ny, nz ] = subs_getblocksize( ire, icp, iblk )
 %
 %   ire, icp    result element and contact patch or problem (default 1, 1)
 %   iblk        number of the block (default 1)
-%   nx, ny, nz  numbers of points, -1 when there is no such block
+%   nx, ny, nz  numbers of points, -1 if there is no such block
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
