@@ -233,7 +233,7 @@ typedef struct {
 enum {
   CONTACT_TABLE_INSIDE = 0,  /* forces of the table */
   CONTACT_TABLE_OUTSIDE = 1, /* the table has no such shape or spin: forces for those at its border */
-  CONTACT_TABLE_WRONG = 2    /* no table, an input is not a number, or a length is not positive: no forces */
+  CONTACT_TABLE_WRONG = 2    /* no forces: no table, an input is not a number or above 1e40, modulus or a length below 1e-40 */
 };
 
 /* Properties of a table */

@@ -11,6 +11,8 @@ module contact_tables_axis
    integer, parameter, public :: order = 4
    !> Buckets per interval, used to find the interval of an argument; chosen so that one or two steps remain
    integer, parameter :: buckets_per_interval = 4
+   !> Least width of an interval, and inverse of the largest knot; those of a table are about 1
+   real(wp), parameter :: shortest = 1.0e-9_wp
 
    !> An axis. If it has a single coefficient, nothing varies along it
    type :: spline_axis
@@ -29,7 +31,7 @@ module contact_tables_axis
 
 contains
 
-   !> Create an axis; `is_good` is false if the knots are not finite and increasing
+   !> Create an axis; `is_good` is false if the knots are not finite and increasing, or differ in magnitude from those of a table
    subroutine make_axis(axis, count, knots, is_good)
       !> Receives range, intervals and polynomials
       type(spline_axis), intent(inout) :: axis
@@ -48,8 +50,10 @@ contains
       if (is_good .or. count < order .or. size(knots) /= count + order) return
       intervals = count - order + 1
       axis%start = knots(order:count + 1)
-      is_good = all(knots(2:) >= knots(:size(knots) - 1)) .and. all(axis%start(2:) > axis%start(:intervals))
-      is_good = is_good .and. maxval(abs(knots)) < huge(width)
+      ! false for NaN as well
+      is_good = all(abs(knots) <= 1.0_wp/shortest)
+      if (.not. is_good) return
+      is_good = all(knots(2:) >= knots(:size(knots) - 1)) .and. all(axis%start(2:) - axis%start(:intervals) >= shortest)
       if (.not. is_good) return
       axis%low = axis%start(1)
       axis%high = axis%start(intervals + 1)

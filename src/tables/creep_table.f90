@@ -37,6 +37,10 @@ module contact_tables_creep_table
    integer, parameter :: stretch = values_per_node*order
    !> Scaled creepages beyond this are practically infinite, and their fourth powers do not overflow [-]
    real(wp), parameter :: infinite = 1.0e15_wp
+   !> Numbers of a contact are at most this, its lengths and modulus at least the inverse, in any unit: no product of them overflows
+   real(wp), parameter :: largest_number = 1.0e40_wp
+   !> Creepages, and q, are limited to this: far beyond sliding for any contact
+   real(wp), parameter :: largest_creepage = 1.0e100_wp
    !> A shape that exceeds the range of a table by less than this is on its border: round-off of ratios [-]
    real(wp), parameter :: edge = 1.0e-9_wp
    !> KX, KY and KP as polynomials of g: Kalker's C11/3, C22/3 and C23 for a Poisson ratio of 1/4, within some per cent for 0.1
@@ -102,7 +106,7 @@ contains
       !> Splines over all axes, from read_table
       type(creep_table), intent(in) :: table
       !> Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2]; forces are zero without normal force or
-      !> friction
+      !> friction. These and the lengths are at most 1e40, modulus and lengths at least 1e-40
       real(wp), intent(in) :: fn, mu, gg
       !> Semi-axis along x, extents towards negative and positive y from the longest row [mm]
       real(wp), intent(in) :: aa, bneg, bpos
@@ -114,7 +118,8 @@ contains
       integer, intent(out) :: status
       !> Derivatives of each force (first index) with respect to each creepage; absent: not computed
       real(wp), intent(out), optional :: slopes(3, 3)
-      real(wp) :: bb, c, arm, offset, scale(3), factor(3), turn(2), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
+      real(wp) :: bb, c, arm, offset, scale(3), factor(3), turn(2), u(3), f(3), df(3, 3), unit(3), sizes(4), stiff, &
+         & limited(3), sign_x, sign_s
       logical :: is_beyond
       integer :: j
 
@@ -122,7 +127,8 @@ contains
       if (present(slopes)) slopes = 0.0_wp
       status = lookup_status%invalid
       sizes = [gg, aa, bneg, bpos]
-      if (.not. (all(abs([fn, mu, creep]) <= huge(fn)) .and. all(sizes > 0.0_wp .and. sizes <= huge(fn)))) return
+      if (.not. (all(abs([fn, mu]) <= largest_number) .and. all(abs(creep) <= huge(fn)) .and. &
+         & all(sizes >= 1.0_wp/largest_number .and. sizes <= largest_number))) return
       status = lookup_status%inside
       if (fn <= 0.0_wp .or. mu <= 0.0_wp) return
       bb = 0.5_wp*(bneg + bpos)
@@ -132,9 +138,11 @@ contains
       arm = (bneg - bpos)/8.0_wp
       scale = scaled_creepages(aa/bb)
       turn = [scale(1)*bb, scale(2)*aa]/(c*scale(3))
-      factor = scale*(gg*aa*bb/(mu*fn))
+      stiff = gg*aa*bb
+      factor = scale*(stiff/max(mu*fn, stiff/largest_creepage))
       factor(3) = factor(3)*c
-      u = min(max(factor*[creep(1) - arm*creep(3), creep(2:3)], -infinite), infinite)
+      limited = min(max(creep, -largest_creepage), largest_creepage)
+      u = min(max(factor*[limited(1) - arm*limited(3), limited(2:3)], -infinite), infinite)
       ! map to the part covered by the table
       sign_x = sign(1.0_wp, u(1))
       sign_s = sign(1.0_wp, u(3))

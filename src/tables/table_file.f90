@@ -94,7 +94,9 @@ contains
       table%grid_force = number(7)
       table%grid_moment = number(8)
       reason = "its content is invalid; it was not written by this program"
-      if (any(whole(2:6) < 1 .or. whole(2:6) > max_along)) return
+      if (whole(1) < 1 .or. whole(1) > 2 .or. any(whole(2:6) < 1 .or. whole(2:6) > max_along)) return
+      ! their product would overflow for more; without rounding, as it is far from the limit of an integer
+      if (product(real(whole(2:6), wp)) > longest) return
       if (.not. all(abs(number) <= huge(number)) .or. table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
       place = head_bytes
       call parse_axis(text, place, whole(2), table%shape, is_good(1))
@@ -103,6 +105,8 @@ contains
       call parse_axis(text, place, whole(5), table%y, is_good(4))
       call parse_axis(text, place, whole(6), table%z, is_good(5))
       if (.not. all(is_good) .or. any(whole(4:6) < order)) return
+      ! the axis of spin begins at no spin
+      if (table%z%high <= 0.0_wp) return
       length = values_per_node*product(int(whole(2:6), long))
       if (place + short_bytes*length + digits /= len(text, long)) return
       call parse_coefficients(text, place, length, table, is_good(1))

@@ -181,7 +181,7 @@ class Table(Handle):
                                                    forces.ctypes.data, derivatives.ctypes.data if slopes else None,
                                                    answers.ctypes.data)
         if worst == _WRONG:
-            raise ContactError("a value is no number, or a length or the modulus of rigidity is not positive")
+            raise ContactError("a value is no number or above 1e40, or a length or the modulus of rigidity is not positive")
         if worst == _OUTSIDE and not outside:
             facts = self.facts
             raise ContactError(f"the table has no such contact: it has a/b from {facts.ratio[0]:.3g} to {facts.ratio[1]:.3g}"

@@ -24,7 +24,9 @@ program test_creep_table
    call symmetries(suite)
    call the_bound(suite)
    call refusals(suite)
+   call magnitudes(suite)
    call files(suite)
+   call wrong_heads(suite)
    call suite%finish()
 
 contains
@@ -186,6 +188,93 @@ contains
       call find_creep_force(table, -1.0_wp, mu, gg, aa, bb, bb, [1.0_wp, 0.0_wp, 0.0_wp], force, status, slopes)
       call suite%check(status == lookup_status%inside .and. all(abs(force) <= 0.0_wp), "no normal force, no forces")
    end subroutine refusals
+
+   !> Numbers of all magnitudes: finite forces below mu Fn and finite slopes, or refused
+   subroutine magnitudes(suite)
+      type(test_suite), intent(inout) :: suite
+      !> Decades of numbers: those of contacts, all that is accepted, all that exist
+      real(wp), parameter :: decades(3) = [6.0_wp, 40.0_wp, 308.0_wp]
+      integer, parameter :: rounds = 20000
+      type(creep_table) :: table
+      real(wp) :: draw(9), sign_(9), value(9), force(3), slopes(3, 3), bound
+      integer :: answers(0:2), k, status, wrong
+      integer, allocatable :: seed(:)
+
+      call random_seed(size=k)
+      allocate(seed(k), source=20261127)
+      call random_seed(put=seed)
+      call make_table(table, -1.3_wp)
+      answers = 0
+      wrong = 0
+      do k = 1, rounds
+         call random_number(draw)
+         call random_number(sign_)
+         value = 10.0_wp**((2.0_wp*draw - 1.0_wp)*decades(1 + modulo(k, 3)))
+         where (sign_ < 0.1_wp) value = 0.0_wp
+         ! lengths and modulus without a sign
+         where (sign_ > 0.6_wp .and. [1, 1, 0, 0, 0, 0, 1, 1, 1] == 1) value = -value
+         if (sign_(1) < 0.01_wp) value(1) = 1.0e-310_wp
+         call find_creep_force(table, value(1), value(2), value(3), value(4), value(5), value(6), value(7:9), force, status, slopes)
+         answers(status) = answers(status) + 1
+         bound = 0.0_wp
+         if (status /= lookup_status%invalid) bound = max(value(1), 0.0_wp)*max(value(2), 0.0_wp)
+         if (.not. (all(abs(force) <= huge(bound)) .and. all(abs(slopes) <= huge(bound)) .and. &
+            & all(abs(force(:2)) <= bound))) wrong = wrong + 1
+      end do
+      call suite%check(all(answers > rounds/20), "all answers occur")
+      call suite%equal(wrong, 0, "forces and slopes are finite, forces below mu Fn")
+      ! an unloading contact: q overflows, and there is no creepage
+      call find_creep_force(table, 1.0e-310_wp, mu, gg, aa, bb, bb, [0.0_wp, 0.0_wp, 0.0_wp], force, status, slopes)
+      call suite%check(status == lookup_status%inside .and. all(abs(slopes) < huge(bound)), "a load that underflows has forces")
+   end subroutine magnitudes
+
+   !> Heads that no program writes, with the right checksum: refused, not used
+   subroutine wrong_heads(suite)
+      type(test_suite), intent(inout) :: suite
+      !> Coefficients along the axes whose product is 0 modulo 2**64
+      integer, parameter :: many = 8192
+      type(creep_table) :: table
+      character(len=:), allocatable :: content, changed
+      real(real64) :: knots(many + order)
+      integer :: k
+
+      call make_table(table, -0.5_wp)
+      call make_content(table, content)
+      do k = 17, 36, 4
+         changed = content
+         changed(k:k + 3) = transfer(-1_int32, changed(1:4))
+         call refuse(suite, changed, "a negative number of coefficients, or kind of table, is refused")
+      end do
+      changed = content
+      changed(17:20) = transfer(3_int32, changed(1:4))
+      call refuse(suite, changed, "an unknown kind of table is refused")
+      do k = 57, 113, 8
+         changed = content
+         changed(k:k + 7) = transfer(ieee_value(1.0_real64, ieee_quiet_nan), changed(1:8))
+         call refuse(suite, changed, "a property that is not a number is refused")
+      end do
+      knots = [(1.0e-4_real64*k, k=1, size(knots))]
+      changed = content(:128) // repeat(bytes_of(knots), 5) // repeat(" ", 64)
+      changed(17:48) = transfer([1_int32, [(int(many, int32), k=1, 5)], 9_int32, 2_int32], changed(1:32))
+      changed(49:56) = transfer(int(len(changed), int64), changed(1:8))
+      call refuse(suite, changed, "numbers of coefficients with a product that overflows are refused")
+      ! knots one after the other, of which the first intervals cannot be divided
+      changed = content
+      changed(129:192) = bytes_of(1.0e-312_real64*[1, 2, 3, 4, 5, 6, 7, 8])
+      call refuse(suite, changed, "knots without a distance are refused")
+   end subroutine wrong_heads
+
+   !> Check that bytes, with their checksum corrected, are refused
+   subroutine refuse(suite, bytes, what)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: bytes, what
+      type(creep_table) :: table
+      type(error_type), allocatable :: error
+
+      call put("wrong.table", bytes(:len(bytes) - 64) // sha256(bytes(:len(bytes) - 64)))
+      call read_table("wrong.table", table, error)
+      call suite%check(allocated(error), what)
+   end subroutine refuse
 
    !> A file is read; one with another byte, cut off, or of another kind is refused in one sentence
    subroutine files(suite)
