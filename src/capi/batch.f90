@@ -69,7 +69,9 @@ contains
       open%owner = new_owner()
       request%open => open
       request%seconds = seconds
+      call hold_floats()
       call do_guarded(open_inside, c_loc(request), open%owner, cause)
+      call give_floats_back()
       if (cause /= guard_end%done) then
          call free_left_blocks(open%owner)
          deallocate(open)
@@ -111,7 +113,7 @@ contains
       !> From contact_batch_open
       type(c_ptr), value :: handle
       !> Cases to be solved, and arrays for the results
-      type(job_type), intent(inout), target :: job
+      type(job_type), intent(inout), target, optional :: job
       !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
       !> Size of the buffer
@@ -120,11 +122,15 @@ contains
       type(request_type), target :: request
       integer :: cause, threads
 
+      status = wrong_call
+      call set_message("", message, length)
+      if (.not. present(job)) then
+         call set_message("contact_batch_solve: there is no job", message, length)
+         return
+      end if
       job%rows = 0
       job%cases = 0
       job%columns = 0
-      status = wrong_call
-      call set_message("", message, length)
       if (.not. c_associated(handle)) then
          call set_message("contact_batch_solve: there is no batch", message, length)
          return
@@ -261,9 +267,9 @@ contains
       !> Name of the field, null-terminated
       type(c_ptr), value :: name
       !> Number of elements along x and y
-      integer(c_int), intent(out) :: mx, my
+      integer(c_int), intent(out), optional :: mx, my
       !> x, y of the centre of the first element, DX, DY [mm]
-      real(c_double), intent(out) :: frame(4)
+      real(c_double), intent(out), optional :: frame(4)
       !> Buffer of the unit
       type(c_ptr), value :: unit
       !> Size of the buffer
@@ -273,10 +279,11 @@ contains
       type(field_request), target :: request
       integer :: cause
 
+      status = wrong_call
+      if (.not. (present(mx) .and. present(my) .and. present(frame))) return
       mx = 0_c_int
       my = 0_c_int
       frame = 0.0_c_double
-      status = wrong_call
       call find_it(handle, patch, name, request, cause)
       if (cause /= guard_end%done .or. .not. associated(request%field%values)) return
       mx = size(request%field%values, 1, c_int)
@@ -298,13 +305,14 @@ contains
       !> Length of `values`
       integer(c_int), value :: room
       !> Receives the values
-      real(c_double), intent(inout) :: values(*)
+      real(c_double), intent(inout), optional :: values(*)
       !> 0, or 1 if there is no such field or `values` is too short
       integer(c_int) :: status
       type(field_request), target :: request
       integer :: cause, j, mx
 
       status = wrong_call
+      if (.not. present(values)) return
       call find_it(handle, patch, name, request, cause)
       if (cause /= guard_end%done .or. .not. associated(request%field%values)) return
       if (size(request%field%values) > room) return

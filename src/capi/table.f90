@@ -5,6 +5,7 @@ module contact_capi_table
    use contact_base_error, only : error_type
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
    use contact_capi_arguments, only : copy_text, set_message
+   use contact_capi_host, only : give_floats_back, hold_floats
    use contact_tables_creep_table, only : creep_table, find_creep_force, lookup_status, max_spin
    use contact_tables_table_file, only : read_table
    implicit none (type, external)
@@ -49,7 +50,9 @@ contains
       call set_message("", message, length)
       request%file = file
       owner = new_owner()
+      call hold_floats()
       call do_guarded(read_inside, c_loc(request), owner, cause)
+      call give_floats_back()
       if (cause /= guard_end%done) then
          call free_left_blocks(owner)
          call set_message(trim(cause_text(cause)) // " for the table", message, length)
@@ -90,13 +93,13 @@ contains
       !> From contact_table_open
       type(c_ptr), value :: handle
       !> Receives the properties
-      type(facts_type), intent(out) :: facts
+      type(facts_type), intent(out), optional :: facts
       !> 0, or 1 if there is no table
       integer(c_int) :: status
       type(creep_table), pointer :: table
 
       status = 1_c_int
-      if (.not. c_associated(handle)) return
+      if (.not. (c_associated(handle) .and. present(facts))) return
       call c_f_pointer(handle, table)
       facts%has_offset = merge(1_c_int, 0_c_int, table%has_offset)
       facts%elements = int(table%elements, c_int)
@@ -119,19 +122,20 @@ contains
       !> From contact_table_open
       type(c_ptr), value :: handle
       !> The contact
-      type(patch_type), intent(in) :: patch
+      type(patch_type), intent(in), optional :: patch
       !> Longitudinal, lateral [-], spin [rad per length]
-      real(c_double), intent(in) :: creepage(3)
+      real(c_double), intent(in), optional :: creepage(3)
       !> Fx, Fy, Mz
-      real(c_double), intent(out) :: force(3)
+      real(c_double), intent(out), optional :: force(3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
       type(creep_table), pointer :: table
       integer :: found
 
-      force = 0.0_c_double
       status = int(lookup_status%invalid, c_int)
-      if (.not. c_associated(handle)) return
+      if (.not. present(force)) return
+      force = 0.0_c_double
+      if (.not. (c_associated(handle) .and. present(patch) .and. present(creepage))) return
       call c_f_pointer(handle, table)
       call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found)
       status = int(found, c_int)
@@ -143,23 +147,24 @@ contains
       !> From contact_table_open
       type(c_ptr), value :: handle
       !> The contact
-      type(patch_type), intent(in) :: patch
+      type(patch_type), intent(in), optional :: patch
       !> Longitudinal, lateral [-], spin [rad per length]
-      real(c_double), intent(in) :: creepage(3)
+      real(c_double), intent(in), optional :: creepage(3)
       !> Fx, Fy, Mz
-      real(c_double), intent(out) :: force(3)
+      real(c_double), intent(out), optional :: force(3)
       !> Derivatives of each force (second index) with respect to each creepage
-      real(c_double), intent(out) :: derivatives(3, 3)
+      real(c_double), intent(out), optional :: derivatives(3, 3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
       type(creep_table), pointer :: table
       real(c_double) :: slopes(3, 3)
       integer :: found
 
+      status = int(lookup_status%invalid, c_int)
+      if (.not. (present(force) .and. present(derivatives))) return
       force = 0.0_c_double
       derivatives = 0.0_c_double
-      status = int(lookup_status%invalid, c_int)
-      if (.not. c_associated(handle)) return
+      if (.not. (c_associated(handle) .and. present(patch) .and. present(creepage))) return
       call c_f_pointer(handle, table)
       call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found, &
          & slopes)
@@ -175,11 +180,11 @@ contains
       !> Number of contacts
       integer(c_int), value :: count
       !> The contacts
-      type(patch_type), intent(in) :: patches(*)
+      type(patch_type), intent(in), optional :: patches(*)
       !> Longitudinal, lateral [-], spin [rad per length] of each contact, shape (3, count)
-      real(c_double), intent(in) :: creepages(3, *)
+      real(c_double), intent(in), optional :: creepages(3, *)
       !> Fx, Fy, Mz of each contact, shape (3, count)
-      real(c_double), intent(inout) :: forces(3, *)
+      real(c_double), intent(inout), optional :: forces(3, *)
       !> Derivatives of each force with respect to each creepage, shape (3, 3, count), and status of each look-up; null if not
       !> requested
       type(c_ptr), value :: derivatives, answers
@@ -191,6 +196,8 @@ contains
       integer(c_int) :: ended
       integer :: k
 
+      worst = int(lookup_status%invalid, c_int)
+      if (count < 0 .or. .not. (present(patches) .and. present(creepages) .and. present(forces))) return
       worst = int(lookup_status%inside, c_int)
       if (c_associated(derivatives)) call c_f_pointer(derivatives, slopes, [3, 3, int(count)])
       if (c_associated(answers)) call c_f_pointer(answers, endings, [int(count)])

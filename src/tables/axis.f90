@@ -1,5 +1,6 @@
 !> An axis of a table: cubic B-splines on knots that need not be equidistant, stored as polynomials
 module contact_tables_axis
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values
    implicit none (type, external)
@@ -50,8 +51,8 @@ contains
       if (is_good .or. count < order .or. size(knots) /= count + order) return
       intervals = count - order + 1
       axis%start = knots(order:count + 1)
-      ! false for NaN as well
-      is_good = all(abs(knots) <= 1.0_wp/shortest)
+      is_good = all(ieee_is_finite(knots))
+      if (is_good) is_good = all(abs(knots) <= 1.0_wp/shortest)
       if (.not. is_good) return
       is_good = all(knots(2:) >= knots(:size(knots) - 1)) .and. all(axis%start(2:) - axis%start(:intervals) >= shortest)
       if (.not. is_good) return

@@ -22,6 +22,7 @@
 !> f is a spline for u1 >= 0 and u3 >= 0. The other values follow from two symmetries: all creepages and forces change sign
 !> together, and the mirror image y -> -y changes the sign of eta, phi, Fy, Mz and of the offset of half ellipses.
 module contact_tables_creep_table
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use, intrinsic :: iso_c_binding, only : c_double, c_float, c_int
    use, intrinsic :: iso_fortran_env, only : real32
    use contact_base_kinds, only : wp
@@ -127,8 +128,10 @@ contains
       if (present(slopes)) slopes = 0.0_wp
       status = lookup_status%invalid
       sizes = [gg, aa, bneg, bpos]
-      if (.not. (all(abs([fn, mu]) <= largest_number) .and. all(abs(creep) <= huge(fn)) .and. &
-         & all(sizes >= 1.0_wp/largest_number .and. sizes <= largest_number))) return
+      ! comparisons with NaN would stop a host that traps invalid operations
+      if (.not. (all(ieee_is_finite(creep)) .and. all(ieee_is_finite([fn, mu, sizes])))) return
+      if (.not. (all(abs([fn, mu]) <= largest_number) .and. all(sizes >= 1.0_wp/largest_number .and. sizes <= largest_number))) &
+         & return
       status = lookup_status%inside
       if (fn <= 0.0_wp .or. mu <= 0.0_wp) return
       bb = 0.5_wp*(bneg + bpos)

@@ -1,5 +1,6 @@
 !> Reader of the file of a table of creep forces; its layout is described in doc/theory/tables.md
 module contact_tables_table_file
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int32, int64, real32, real64
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -97,7 +98,8 @@ contains
       if (whole(1) < 1 .or. whole(1) > 2 .or. any(whole(2:6) < 1 .or. whole(2:6) > max_along)) return
       ! their product would overflow for more; without rounding, as it is far from the limit of an integer
       if (product(real(whole(2:6), wp)) > longest) return
-      if (.not. all(abs(number) <= huge(number)) .or. table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
+      if (.not. all(ieee_is_finite(number))) return
+      if (table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
       place = head_bytes
       call parse_axis(text, place, whole(2), table%shape, is_good(1))
       call parse_axis(text, place, whole(3), table%offset, is_good(2))
@@ -149,7 +151,7 @@ contains
       do k = 0, length/values_per_node - 1
          from = place + k*bytes
          node = transfer(text(from + 1:from + bytes), node)
-         is_good = is_good .and. all(abs(node) <= huge(node))
+         is_good = is_good .and. all(ieee_is_finite(node))
          table%coefficients(values_per_node*k + 1:values_per_node*(k + 1)) = node
       end do
    end subroutine parse_coefficients
