@@ -8,7 +8,7 @@ module contact_base_system
    private
 
    public :: close_descriptor, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers
-   public :: stamp_of, unlock_experiment
+   public :: is_same_file, stamp_of, unlock_experiment
 
    !> Identity of an unchanged file: device, file number, length, times of the last change of content and of status
    type :: file_stamp
@@ -173,6 +173,23 @@ contains
       if (contact_stamp(name // c_null_char, stamp%numbers, age) /= 0) return
       stamp%is_conclusive = age > merge(coarse_tick, tick, modulo(stamp%numbers(5), second) == 0)
    end function stamp_of
+
+   !> Do two paths lead to one existing file, for instance by a link?
+   logical function is_same_file(name, other)
+      !> Paths of the files
+      character(len=*), intent(in) :: name, other
+      type(file_stamp) :: stamp
+
+      stamp = stamp_of(name)
+      is_same_file = .false.
+      if (any(stamp%numbers /= 0)) is_same_file = same_identity(stamp, stamp_of(other))
+   end function is_same_file
+
+   !> Are device and file number equal?
+   pure logical function same_identity(stamp, other)
+      type(file_stamp), intent(in) :: stamp, other
+      same_identity = all(stamp%numbers(:2) == other%numbers(:2))
+   end function same_identity
 
    pure logical function is_unchanged_since(self, earlier)
       class(file_stamp), intent(in) :: self

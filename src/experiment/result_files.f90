@@ -2,10 +2,11 @@
 module contact_experiment_result_files
    use omp_lib, only : omp_get_max_threads
    use contact_base_case_status, only : case_state
-   use contact_base_error, only : error_type
+   use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_output_file, only : remove_file
+   use contact_base_system, only : is_same_file
    use contact_experiment_errors, only : report_error, report_final_error
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
@@ -34,6 +35,12 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: version
 
+      call check_input_is_apart(state, error)
+      done = .not. allocated(error)
+      if (.not. done) then
+         call report_final_error(state, error)
+         return
+      end if
       version = ""
       if (allocated(requested%version)) version = requested%version
       if (point%active) then
@@ -67,6 +74,31 @@ contains
       if (allocated(state%lock%doubt)) call state%log%warning(state%lock%doubt)
       call state%journal%start(state%place%results, settings_of(requested), state%limits%confined)
    end subroutine open_all_files
+
+   !> Refuse results that would overwrite the input, to which a link in their place leads
+   !>
+   !> Other results have a temporary name first, and replace a link.
+   subroutine check_input_is_apart(state, error)
+      type(experiment_state), intent(in) :: state
+      type(error_type), allocatable, intent(out) :: error
+      !> Suffixes of files that are written in their place
+      character(len=*), parameter :: in_place(3) = [character(len=6) :: ".out", ".jsonl", ".pvd"]
+      character(len=:), allocatable :: name
+      integer :: k
+
+      do k = 1, size(in_place) + 1
+         if (k > size(in_place)) then
+            name = journal_name(state%place%results)
+         else
+            name = state%place%results // trim(in_place(k))
+         end if
+         if (is_same_file(name, state%place%input)) then
+            call fatal_error(error, "the file cannot be written: it is a link to the input " // state%place%input, &
+               & error_kind%file, name)
+            return
+         end if
+      end do
+   end subroutine check_input_is_apart
 
    !> Flush the output to the system, so that it survives this process; in a run with a size limit determine the size of the
    !> HDF5 file

@@ -200,6 +200,24 @@ class Surroundings(Scratch):
         self.assertEqual(status, 1)
         self.assertIn("not a regular file", err)
 
+    def test_results_that_are_links_to_the_input(self):
+        before = (self.folder / "a.inp").read_text(encoding="utf-8")
+        for link in (os.symlink, os.link):
+            for suffix in ("out", "jsonl", "pvd", "h5", "unfinished", "0002.mat", "0002.vts"):
+                path = self.folder / ("a." + suffix)
+                link(self.folder / "a.inp", path)
+                status, _, err = self.run_program("--json", "--vtk", "--hdf5", "2", "a")
+                self.assertEqual((self.folder / "a.inp").read_text(encoding="utf-8"), before, suffix)
+                # others have a temporary name first, and replace the link
+                if suffix in ("out", "jsonl", "pvd", "unfinished"):
+                    self.assertEqual(status, 1, suffix)
+                    self.assertIn("link to the input", err, suffix)
+                    path.unlink()
+                else:
+                    self.assertEqual((status, err), (0, ""), suffix)
+                    self.assertFalse(path.samefile(self.folder / "a.inp"), suffix)
+                    path.unlink()
+
     @unittest.skipIf(IS_INSTRUMENTED, "sanitizers need address space")
     def test_small_limits_of_the_system(self):
         def limited(*limits):
