@@ -242,7 +242,7 @@ contains
       if (.not. is_lost) call session%series%take(spec, grid, report%estimated)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
-      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)
+      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(best, before, report, result)
       call complete_report(session, spec, result, report, solved, log)
    end subroutine refine
 
@@ -267,17 +267,14 @@ contains
    end subroutine tighten
 
    !> Keep the grid with the smaller estimate at the end of a search that stopped too early
-   subroutine keep_better(session, best, report, result)
-      type(contact_session), intent(in) :: session
-      !> Result of the grid before the last
+   subroutine keep_better(best, before, report, result)
+      !> Result of the grid before the last, and its estimated error; negative if not solved
       type(patch_result), intent(in) :: best
+      real(wp), intent(in) :: before
       type(accuracy_report), intent(inout) :: report
       !> Result of the last grid, which may be missing
       type(patch_result), intent(inout) :: result
-      real(wp) :: before
 
-      before = -1.0_wp
-      if (best%status%is_solved()) before = error_of_forces(session%problem, best)
       if (before < 0.0_wp) return
       if (report%estimated >= 0.0_wp .and. report%estimated <= before .and. allocated(result%errors)) return
       result = best

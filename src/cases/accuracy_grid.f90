@@ -69,6 +69,8 @@ contains
       type(bounding_box) :: box
       real(wp) :: across(2), sides(2), size(2)
 
+      counts = fixed
+      if (all(fixed > 0)) return
       across = real([result%grid%mx, result%grid%my], wp)
       size = [result%grid%dx, result%grid%dy]
       if (result%ncon > 0) then

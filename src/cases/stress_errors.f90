@@ -4,7 +4,7 @@
 !> errors of stresses at the point of the largest one, each with its order. The error of second order, with its sign, follows from
 !> the second derivatives of the field. Errors of invariants follow from those of the stresses. See doc/theory/errors.md.
 module contact_cases_stress_errors
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use contact_base_choices, only : kernel_model, material_model, motion, normal_control
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
@@ -98,8 +98,8 @@ contains
       values(:known) = result%errors%value
       if (result%errors%reason == "") then
          peak = 0.0_wp
-         ! NaN, without estimate of the largest pressure, is no bound
-         if (values(list%place_of("pmax")) > 0.0_wp) peak = peak_share*values(list%place_of("pmax"))/result%pmax
+         ! without an estimate of the largest pressure there is no bound
+         if (.not. ieee_is_nan(values(list%place_of("pmax")))) peak = peak_share*values(list%place_of("pmax"))/result%pmax
          do k = 1, 2
             call find_largest(result, k == 2, place(:, k), stress(:, k), largest(k))
             if (present(left)) then

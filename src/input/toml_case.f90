@@ -318,12 +318,14 @@ contains
 
    contains
 
-      !> Does the grid bring its own geometry?
+      !> Does the grid bring its own geometry? False without a grid: Fortran may evaluate both sides of `.and.`
       logical function brings_geometry()
          type(grid_spec) :: grid
          logical :: is_form
          integer :: form
 
+         brings_geometry = .false.
+         if (table == 0) return
          grid%form = previous%grid%form
          form = 0
          if (a%document%nodes(table)%kind == toml_kind%table) form = a%document%child(table, "form")

@@ -6,7 +6,7 @@
 !> small by accident. The estimate is therefore bounded below by a fraction of the typical error with this number of elements; see
 !> doc/theory/errors.md.
 module contact_patch_error_estimate
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use contact_base_choices, only : motion
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
@@ -285,8 +285,8 @@ contains
       scale = scales(problem, order_of_errors(result%tangential), result)
       do k = 1, list%length
          if (all(list%rows(k)%law /= [error_law%normal, error_law%friction, error_law%creepage])) cycle
-         ! NaN, without estimate for one of them, is skipped
-         if (.not. (result%errors%value(k) >= 0.0_wp .and. scale_of(list%rows(k), scale) > 0.0_wp)) cycle
+         ! without estimate for one of them
+         if (ieee_is_nan(result%errors%value(k)) .or. .not. scale_of(list%rows(k), scale) > 0.0_wp) cycle
          ! relative forces repeat the forces, with a scale of 1
          e = max(e, result%errors%value(k)/scale_of(list%rows(k), scale))
       end do

@@ -187,9 +187,8 @@ contains
       end if
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
-      if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2) &
-         & scale%turning = min(pi, scale%mean_across &
-         & *sqrt(result%grid%dx*result%grid%dy*turns(result)/max(scale%force, tiny(extent))))
+      if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2 .and. scale%force > 0.0_wp) &
+         & scale%turning = min(pi, scale%mean_across*sqrt(result%grid%dx*result%grid%dy*turns(result)/scale%force))
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx

@@ -5,7 +5,7 @@
 !> the difference of the heights on both levels. Errors of the undeformed distance, of profiles and of the positions of the patches
 !> are not included.
 module contact_wheelrail_error_estimate
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use contact_base_choices, only : motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -131,9 +131,10 @@ contains
                spin = value(patch%place_of("mz"))
                ! without relative motion there are no tangential forces and no errors of them
                do i = 1, 3
-                  if (local(i) > 0.0_wp) call add_force(problem, memory, k, i, local(i), e)
+                  if (.not. ieee_is_nan(local(i))) call add_force(problem, memory, k, i, local(i), e)
                end do
-               moment = merge(spin, 0.0_wp, spin > 0.0_wp)*slot%plane%axes(:, 3)
+               if (ieee_is_nan(spin)) spin = 0.0_wp
+               moment = spin*slot%plane%axes(:, 3)
                call e%add(problem%force_prescribed, none, moment, moment)
                ! the height follows from the approaches of all patches, each weighted with its stiffness
                stiffness = stiffness_of(slot)
