@@ -121,12 +121,11 @@ contains
       gap%is_surveyed = .false.
       if (present(reach)) gap%is_surveyed = .not. placement%roller_radius > 0.0_wp
       if (gap%is_surveyed) then
-         call gap%survey%look(wheel, placement, gap%y, gap%z, gap%on_rail, no_surface, reach, looked_at)
-         call some_lateral_positions(wheel, placement, rail, gap%survey, gap%lateral)
+         call survey_gap(rail, wheel, placement, reach, gap)
       else
          call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], gap%lateral)
+         call fill_gap(rail, wheel, placement, gap%lateral, gap)
       end if
-      call fill_gap(rail, wheel, placement, gap%lateral, gap)
       if (gap%is_surveyed) gap%depth = reach
       if (present(closer)) call look_closer(rail, wheel, placement, gap, closer)
    end subroutine measure_gap
@@ -151,7 +150,7 @@ contains
          if (gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
          if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > smallest + looked_at) cycle
          call smallest_in_row(gap%y(i - 1:i + 1), gap%gap(i - 1:i + 1), y, lowest)
-         if (abs(gap_at(rail, wheel, placement, gap, y) - lowest) &
+         if (abs(gap_at(rail, wheel, placement, gap, i, y) - lowest) &
             & <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
          n = n + 1
          if (n == 1 .and. gap%is_surveyed) &
@@ -169,15 +168,17 @@ contains
    end subroutine look_closer
 
    !> Gap at one lateral position [mm]
-   real(wp) function gap_at(rail, wheel, placement, gap, y) result(lowest)
+   real(wp) function gap_at(rail, wheel, placement, gap, near, y) result(lowest)
       !> As in `measure_gap`
       type(profile_curve), intent(in) :: rail, wheel
       type(wheel_rail_placement), intent(in) :: placement
       !> Measured gap
       type(gap_curve), intent(in) :: gap
+      !> Inner mesh point next to the position
+      integer, intent(in) :: near
       !> Lateral position in the track [mm]
       real(wp), intent(in) :: y
-      real(wp) :: point(3), s, z
+      real(wp) :: point(3), s, x, z
       integer :: k
       logical :: on_rail
 
@@ -185,6 +186,10 @@ contains
       call rail%find(y, s, on_rail)
       if (.not. on_rail) return
       z = rail%z%value(s)
+      if (gap%is_surveyed) then
+         call lower_to_pieces(rail, wheel, placement, gap, near - 1, near + 1, y, z, lowest, x)
+         return
+      end if
       associate (lateral => gap%lateral)
          do k = 1, size(lateral) - 1
             if (.not. lateral(k) > lateral(k + 1)) cycle
@@ -253,26 +258,14 @@ contains
       !> With the mesh, see `lay_mesh`; gap and longitudinal positions are set
       type(gap_curve), intent(inout) :: gap
       real(wp) :: start
-      integer :: i, k
+      integer :: k
 
-      gap%far = no_surface
-      gap%depth = huge(gap%depth)
-      gap%kappa = 0.5_wp/placement%wheel_radius
-      if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
-      do i = 1, gap%n
-         gap%x(i) = 0.0_wp
-         gap%gap(i) = no_surface
-         if (.not. gap%is_surveyed) cycle
-         if (gap%survey%is_near(i)) cycle
-         gap%x(i) = gap%survey%x(i)
-         gap%gap(i) = gap%survey%gap(i)
-      end do
+      call forget_last(placement, gap)
+      gap%x = 0.0_wp
+      gap%gap = no_surface
       start = gap%y(1)
       associate (nodes => wheel%y%s)
          do k = 1, size(nodes) - 1
-            if (gap%is_surveyed) then
-               if (.not. gap%survey%needs_piece(k)) cycle
-            end if
             ! the surface faces the rail if y decreases along the profile
             if (lateral(k) > lateral(k + 1)) call add_piece(k, lateral(k:k + 1))
          end do
@@ -293,9 +286,6 @@ contains
          do i = max(1, ceiling((lateral(2) - start)/gap%dy - tiny_part) + 1), &
             & min(gap%n, floor((lateral(1) - start)/gap%dy + tiny_part) + 1)
             if (.not. gap%on_rail(i)) cycle
-            if (gap%is_surveyed) then
-               if (.not. gap%survey%is_near(i)) cycle
-            end if
             point = locus_at(wheel, placement, rail, gap%y(i), piece, lateral(1), lateral(2))
             vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
             if (vertical >= gap%gap(i)) cycle
@@ -304,6 +294,77 @@ contains
          end do
       end subroutine add_piece
    end subroutine fill_gap
+
+   !> Set what does not depend on the mesh, and remove results of the last gap
+   pure subroutine forget_last(placement, gap)
+      type(wheel_rail_placement), intent(in) :: placement
+      type(gap_curve), intent(inout) :: gap
+
+      gap%far = no_surface
+      gap%depth = huge(gap%depth)
+      gap%kappa = 0.5_wp/placement%wheel_radius
+      if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
+   end subroutine forget_last
+
+   !> Gap at the points of a mesh, computed exactly where it may be small
+   subroutine survey_gap(rail, wheel, placement, reach, gap)
+      !> As in `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Gaps that exceed the smallest one by more than this are estimates [mm]
+      real(wp), intent(in) :: reach
+      !> With the mesh, see `lay_mesh`; gap and longitudinal positions are set
+      type(gap_curve), intent(inout) :: gap
+      integer :: left(gap%n), i, n_left
+
+      call forget_last(placement, gap)
+      call gap%survey%look(wheel, placement, gap%y, gap%z, gap%on_rail, no_surface, reach, looked_at, gap%gap, gap%x)
+      call gap%survey%compute(wheel, placement, gap%y, gap%z, gap%gap, gap%x, n_left, left)
+      do i = 1, n_left
+         gap%gap(left(i)) = no_surface
+         gap%x(left(i)) = 0.0_wp
+         call lower_to_pieces(rail, wheel, placement, gap, left(i), left(i), gap%y(left(i)), gap%z(left(i)), gap%gap(left(i)), &
+            & gap%x(left(i)))
+      end do
+   end subroutine survey_gap
+
+   !> Lower a gap to that below the pieces of the wheel at a lateral position, by a survey of the gap
+   subroutine lower_to_pieces(rail, wheel, placement, gap, first, last, y, z, lowest, x)
+      !> As in `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Surveyed gap
+      type(gap_curve), intent(in) :: gap
+      !> Mesh points around the position
+      integer, intent(in) :: first, last
+      !> Lateral position and height of the rail there [mm]
+      real(wp), intent(in) :: y, z
+      !> Gap, and longitudinal position of the locus [mm]
+      real(wp), intent(inout) :: lowest, x
+      real(wp) :: point(3), high, low
+      integer :: k, n
+
+      n = size(wheel%y%s)
+      associate (pieces => gap%survey%pieces(:, first:last))
+         low = huge(low)
+         ! exact ends of pieces may be on the other side of a mesh point than the estimates
+         do k = max(1, minval(pieces(1, :)) - 1), min(n - 1, maxval(pieces(2, :)) + 1)
+            high = low
+            if (.not. high < huge(high)) then
+               point = locus_in_piece(wheel, placement, k, 0.0_wp, rail)
+               high = point(2)
+            end if
+            point = locus_in_piece(wheel, placement, min(k + 1, n - 1), merge(wheel%y%s(n) - wheel%y%s(n - 1), 0.0_wp, &
+               & k + 1 == n), rail)
+            low = point(2)
+            if (.not. high > low .or. y - high > tiny_part*gap%dy .or. low - y > tiny_part*gap%dy) cycle
+            point = locus_at(wheel, placement, rail, y, k, high, low)
+            if (z - point(3) >= lowest) cycle
+            lowest = z - point(3)
+            x = point(1)
+         end do
+      end associate
+   end subroutine lower_to_pieces
 
    !> Smallest gap of a row of points, interpolated by a parabola
    pure subroutine smallest_in_row(x, g, place, lowest)
@@ -325,29 +386,6 @@ contains
       place = place + shift*(x(2) - x(1))
       lowest = lowest - 0.5_wp*bend*shift**2
    end subroutine smallest_in_row
-
-   !> Lateral positions in the track of the locus at the ends of pieces that a survey needs; estimates for the others [mm]
-   subroutine some_lateral_positions(wheel, placement, rail, survey, lateral)
-      !> As in `lateral_positions`
-      type(profile_curve), intent(in) :: wheel
-      type(wheel_rail_placement), intent(in) :: placement
-      type(profile_curve), intent(in) :: rail
-      !> Survey of this wheel in this position
-      type(gap_survey), intent(in) :: survey
-      !> One position per node [mm]
-      real(wp), intent(out) :: lateral(:)
-      real(wp) :: point(3), place
-      integer :: i, n
-
-      n = size(lateral)
-      do i = 1, n
-         lateral(i) = survey%node(2, i)
-         if (.not. (survey%needs_piece(i) .or. survey%needs_piece(max(1, i - 1)))) cycle
-         place = merge(wheel%y%s(n) - wheel%y%s(n - 1), 0.0_wp, i == n)
-         point = locus_in_piece(wheel, placement, min(i, n - 1), place, rail)
-         lateral(i) = point(2)
-      end do
-   end subroutine some_lateral_positions
 
    !> Lateral positions in the track of the locus at the nodes of the wheel's profile [mm]
    !>

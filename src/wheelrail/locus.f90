@@ -2,7 +2,7 @@
 module contact_wheelrail_locus
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
-   use contact_wheelrail_gap_survey, only : furthest, steepest
+   use contact_wheelrail_gap_survey, only : along_accuracy, furthest, lateral_accuracy, steepest
    use contact_wheelrail_placement, only : wheel_rail_placement
    implicit none (type, external)
    private
@@ -33,9 +33,6 @@ contains
       real(wp) :: radius, lean, x, y, z, across, before, fall, drop
       logical :: on_roller
       integer :: step
-      !> Tolerance of a step, relative to the radius; every step is smaller than the previous one by a factor of the square of the
-      !> yaw angle
-      real(wp), parameter :: tolerance = 1.0e-13_wp
 
       on_roller = placement%roller_radius > 0.0_wp
       associate (cy => wheel%y%c, cz => wheel%z%c)
@@ -62,7 +59,8 @@ contains
             x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
             ! the depth has no effect if a wheel is upright on a track
             if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
-            if (abs(x - before) <= tolerance*placement%wheel_radius) exit
+            ! every step is smaller than the previous one by a factor of the square of the yaw angle
+            if (abs(x - before) <= along_accuracy*placement%wheel_radius) exit
          end do
       end associate
       drop = depth(x) - placement%wheel_radius
@@ -145,7 +143,6 @@ contains
       real(wp) :: point(3)
       real(wp) :: a, b, fa, fb, s, f
       integer :: step, side, here
-      real(wp), parameter :: tolerance = 1.0e-11_wp
 
       a = wheel%y%s(piece)
       b = wheel%y%s(piece + 1)
@@ -161,7 +158,7 @@ contains
          if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
          point = locus_in_piece(wheel, placement, here, s - wheel%y%s(here), rail)
          f = point(2) - y
-         if (abs(f) <= tolerance) exit
+         if (abs(f) <= lateral_accuracy) exit
          if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then
             a = s
             fa = f

@@ -1,10 +1,10 @@
-!> Points of a wheel over a row of elements, several at once; the loops are in wheel_loops.c
+!> Points of a wheel over a row of elements or a mesh, several at once; the loops are in wheel_loops.c
 module contact_wheelrail_wheel_loops
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    implicit none (type, external)
    private
 
-   public :: meet_points, spread_polynomial, together
+   public :: meet_points, spread_polynomial, survey_nodes, find_locus, together
 
    !> Number of points that are solved together
    integer, parameter :: together = 8
@@ -42,5 +42,56 @@ module contact_wheelrail_wheel_loops
          !> Values of the polynomial
          real(c_double), intent(inout) :: values(n)
       end subroutine spread_polynomial
+
+      !> The contact locus of a round wheel on a track at the nodes of its profile, by the first step of the iteration for its
+      !> longitudinal position
+      pure subroutine survey_nodes(n, y, z, lean, origin, axes, radius, furthest, start, per_step, points, x, across, height, &
+         & below) bind(c, name="contact_wheel_nodes")
+         import :: c_double, c_int
+         !> Number of nodes, a multiple of four
+         integer(c_int), value :: n
+         !> Coordinates of the nodes in the wheel's profile [mm], and slope dz/dy there [-]
+         real(c_double), intent(in) :: y(n), z(n), lean(n)
+         !> Origin [mm] and axes of the wheel in the track
+         real(c_double), intent(in) :: origin(3), axes(3, 3)
+         !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it
+         real(c_double), value :: radius, furthest
+         !> First lateral position of a mesh [mm], reciprocal of its width [1/mm], and number of its points
+         real(c_double), value :: start, per_step
+         integer(c_int), value :: points
+         !> Coordinates of the locus in the track [mm]
+         real(c_double), intent(inout) :: x(n), across(n), height(n)
+         !> Number of mesh points at or below the lateral position of each node
+         integer(c_int), intent(inout) :: below(n)
+      end subroutine survey_nodes
+
+      !> Points of the contact locus of a round wheel on a track at given lateral positions
+      pure subroutine find_locus(n, y, piece, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, tolerance, &
+         & most_steps, place, x, z, found) bind(c, name="contact_wheel_locus")
+         import :: c_double, c_int
+         !> Number of points
+         integer(c_int), value :: n
+         !> Lateral positions in the track [mm], and the piece of the profile on which each is expected
+         real(c_double), intent(in) :: y(n)
+         integer(c_int), intent(in) :: piece(n)
+         !> Ends of all pieces [mm], and coefficients of lateral position and height
+         real(c_double), intent(in) :: ends(*), cy(0:3, *), cz(0:3, *)
+         !> Origin [mm] and axes of the wheel in the track
+         real(c_double), intent(in) :: origin(3), axes(3, 3)
+         !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it
+         real(c_double), value :: radius, furthest
+         !> Upper bound of dy/ds along the profile [-]
+         real(c_double), value :: steepest
+         !> Accuracy of the lateral position [mm], and of the longitudinal one relative to the radius
+         real(c_double), value :: accuracy, tolerance
+         !> Maximum number of steps
+         integer(c_int), value :: most_steps
+         !> Estimated positions from the beginnings of the pieces [mm]
+         real(c_double), intent(in) :: place(n)
+         !> Longitudinal position and height in the track [mm]
+         real(c_double), intent(inout) :: x(n), z(n)
+         !> 1 if the point is found on its piece, otherwise 0
+         integer(c_int), intent(inout) :: found(n)
+      end subroutine find_locus
    end interface
 end module contact_wheelrail_wheel_loops
