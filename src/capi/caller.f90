@@ -7,7 +7,7 @@ module contact_capi_caller
    use contact_capi_messages, only : complain, count_fits, warn
    use contact_cases_archive, only : case_archive
    use contact_control_units, only : inward, quantity_of, unit_convention
-   use contact_text_bounds, only : bounds_table, describe_breach
+   use contact_text_bounds, only : bounds_table, describe_breach, is_within
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -29,6 +29,9 @@ module contact_capi_caller
       & raised_number("K0_MF", 1.0e-6_wp), raised_number("ALFAMF", 1.0e-6_wp), raised_number("BETAMF", 1.0e-6_wp), &
       & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp), &
       & raised_number("DZ", 1.0e-9_wp)]
+
+   !> The largest one of these minima
+   real(wp), parameter :: highest_least = maxval(raised_numbers%least)
 
    !> Arrays of the caller, accessed in place and never written to
    type :: integer_list
@@ -205,12 +208,15 @@ contains
          if (is_among_reals) then
             value = self%numbers(1)%v(self%real_tally%taken)
             if (associated(item%i)) value = anint(value)
-            if (row > 0) value = value*inward(self%units, quantity_of(bounds_table(row)%unit))
+            if (row > 0 .and. .not. self%units%is_internal()) &
+               & value = value*inward(self%units, quantity_of(bounds_table(row)%unit))
          else
             value = real(self%integers(1)%v(self%integer_tally%taken), wp)
          end if
-         value = raised(value, min_value(item%name))
-         if (.not. item%is_unchecked) call check_bounds(self, item%name(:len_trim(item%name)), value)
+         ! most numbers are too large or negative: comparing them takes less time than comparing names
+         if (value >= 0.0_wp .and. value < highest_least) value = raised(value, min_value(item%name))
+         if (item%is_unchecked .or. is_within(row, value)) return
+         call check_bounds(self, item%name(:len_trim(item%name)), value)
       end associate
    end subroutine get_value
 
@@ -222,6 +228,7 @@ contains
 
       min_value = -huge(min_value)
       do k = 1, size(raised_numbers)
+         if (raised_numbers(k)%name(1:1) /= name(1:1)) cycle
          if (raised_numbers(k)%name == name) min_value = raised_numbers(k)%least
       end do
    end function min_value

@@ -9,7 +9,7 @@
 !> `end_line`.
 module contact_cases_archive
    use contact_base_kinds, only : wp
-   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_bounds, only : bounds_of, bounds_table, is_angle
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
@@ -182,7 +182,7 @@ contains
       call add_item(self, name, item_kind%real, default)
       associate (item => self%items(self%count))
          if (item%row > 0) then
-            if (bounds_table(item%row)%unit == "rad" .or. bounds_table(item%row)%unit == "rad/s") item%kind = item_kind%angle
+            if (is_angle(item%row)) item%kind = item_kind%angle
          end if
          item%r => value
          if (present(unchecked)) item%is_unchecked = unchecked

@@ -379,7 +379,12 @@ contains
       k = 0
       if (len(name) == 0) return
       k = place_of_letter(iachar(name(1:1)))
-      if (len_trim(name) > 1) k = findloc(digit_names, name, dim=1)
+      if (len_trim(name) == 1) return
+      do k = 1, size(digit_names)
+         if (digit_names(k)(1:1) /= name(1:1)) cycle
+         if (digit_names(k) == name) return
+      end do
+      k = 0
    end function place_of
 
    !> Value of the digit with the given name, -1: none

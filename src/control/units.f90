@@ -24,6 +24,9 @@ module contact_control_units
       real(wp) :: length = 1.0_wp, force = 1.0_wp, velocity = 1.0_wp, angle = 1.0_wp
       !> Body on which returned forces and tractions act: 1 for body 1, -1 for body 2
       real(wp) :: body = 1.0_wp
+   contains
+      !> Are numbers in internal units?
+      procedure :: is_internal
    end type unit_convention
 
    type(unit_convention), parameter :: conventions(*) = [ &
@@ -62,6 +65,13 @@ module contact_control_units
    type(quantity_list), parameter :: quantity = quantity_list()
 
 contains
+
+   !> Are numbers in internal units?
+   pure logical function is_internal(self)
+      class(unit_convention), intent(in) :: self
+
+      is_internal = all(abs([self%length, self%force, self%velocity, self%angle] - 1.0_wp) <= 0.0_wp)
+   end function is_internal
 
    !> Find a convention by its code; unchanged for an unknown code
    pure subroutine find_convention(code, units, known)

@@ -47,6 +47,18 @@ module contact_elastic_pressure_sums
          real(c_double), intent(in) :: p(mx, my)
          real(c_double), intent(inout) :: u(mx, my)
       end subroutine sums_over_rows
+
+      !> Elements before and up to the end of the range of positive values in each row, 0 if there are none
+      pure subroutine positive_ranges(mx, my, a, stride, ranges) bind(c, name="contact_sums_ranges")
+         import :: c_double, c_int
+         !> Size of the field
+         integer(c_int), value :: mx, my
+         !> Field
+         real(c_double), intent(in) :: a(mx, my)
+         !> Number of integers from one range to the next, and the two numbers of the first row
+         integer(c_int), value :: stride
+         integer(c_int), intent(inout) :: ranges(*)
+      end subroutine positive_ranges
    end interface
 
 contains
@@ -91,7 +103,7 @@ contains
       integer :: ix, iy, mx
 
       mx = size(p, 1)
-      call find_ranges(p, weight, self%ranges)
+      call find_ranges(p, self%ranges, weight)
       if (allocated(self%u)) then
          if (size(self%u) < size(p)) deallocate(self%u)
       end if
@@ -114,7 +126,7 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
       integer :: ix, iy
 
-      call find_ranges(p, p, self%ranges)
+      call find_ranges(p, self%ranges)
       u = 0.0_wp
       call sums_over_rows(size(p, 1), size(p, 2), self%ranges, self%table%nx, self%table%ny, self%table%nn, p, u)
       do iy = 1, size(p, 2)
@@ -140,7 +152,7 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
       integer :: first, last, iy
 
-      call find_ranges(p, p, ranges)
+      call find_ranges(p, ranges)
       do iy = 1, size(p, 2)
          do last = size(h, 1), ranges(2, iy) + 1, -1
             if (h(last, iy) < pen) exit
@@ -154,37 +166,27 @@ contains
    end subroutine displacements_by_sums
 
    !> Ranges of the elements with positive values in each row of two fields
-   pure subroutine find_ranges(a, b, ranges)
-      !> Fields of the same shape
-      real(wp), contiguous, intent(in) :: a(:, :), b(:, :)
+   pure subroutine find_ranges(a, ranges, b)
+      !> Field
+      real(wp), contiguous, intent(in) :: a(:, :)
       !> Number of elements before and up to the end of the range of a (1, 2) and of b (3, 4) in each row, 0 if there are none; at
       !> least as many columns as the fields
       integer, allocatable, intent(inout) :: ranges(:, :)
+      !> Field of the same shape; default the same one
+      real(wp), contiguous, intent(in), optional :: b(:, :)
       integer :: iy
 
       if (allocated(ranges)) then
          if (size(ranges, 2) < size(a, 2)) deallocate(ranges)
       end if
       if (.not. allocated(ranges)) allocate(ranges(4, 2*size(a, 2)))
-      do iy = 1, size(a, 2)
-         call find_range(a(:, iy), ranges(1, iy), ranges(2, iy))
-         call find_range(b(:, iy), ranges(3, iy), ranges(4, iy))
-      end do
+      call positive_ranges(size(a, 1), size(a, 2), a, 4, ranges(1, 1))
+      if (present(b)) then
+         call positive_ranges(size(b, 1), size(b, 2), b, 4, ranges(3, 1))
+      else
+         do iy = 1, size(a, 2)
+            ranges(3:4, iy) = ranges(1:2, iy)
+         end do
+      end if
    end subroutine find_ranges
-
-   !> Range of the positive values of a row
-   pure subroutine find_range(row, before, end)
-      real(wp), contiguous, intent(in) :: row(:)
-      !> Number of elements before the range, and up to its end; 0 if there are none
-      integer, intent(out) :: before, end
-
-      before = 0
-      do end = size(row), 1, -1
-         if (row(end) > 0.0_wp) exit
-      end do
-      do while (before < end)
-         if (row(before + 1) > 0.0_wp) exit
-         before = before + 1
-      end do
-   end subroutine find_range
 end module contact_elastic_pressure_sums

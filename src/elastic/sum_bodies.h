@@ -53,3 +53,24 @@ TARGET static void OF(displace)(int mx, int my, const int *ranges, const double 
     }
   }
 }
+
+/* Elements before and up to the end of the range of positive numbers in each row, 0 if there are none */
+TARGET static void OF(ranges)(int mx, int my, const double *a, int stride, int *ranges) {
+  for (int iy = 0; iy < my; iy++, a += mx, ranges += stride) {
+    int before = 0, end = mx;
+    while (end >= 4) {
+      const four_masks positive = READ_FOUR(a + end - 4) > 0.0;
+      if ((positive[0] | positive[1] | positive[2] | positive[3]) != 0) break;
+      end -= 4;
+    }
+    while (end > 0 && !(a[end - 1] > 0.0)) end--;
+    while (before + 4 < end) {
+      const four_masks positive = READ_FOUR(a + before) > 0.0;
+      if ((positive[0] | positive[1] | positive[2] | positive[3]) != 0) break;
+      before += 4;
+    }
+    while (before < end && !(a[before] > 0.0)) before++;
+    ranges[0] = before;
+    ranges[1] = end;
+  }
+}

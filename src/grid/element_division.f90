@@ -23,23 +23,29 @@ contains
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
       type(bounding_box) :: box
-      integer :: ix, iy, first
+      integer :: first, ix, iy, last, mx
+      logical :: is_inside
 
-      box = bounding_box(size(division, 1) + 1, 0, size(division, 2) + 1, 0)
+      mx = size(division, 1)
+      box = bounding_box(mx + 1, 0, size(division, 2) + 1, 0)
       do iy = 1, size(division, 2)
-         do first = 1, size(division, 1)
+         ! elements outside the present box may extend it; one inside shows that the row belongs to it
+         do first = 1, box%ix0 - 1
             if (division(first, iy) /= element%exterior) exit
          end do
-         if (first > size(division, 1)) cycle
+         do last = mx, max(first, box%ix1 + 1), -1
+            if (division(last, iy) /= element%exterior) exit
+         end do
+         is_inside = first < box%ix0 .or. last >= max(first, box%ix1 + 1)
+         do ix = box%ix0, box%ix1
+            if (is_inside) exit
+            is_inside = division(ix, iy) /= element%exterior
+         end do
+         if (.not. is_inside) cycle
          box%ix0 = min(box%ix0, first)
+         box%ix1 = max(box%ix1, last)
          box%iy0 = min(box%iy0, iy)
          box%iy1 = iy
-         ! only elements beyond the present end can extend the box
-         do ix = size(division, 1), max(first, box%ix1 + 1), -1
-            if (division(ix, iy) == element%exterior) cycle
-            box%ix1 = ix
-            exit
-         end do
       end do
    end function contact_box
 end module contact_grid_element_division

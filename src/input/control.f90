@@ -337,6 +337,8 @@ contains
       integer, intent(in) :: module_number
 
       digit = digit_value(digits, name)
+      ! most digits are not kept
+      if (scan(name(1:1), "LCMDE") == 0) return
       select case (name)
       case ("L"); if (digit == 1) digit = spec%friction_law
       case ("C"); if (digit <= 1) digit = spec%kernel

@@ -10,6 +10,7 @@ module contact_normal_analyn
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
+   use contact_numeric_vectors, only : smallest_of
    implicit none (type, external)
    private
 
@@ -42,7 +43,7 @@ contains
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces minus the approach [mm], shape (mx, my); negative if they overlap; above
       !> excluded_threshold: contact is excluded
-      real(wp), intent(in) :: gap(:, :)
+      real(wp), contiguous, intent(in) :: gap(:, :)
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
       !> Shape (mx, my), positive in contact
@@ -57,7 +58,7 @@ contains
       pn = 0.0_wp
       if (size(gap) == 0) return
       do iy = 1, grid%my
-         low(iy) = minval(gap(:, iy))
+         low(iy) = smallest_of(grid%mx, gap(:, iy))
       end do
       tolerance = equally_small*abs(minval(low))
       overlap = -huge(overlap)

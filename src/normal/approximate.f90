@@ -74,7 +74,8 @@ contains
       type(solve_report), intent(inout) :: report
       real(wp), allocatable :: un(:, :)
       real(wp), allocatable :: weight(:, :)
-      real(wp) :: displacement
+      real(wp) :: displacement, overlap
+      integer :: ix, iy
 
       allocate(weight, mold=pn)
       call kpec_shape(grid, gap, pn, weight)
@@ -82,7 +83,13 @@ contains
       if (allocated(sums)) then
          ! displacements of the deepest elements only
          call sums%weighted(weight, pn, displacement)
-         pn = pn*(-sum(weight*gap)/displacement)
+         overlap = 0.0_wp
+         do iy = 1, grid%my
+            do ix = 1, grid%mx
+               if (weight(ix, iy) > 0.0_wp) overlap = overlap - weight(ix, iy)*gap(ix, iy)
+            end do
+         end do
+         call scale(size(pn), overlap/displacement, pn)
          return
       end if
       allocate(un, mold=pn)
@@ -91,6 +98,15 @@ contains
       report%products = report%products + 1
       report%fft_pairs = report%fft_pairs + 1.0_wp
    end subroutine scaled_kpec
+
+   !> Multiply contiguous numbers by a factor
+   pure subroutine scale(n, factor, values)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: factor
+      real(wp), intent(inout) :: values(n)
+
+      values = factor*values
+   end subroutine scale
 
    !> Do the surfaces overlap in an element at the border of the grid?
    pure logical function overlaps_at_edge(gap)

@@ -10,6 +10,7 @@ module contact_normal_kpec
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
+   use contact_numeric_vectors, only : smallest_of
    implicit none (type, external)
    private
 
@@ -55,34 +56,49 @@ contains
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces minus the approach [mm], shape (mx, my); negative if they overlap; above
       !> excluded_threshold: contact is excluded
-      real(wp), intent(in) :: gap(:, :)
+      real(wp), contiguous, intent(in) :: gap(:, :)
       !> Pressures [-], shape (mx, my): positive in contact, at most 1; all zero without overlap
-      real(wp), intent(out) :: shape_(:, :)
+      real(wp), contiguous, intent(out) :: shape_(:, :)
       !> Weights of the elements that represent the deepest point [-], shape (mx, my); their sum is 1 if there is overlap
-      real(wp), intent(out) :: weight(:, :)
+      real(wp), contiguous, intent(out) :: weight(:, :)
       type(threshold_ellipse) :: ellipse
-      real(wp) :: overlap, longest
-      real(wp) :: middle(size(gap, 2)), half_length(size(gap, 2)), limit(size(gap, 2))
-      integer :: ix, iy
+      real(wp) :: overlap, longest, level, total
+      real(wp) :: middle(size(gap, 2)), half_length(size(gap, 2)), limit(size(gap, 2)), lowest(size(gap, 2))
+      integer :: extent(2, size(gap, 2)), deep(2), ix, iy
 
       shape_ = 0.0_wp
       weight = 0.0_wp
       if (size(gap) == 0) return
-      overlap = -minval(gap)
+      do iy = 1, grid%my
+         lowest(iy) = smallest_of(grid%mx, gap(:, iy))
+      end do
+      overlap = -minval(lowest)
       if (.not. overlap > min_overlap) return
-      weight = max(0.0_wp, 1.0_wp - (gap + overlap)/(nearly_deepest*overlap))
-      weight = weight/sum(weight)
-      ellipse = fit_ellipse(grid, gap, weight, overlap)
+      ! rows with weights
+      deep = [grid%my + 1, 0]
+      total = 0.0_wp
+      do iy = 1, grid%my
+         if (lowest(iy) + overlap > nearly_deepest*overlap) cycle
+         deep = [min(deep(1), iy), iy]
+         do ix = 1, grid%mx
+            weight(ix, iy) = max(0.0_wp, 1.0_wp - (gap(ix, iy) + overlap)/(nearly_deepest*overlap))
+            total = total + weight(ix, iy)
+         end do
+      end do
+      weight(:, deep(1):deep(2)) = weight(:, deep(1):deep(2))/total
+      ellipse = fit_ellipse(grid, gap, weight, deep, lowest, overlap)
       do iy = 1, grid%my
          limit(iy) = (row_level(ellipse, grid%y(iy)) - 1.0_wp)*overlap
-         call row_extent(grid, gap(:, iy), limit(iy), middle(iy), half_length(iy))
+         half_length(iy) = 0.0_wp
+         if (lowest(iy) <= limit(iy)) call row_extent(grid, gap(:, iy), limit(iy), middle(iy), half_length(iy), extent(:, iy))
       end do
       longest = maxval(half_length)
       do iy = 1, grid%my
          if (half_length(iy) <= 0.0_wp) cycle
-         do ix = 1, grid%mx
+         level = half_length(iy)**2
+         do ix = extent(1, iy), extent(2, iy)
             if (gap(ix, iy) > limit(iy)) cycle
-            shape_(ix, iy) = sqrt(max(0.0_wp, half_length(iy)**2 - (grid%x(ix) - middle(iy))**2))/longest
+            shape_(ix, iy) = sqrt(max(0.0_wp, level - (grid%x(ix) - middle(iy))**2))/longest
          end do
       end do
    end subroutine kpec_shape
@@ -98,11 +114,15 @@ contains
    end function row_level
 
    !> Hertz's ellipse for the curvatures of the overlap
-   pure function fit_ellipse(grid, gap, weight, overlap) result(ellipse)
+   pure function fit_ellipse(grid, gap, weight, deep, lowest, overlap) result(ellipse)
       type(potential_contact), intent(in) :: grid
-      real(wp), intent(in) :: gap(:, :)
+      real(wp), contiguous, intent(in) :: gap(:, :)
       !> Weights of the elements that represent the deepest point [-], shape (mx, my)
-      real(wp), intent(in) :: weight(:, :)
+      real(wp), contiguous, intent(in) :: weight(:, :)
+      !> First and last row with weights
+      integer, intent(in) :: deep(2)
+      !> Smallest gap of each row [mm]
+      real(wp), intent(in) :: lowest(:)
       !> Overlap at the deepest point [mm]
       real(wp), intent(in) :: overlap
       type(threshold_ellipse) :: ellipse
@@ -112,12 +132,12 @@ contains
       logical :: one_row
 
       a1 = 0.0_wp
-      do iy = 1, grid%my
+      do iy = deep(1), deep(2)
          do ix = 1, grid%mx
             if (weight(ix, iy) > 0.0_wp) a1 = a1 + weight(ix, iy)*curvature_along(grid, gap(:, iy), ix, overlap)
          end do
       end do
-      call extent_across(grid, gap, overlap, start, end_, one_row)
+      call extent_across(grid, lowest, overlap, start, end_, one_row)
       ellipse%ym = 0.5_wp*(start + end_)
       b1 = half_way*overlap/(0.5_wp*(end_ - start))**2
       hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap), a1, b1)
@@ -178,18 +198,19 @@ contains
    end function is_possible
 
    !> Positions between which the surfaces overlap by more than half of the largest overlap
-   pure subroutine extent_across(grid, gap, overlap, start, end_, one_row)
+   pure subroutine extent_across(grid, lowest, overlap, start, end_, one_row)
       type(potential_contact), intent(in) :: grid
-      real(wp), intent(in) :: gap(:, :)
+      !> Smallest gap of each row [mm]
+      real(wp), intent(in) :: lowest(:)
+      !> Overlap at the deepest point [mm]
       real(wp), intent(in) :: overlap
       !> Positions [mm], start < end_
       real(wp), intent(out) :: start, end_
       !> Does only one row have such an overlap?
       logical, intent(out) :: one_row
-      real(wp) :: lowest(size(gap, 2)), widen
+      real(wp) :: widen
       integer :: iy, first, last
 
-      lowest = minval(gap, dim=1)
       first = 0
       last = 0
       do iy = 1, grid%my
@@ -230,11 +251,13 @@ contains
    end function steps_to_level
 
    !> Centre and half length of the contact area in one row; half length 0: no contact
-   pure subroutine row_extent(grid, row, limit, middle, half_length)
+   pure subroutine row_extent(grid, row, limit, middle, half_length, extent)
       type(potential_contact), intent(in) :: grid
       !> Gaps of the row, and the largest gap in contact [mm]
       real(wp), intent(in) :: row(:), limit
       real(wp), intent(out) :: middle, half_length
+      !> First and last element in contact; not set if there is none
+      integer, intent(inout) :: extent(2)
       real(wp) :: trailing, leading
       integer :: first, last
 
@@ -247,6 +270,7 @@ contains
       do last = size(row), first, -1
          if (row(last) <= limit) exit
       end do
+      extent = [first, last]
       trailing = grid%x(first) - grid%dx*overhang(row, first, -1, limit)
       leading = grid%x(last) + grid%dx*overhang(row, last, 1, limit)
       middle = 0.5_wp*(trailing + leading)

@@ -121,10 +121,16 @@ contains
    pure function node_range(self) result(range)
       class(cubic_spline), intent(in) :: self
       real(wp) :: range(2)
-      real(wp) :: last
+      real(wp) :: low, high
+      integer :: k
 
-      last = self%value(self%s(size(self%s)))
-      range = [min(minval(self%c(0, :)), last), max(maxval(self%c(0, :)), last)]
+      low = self%value(self%s(size(self%s)))
+      high = low
+      do k = 1, size(self%c, 2)
+         low = min(low, self%c(0, k))
+         high = max(high, self%c(0, k))
+      end do
+      range = [low, high]
    end function node_range
 
    !> Piece and position in it; the position is limited to the range of the spline

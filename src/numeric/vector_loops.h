@@ -66,3 +66,57 @@ TARGET static void OF(add_four)(int n, int stride, const double *factor, const d
         READ_FOUR(b + k) + f0 * READ_FOUR(a0 + k) + f1 * READ_FOUR(a1 + k) + f2 * READ_FOUR(a2 + k) + f3 * READ_FOUR(a3 + k);
   for (; k < n; k++) b[k] = b[k] + f0 * a0[k] + f1 * a1[k] + f2 * a2[k] + f3 * a3[k];
 }
+
+/* Smallest number; numbers that are not comparable are ignored */
+TARGET static double OF(smallest)(int n, const double *a) {
+  const four none = {INFINITY, INFINITY, INFINITY, INFINITY};
+  four even = none, odd = none;
+  int k = 0;
+  for (; k + 7 < n; k += 8) {
+    const four here = READ_FOUR(a + k), there = READ_FOUR(a + k + 4);
+    even = CHOOSE(here < even, here, even);
+    odd = CHOOSE(there < odd, there, odd);
+  }
+  even = CHOOSE(odd < even, odd, even);
+  double least = even[0];
+  for (int lane = 1; lane < 4; lane++)
+    if (even[lane] < least) least = even[lane];
+  for (; k < n; k++)
+    if (a[k] < least) least = a[k];
+  return least;
+}
+
+/* Largest number; numbers that are not comparable are ignored */
+TARGET static double OF(largest)(int n, const double *a) {
+  const four none = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+  four even = none, odd = none;
+  int k = 0;
+  for (; k + 7 < n; k += 8) {
+    const four here = READ_FOUR(a + k), there = READ_FOUR(a + k + 4);
+    even = CHOOSE(here > even, here, even);
+    odd = CHOOSE(there > odd, there, odd);
+  }
+  even = CHOOSE(odd > even, odd, even);
+  double most = even[0];
+  for (int lane = 1; lane < 4; lane++)
+    if (even[lane] > most) most = even[lane];
+  for (; k < n; k++)
+    if (a[k] > most) most = a[k];
+  return most;
+}
+
+/* Largest magnitude of a difference of two vectors; differences that are not numbers are ignored */
+TARGET static double OF(farthest)(int n, const double *a, const double *b) {
+  four most_of_four = {0.0, 0.0, 0.0, 0.0};
+  double most = 0.0;
+  int k = 0;
+  for (; k + 3 < n; k += 4) {
+    const four distance = MAGNITUDES(READ_FOUR(a + k) - READ_FOUR(b + k));
+    most_of_four = CHOOSE(distance > most_of_four, distance, most_of_four);
+  }
+  for (int lane = 0; lane < 4; lane++)
+    if (most_of_four[lane] > most) most = most_of_four[lane];
+  for (; k < n; k++)
+    if (fabs(a[k] - b[k]) > most) most = fabs(a[k] - b[k]);
+  return most;
+}

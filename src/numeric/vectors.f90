@@ -1,13 +1,14 @@
-!> Sums and inner products of long vectors
+!> Sums, inner products, extrema and copies of long vectors
 !>
 !> Several partial sums are accumulated alternately, so that the processor can overlap them instead of waiting for the previous
 !> addition. The loops are in vectors.c.
 module contact_numeric_vectors
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_kinds, only : wp
    implicit none (type, external)
    private
 
-   public :: add, add_four, inner, inner_four
+   public :: add, add_four, clear_numbers, copy_numbers, inner, inner_four, largest_difference, largest_of, smallest_of
 
    interface
       !> Inner product, of vectors whose squares neither overflow nor vanish
@@ -55,5 +56,58 @@ module contact_numeric_vectors
          !> What it is added to
          real(c_double), intent(inout) :: b(n)
       end subroutine add_four
+
+      !> Smallest number, infinity if there is none; NaN are ignored
+      pure real(c_double) function smallest_of(n, a) bind(c, name="contact_vectors_smallest")
+         import :: c_double, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> Numbers
+         real(c_double), intent(in) :: a(n)
+      end function smallest_of
+
+      !> Largest number, -infinity if there is none; NaN are ignored
+      pure real(c_double) function largest_of(n, a) bind(c, name="contact_vectors_largest")
+         import :: c_double, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> Numbers
+         real(c_double), intent(in) :: a(n)
+      end function largest_of
+
+      !> Largest magnitude of the differences of two vectors; NaN are ignored
+      pure real(c_double) function largest_difference(n, a, b) bind(c, name="contact_vectors_farthest")
+         import :: c_double, c_int
+         !> Length
+         integer(c_int), value :: n
+         !> Vectors
+         real(c_double), intent(in) :: a(n), b(n)
+      end function largest_difference
    end interface
+
+contains
+
+   !> Copy contiguous numbers
+   !>
+   !> Arrays of two dimensions are copied at once instead of column by column.
+   pure subroutine copy_numbers(n, from, to)
+      !> Length
+      integer, intent(in) :: n
+      !> Original
+      real(wp), intent(in) :: from(n)
+      !> Copy
+      real(wp), intent(inout) :: to(n)
+
+      to = from
+   end subroutine copy_numbers
+
+   !> Set contiguous numbers to zero, see `copy_numbers`
+   pure subroutine clear_numbers(n, to)
+      !> Length
+      integer, intent(in) :: n
+      !> Numbers
+      real(wp), intent(inout) :: to(n)
+
+      to = 0.0_wp
+   end subroutine clear_numbers
 end module contact_numeric_vectors

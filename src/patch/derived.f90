@@ -6,6 +6,7 @@ module contact_patch_derived
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_conjugate_gradient, only : approach_scale
+   use contact_numeric_vectors, only : clear_numbers, copy_numbers
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -78,17 +79,17 @@ contains
             & result%wx(mx, my), result%wy(mx, my))
          allocate(result%division(mx, my))
       end if
-      result%h = problem%h
+      call copy_numbers(mx*my, problem%h, result%h)
       result%mu = problem%mu
       if (allocated(problem%friction)) call problem%friction%at_rest(result%mu)
       if (allocated(result%friction)) deallocate(result%friction)
-      result%un = 0.0_wp
-      result%ux = 0.0_wp
-      result%uy = 0.0_wp
-      result%sx = 0.0_wp
-      result%sy = 0.0_wp
-      result%wx = 0.0_wp
-      result%wy = 0.0_wp
+      call clear_numbers(mx*my, result%un)
+      call clear_numbers(mx*my, result%ux)
+      call clear_numbers(mx*my, result%uy)
+      call clear_numbers(mx*my, result%sx)
+      call clear_numbers(mx*my, result%sy)
+      call clear_numbers(mx*my, result%wx)
+      call clear_numbers(mx*my, result%wy)
       result%division = element%exterior
    end subroutine reset_result
 
@@ -111,9 +112,9 @@ contains
       result%inorm = merge(result%normal%passes, -1, result%normal%succeeded())
       result%itang = merge(result%tangential%passes, -1, result%tangential%succeeded())
       result%division = state%now%division
-      result%pn = state%now%pn
-      result%px = state%now%px
-      result%py = state%now%py
+      call copy_numbers(size(result%pn), state%now%pn, result%pn)
+      call copy_numbers(size(result%px), state%now%px, result%px)
+      call copy_numbers(size(result%py), state%now%py, result%py)
       result%pmax = largest_pressure(result%pn, result%tangential%order)
       call sum_up(problem, box, result)
       scale = result%mu_scal*result%fn + tiny(scale)
@@ -154,7 +155,7 @@ contains
          if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
       call derive_yield(problem, state, workspace%solution, result)
-      if (.not. is_deferred(problem)) call derive_energy(problem, result)
+      if (.not. is_deferred(problem)) call derive_energy(problem, box, result)
       state%now%pen = result%pen
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
@@ -242,20 +243,33 @@ contains
       type(patch_workspace), intent(inout) :: workspace
       !> Derived from the same tractions; displacements and energy are set
       type(patch_result), intent(inout) :: result
+      type(bounding_box) :: box
 
       if (result%ncon == 0 .or. .not. is_deferred(problem)) return
-      call displacements(problem, state, contact_box(state%now%division), workspace, result)
-      call derive_energy(problem, result)
+      box = contact_box(state%now%division)
+      call displacements(problem, state, box, workspace, result)
+      call derive_energy(problem, box, result)
    end subroutine complete
 
-   !> Elastic energy, if displacements are known
-   pure subroutine derive_energy(problem, result)
+   !> Elastic energy, if displacements are known; tractions are zero outside the contact
+   pure subroutine derive_energy(problem, box, result)
       type(patch_problem), intent(in) :: problem
+      !> Contains the contact area
+      type(bounding_box), intent(in) :: box
       type(patch_result), intent(inout) :: result
+      real(wp) :: work(3)
+      integer :: ix, iy
 
       if (.not. allocated(problem%given_pressure)) then
-         result%elastic_energy = problem%grid%dx*problem%grid%dy/(2.0_wp*nmm_per_joule) &
-            & *(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
+         work = 0.0_wp
+         do iy = box%iy0, box%iy1
+            do ix = box%ix0, box%ix1
+               work(1) = work(1) + result%pn(ix, iy)*result%un(ix, iy)
+               work(2) = work(2) + result%px(ix, iy)*result%ux(ix, iy)
+               work(3) = work(3) + result%py(ix, iy)*result%uy(ix, iy)
+            end do
+         end do
+         result%elastic_energy = problem%grid%dx*problem%grid%dy/(2.0_wp*nmm_per_joule)*(work(1) + work(2) + work(3))
       else
          result%un = 0.0_wp
       end if

@@ -12,6 +12,8 @@ module contact_patch_normal_step
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_normal_problem, only : force_round_off
+   use contact_numeric_vectors, only : copy_numbers
+   use contact_patch_field_loops, only : mark_elements, subtract_approach
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
@@ -58,7 +60,11 @@ contains
             normal%my = problem%grid%my
             normal%dx = problem%grid%dx
             normal%dy = problem%grid%dy
-            normal%h = problem%h
+            if (allocated(normal%h)) then
+               if (any(shape(normal%h) /= shape(problem%h))) deallocate(normal%h)
+            end if
+            if (.not. allocated(normal%h)) allocate(normal%h, mold=problem%h)
+            call copy_numbers(size(normal%h), problem%h, normal%h)
             if (allocated(normal%parts)) deallocate(normal%parts)
             if (allocated(problem%parts)) allocate(normal%parts, source=problem%parts)
             if (problem%couples()) then
@@ -85,7 +91,7 @@ contains
                if (result%normal%ended == ending%stagnated .and. allocated(problem%model%memory)) &
                   & call solve_by_active_sets(normal, workspace%window, state%now%pn, result%pen, result%normal)
             else
-               call subtract_approach(normal%h, problem%pen)
+               call subtract_approach(size(normal%h), problem%pen, excluded_threshold, normal%h)
                associate (material => problem%model%material)
                   call prepare_sums(problem, workspace)
                   call approximate_pressure(problem%pressure, problem%grid, normal%h, material%gg/(1.0_wp - material%nu), &
@@ -109,21 +115,6 @@ contains
       if (problem%force_prescribed .and. abs(result%fn - problem%fn) <= force_round_off*problem%fn) result%fn = problem%fn
       if (problem%motion == motion%none) call all_adhere(state%now%division)
    end subroutine normal_step
-
-   !> Subtract the approach from the undeformed distance, except in excluded elements
-   pure subroutine subtract_approach(h, pen)
-      !> Distance of the surfaces [mm]; negative on exit where they overlap
-      real(wp), intent(inout) :: h(:, :)
-      !> Approach [mm]
-      real(wp), intent(in) :: pen
-      integer :: ix, iy
-
-      do iy = 1, size(h, 2)
-         do ix = 1, size(h, 1)
-            h(ix, iy) = h(ix, iy) - merge(pen, 0.0_wp, h(ix, iy) < excluded_threshold)
-         end do
-      end do
-   end subroutine subtract_approach
 
    !> Without motion all elements in contact are in adhesion
    pure subroutine all_adhere(division)
@@ -160,7 +151,7 @@ contains
    end subroutine prepare_sums
 
    !> Set element states by the pressures; tractions of exterior elements are set to zero
-   pure subroutine mark_contact(state, scales, ncon)
+   subroutine mark_contact(state, scales, ncon)
       !> Pressures on entry; element states are set
       type(patch_state), intent(inout) :: state
       !> Are the tangential tractions relative to the pressures?
@@ -169,23 +160,17 @@ contains
       integer, intent(out) :: ncon
       integer :: ix, iy
 
-      ncon = 0
-      do iy = 1, size(state%now%pn, 2)
-         do ix = 1, size(state%now%pn, 1)
-            if (state%now%pn(ix, iy) > 0.0_wp) then
-               ncon = ncon + 1
-               if (scales) then
-                  state%now%px(ix, iy) = state%now%px(ix, iy)*state%now%pn(ix, iy)
-                  state%now%py(ix, iy) = state%now%py(ix, iy)*state%now%pn(ix, iy)
-               end if
-               if (state%now%division(ix, iy) == element%exterior) state%now%division(ix, iy) = element%adhesion
-            else
-               state%now%division(ix, iy) = element%exterior
-               state%now%px(ix, iy) = 0.0_wp
-               state%now%py(ix, iy) = 0.0_wp
-            end if
-         end do
-      end do
+      associate (now => state%now)
+         if (scales) then
+            do iy = 1, size(now%pn, 2)
+               do ix = 1, size(now%pn, 1)
+                  now%px(ix, iy) = now%px(ix, iy)*now%pn(ix, iy)
+                  now%py(ix, iy) = now%py(ix, iy)*now%pn(ix, iy)
+               end do
+            end do
+         end if
+         ncon = mark_elements(size(now%pn), element%exterior, element%adhesion, now%pn, now%px, now%py, now%division)
+      end associate
    end subroutine mark_contact
 
    !> Estimates for the present approach: pressures by their derivative in the last solution, tractions relative to the pressures

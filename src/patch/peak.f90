@@ -4,6 +4,7 @@
 !> contact, varying with the position of the grid.
 module contact_patch_peak
    use contact_base_kinds, only : wp
+   use contact_numeric_vectors, only : largest_of
    implicit none (type, external)
    private
 
@@ -21,7 +22,7 @@ contains
       if (order == 2) then
          largest_pressure = peak_of(pn)
       else
-         largest_pressure = maxval(pn)
+         largest_pressure = largest_of(size(pn), pn)
       end if
    end function largest_pressure
 
@@ -34,7 +35,7 @@ contains
       real(wp), contiguous, intent(in) :: field(:, :)
       integer :: at(2)
 
-      peak = maxval(field)
+      peak = largest_of(size(field), field)
       if (.not. peak > 0.0_wp) return
       at = maxloc(field)
       peak = peak*sqrt(1.0_wp + rise(field(:, at(2)), at(1)) + rise(field(at(1), :), at(2)))

@@ -3,7 +3,8 @@ module contact_patch_small_step
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_numeric_vectors, only : copy_numbers
    use contact_patch_derived, only : derive
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : patch_problem, patch_state
@@ -46,7 +47,8 @@ contains
       type(patch_state), intent(inout) :: state
       !> Result of the solution; updated
       type(patch_result), intent(inout) :: result
-      real(wp) :: ratio, area
+      type(bounding_box) :: box
+      real(wp) :: ratio, area, force(3)
       logical :: is_hertzian
       integer :: ix, iy
 
@@ -57,26 +59,30 @@ contains
       result%mx = 0.0_wp
       result%my = 0.0_wp
       result%mz = 0.0_wp
-      do iy = 1, problem%grid%my
-         do ix = 1, problem%grid%mx
+      ! tractions are zero outside the contact
+      force = 0.0_wp
+      box = contact_box(result%division)
+      do iy = box%iy0, box%iy1
+         do ix = box%ix0, box%ix1
             if (.not. (result%pn(ix, iy) > 0.0_wp .and. result%division(ix, iy) > element%exterior)) cycle
             if (.not. is_hertzian) ratio = max(0.0_wp, 1.0_wp + change*state%now%rate(ix, iy)/result%pn(ix, iy))
             result%pn(ix, iy) = ratio*result%pn(ix, iy)
             result%px(ix, iy) = ratio*result%px(ix, iy)
             result%py(ix, iy) = ratio*result%py(ix, iy)
+            force = force + [result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy)]
             result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
             result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
             result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))
          end do
       end do
       result%pen = result%pen + change
-      result%fn = area*sum(result%pn)
-      result%fx = area*sum(result%px)
-      result%fy = area*sum(result%py)
+      result%fn = area*force(1)
+      result%fx = area*force(2)
+      result%fy = area*force(3)
       result%pmax = largest_pressure(result%pn, result%tangential%order)
-      state%now%pn = result%pn
-      state%now%px = result%px
-      state%now%py = result%py
+      call copy_numbers(size(result%pn), result%pn, state%now%pn)
+      call copy_numbers(size(result%px), result%px, state%now%px)
+      call copy_numbers(size(result%py), result%py, state%now%py)
       state%now%pen = result%pen
       state%now%force = [result%fn, result%fx, result%fy]
    end subroutine small_step

@@ -5,6 +5,7 @@ module contact_patch_time_steps
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : is_same_side, potential_contact
+   use contact_numeric_vectors, only : clear_numbers, copy_numbers
    use contact_patch_problem, only : carried, memory_field, patch_problem, patch_state, traction_fields
    implicit none (type, external)
    private
@@ -337,9 +338,7 @@ contains
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
       fields%division = element%exterior
-      fields%pn = 0.0_wp
-      fields%px = 0.0_wp
-      fields%py = 0.0_wp
+      call clear_tractions(fields)
       fields%pen = 0.0_wp
       if (allocated(fields%rate)) deallocate(fields%rate)
       fields%is_solved = .false.
@@ -356,9 +355,9 @@ contains
       call fit_fields(to, from%grid%mx, from%grid%my)
       to%grid = from%grid
       to%division = from%division
-      to%pn = from%pn
-      to%px = from%px
-      to%py = from%py
+      call copy_numbers(size(to%pn), from%pn, to%pn)
+      call copy_numbers(size(to%px), from%px, to%px)
+      call copy_numbers(size(to%py), from%py, to%py)
       to%pen = from%pen
       to%is_solved = from%is_solved
       to%force = from%force
@@ -374,6 +373,17 @@ contains
          deallocate(fields%division, fields%pn, fields%px, fields%py)
       end if
       allocate(fields%division(grid_mx, grid_my), source=element%exterior)
-      allocate(fields%pn(grid_mx, grid_my), fields%px(grid_mx, grid_my), fields%py(grid_mx, grid_my), source=0.0_wp)
+      allocate(fields%pn(grid_mx, grid_my), fields%px(grid_mx, grid_my), fields%py(grid_mx, grid_my))
+      call clear_tractions(fields)
    end subroutine fit_fields
+
+   !> Set tractions to zero
+   pure subroutine clear_tractions(fields)
+      !> With allocated tractions
+      type(traction_fields), intent(inout) :: fields
+
+      call clear_numbers(size(fields%pn), fields%pn)
+      call clear_numbers(size(fields%px), fields%px)
+      call clear_numbers(size(fields%py), fields%py)
+   end subroutine clear_tractions
 end module contact_patch_time_steps

@@ -105,11 +105,11 @@ contains
       type(patch_state), intent(inout) :: state
       !> Plastic displacements of the step, on the box
       type(tangential_solution), intent(in) :: solution
-      !> The fields and `nplast` are set; the work of plastic deformation is added to the frictional power
+      !> With numbers of elements; the fields and `nplast` are set; the work of plastic deformation is added to the frictional power
       type(patch_result), intent(inout) :: result
 
       if (allocated(result%tau_c)) deallocate(result%tau_c, result%uplx, result%uply)
-      result%nplast = count(result%division == element%plastic)
+      result%nplast = result%ncon - result%nadh - result%nslip
       if (.not. problem%remembers_yield) return
       if (problem%motion == motion%none) then
          state%now%memory(carried%tau_c:carried%uply) = state%before%memory(carried%tau_c:carried%uply)

@@ -71,29 +71,34 @@ contains
                if (.not. contact(last + 1, iy)) exit
                last = last + 1
             end do
-            call one_strip(data, c, x(first:last), y(iy), dx, mu(iy), bound(first:last, iy), p(first:last, iy, :), &
-               & slip(first:last, iy, :), division(first:last, iy), scratch(first:last, iy, :))
+            call one_strip(data, c, first, last, x, y(iy), dx, mu(iy), bound(:, iy), p(:, iy, 1), p(:, iy, 2), slip(:, iy, 1), &
+               & slip(:, iy, 2), division(:, iy), scratch(:, iy, 1), scratch(:, iy, 2))
          end do
       end do
    end subroutine apply_strip_theory
 
    !> One strip: adhesion from strip theory if that is possible
-   pure subroutine one_strip(data, c, x, y, dx, mu, bound, p, slip, division, f)
+   pure subroutine one_strip(data, c, first, last, x, y, dx, mu, bound, px, py, sx, sy, division, along, across)
       type(strip_data), intent(in) :: data
       !> Kalker's coefficients of the ellipse [-]
       type(creepage_coefficients), intent(in) :: c
-      real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
-      real(wp), intent(inout) :: p(:, :), slip(:, :)
-      integer, intent(inout) :: division(:)
-      !> Workspace, shape (size(x), 2): tractions by strip theory relative to the largest bound [-]
-      real(wp), intent(inout) :: f(:, :)
-      real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, whole, stick, xi, length
-      integer :: i, n
+      !> First and last element of the strip in its row
+      integer, intent(in) :: first, last
+      !> Row: centres [mm], coefficient of friction [-] and traction bounds [N/mm2]
+      real(wp), contiguous, intent(in) :: x(:), bound(:)
+      real(wp), intent(in) :: y, dx, mu
+      !> Tractions [N/mm2], and slip per step [mm]
+      real(wp), contiguous, intent(inout) :: px(:), py(:), sx(:), sy(:)
+      integer, contiguous, intent(inout) :: division(:)
+      !> Workspace: tractions by strip theory relative to the largest bound [-]
+      real(wp), contiguous, intent(inout) :: along(:), across(:)
+      real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, xi, length, largest, peak
+      integer :: i, n, sticks(2)
 
-      n = size(x)
+      n = last - first + 1
       a = data%area%aa
       half = 0.5_wp*n*dx
-      middle = 0.5_wp*(x(1) + x(n))
+      middle = 0.5_wp*(x(first) + x(last))
       creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
       creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
       call scale_creepages(data, c, mu, creep, spin)
@@ -109,39 +114,65 @@ contains
          kappa = kappa/size_
          lambda = lambda/size_
       end if
-      f = 0.0_wp
-      if (d <= half) then
-         do i = 1, n
-            xi = data%direction*(x(i) - middle)
-            if (xi <= 2.0_wp*d - half) cycle
-            whole = sqrt(max(0.0_wp, half**2 - xi**2))/a
-            stick = sqrt(max(0.0_wp, (half - d)**2 - (xi - d)**2))/a
-            f(i, 1) = kappa*(whole - stick)
-            f(i, 2) = lambda*whole - (lambda - spin)*stick
-         end do
-         if (maxval(f(:, 1)**2 + f(:, 2)**2) > 1.0_wp) return
-      end if
-      do i = 1, n
+      ! elements in adhesion, at the leading edge
+      sticks = [first, last]
+      do i = first, last
          xi = data%direction*(x(i) - middle)
-         if (xi > 2.0_wp*min(d, half) - half) then
-            p(i, 1) = data%direction*f(i, 1)*mu*peak_pressure(data)
-            p(i, 2) = f(i, 2)*mu*peak_pressure(data)
-            slip(i, :) = 0.0_wp
-            division(i) = element%adhesion
-            ! tractions of strip theory may exceed the bound of the actual pressures
-            length = hypot(p(i, 1), p(i, 2))
-            if (length > bound(i)) p(i, :) = p(i, :)*(bound(i)/length)
-            cycle
+         if (xi > 2.0_wp*min(d, half) - half) cycle
+         if (data%direction > 0) sticks(1) = i + 1
+         if (data%direction < 0) sticks(2) = min(sticks(2), i - 1)
+      end do
+      if (d <= half) then
+         largest = 0.0_wp
+         do i = sticks(1), sticks(2)
+            xi = data%direction*(x(i) - middle)
+            along(i) = root(half**2 - xi**2)/a
+            across(i) = root((half - d)**2 - (xi - d)**2)/a
+         end do
+         do i = sticks(1), sticks(2)
+            length = across(i)
+            across(i) = lambda*along(i) - (lambda - spin)*length
+            along(i) = kappa*(along(i) - length)
+            largest = max(largest, along(i)**2 + across(i)**2)
+         end do
+         if (largest > 1.0_wp) return
+      end if
+      peak = mu*peak_pressure(data)
+      ! tractions are of the order of pressures: their squares neither overflow nor vanish
+      do i = sticks(1), sticks(2)
+         px(i) = data%direction*along(i)*peak
+         py(i) = across(i)*peak
+         sx(i) = 0.0_wp
+         sy(i) = 0.0_wp
+         division(i) = element%adhesion
+         ! tractions of strip theory may exceed the bound of the actual pressures
+         length = sqrt(px(i)**2 + py(i)**2)
+         if (length > bound(i)) then
+            px(i) = px(i)*(bound(i)/length)
+            py(i) = py(i)*(bound(i)/length)
          end if
-         length = hypot(p(i, 1), p(i, 2))
+      end do
+      do i = first, last
+         if (i >= sticks(1) .and. i <= sticks(2)) cycle
+         length = sqrt(px(i)**2 + py(i)**2)
          if (length > 0.0_wp) then
-            p(i, :) = p(i, :)*(bound(i)/length)
+            px(i) = px(i)*(bound(i)/length)
+            py(i) = py(i)*(bound(i)/length)
          else
-            p(i, :) = [data%direction*kappa, lambda]*bound(i)
+            px(i) = data%direction*kappa*bound(i)
+            py(i) = lambda*bound(i)
          end if
          division(i) = element%slip
       end do
    end subroutine one_strip
+
+   !> Square root, 0 for negative numbers
+   elemental real(wp) function root(square)
+      real(wp), intent(in) :: square
+
+      root = 0.0_wp
+      if (square > 0.0_wp) root = sqrt(square)
+   end function root
 
    !> Scale the creepages and the spin of the contact to those of a strip, in place
    !>

@@ -13,7 +13,7 @@ module contact_text_bounds
    implicit none (type, external)
    private
 
-   public :: number_bounds, bounds_table, bounds_of, is_within, describe_breach, check_number
+   public :: number_bounds, bounds_table, bounds_of, is_angle, is_within, describe_breach, check_number
 
    !> Bounds of one number
    type :: number_bounds
@@ -484,6 +484,8 @@ module contact_text_bounds
    !> All rows, in the order of the groups of a case
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &
       & subsurface_rows, track_rows, wheel_rows]
+   !> Is the number an angle or its rate?
+   logical, parameter :: is_angle(*) = bounds_table%unit == "rad" .or. bounds_table%unit == "rad/s"
    !> The names as an array, to be searched, and their first letters, terminated by 0
    character(len=*), parameter :: names(*) = bounds_table%name
    integer, parameter :: letters(*) = [iachar(names(:)(1:1)), 0]

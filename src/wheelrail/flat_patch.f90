@@ -7,6 +7,7 @@
 module contact_wheelrail_flat_patch
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
+   use contact_numeric_vectors, only : largest_difference, largest_of, smallest_of
    use contact_profile_curve, only : profile_curve
    use contact_profile_section, only : profile_section
    use contact_wheelrail_frame, only : frame, new_frame
@@ -171,7 +172,7 @@ contains
       !> Was the region joined from several? Then any shape is possible between them, and nothing is left out
       logical, intent(in) :: joined
       !> Distance [mm], negative for interpenetration, on entry; shape (mx, my)
-      real(wp), intent(inout) :: h(:, :)
+      real(wp), contiguous, intent(inout) :: h(:, :)
       !> Maximum interpenetration along n [mm]; negative if the bodies do not touch
       real(wp), intent(out) :: approach
       !> Number of elements that are left out although the bodies would overlap there
@@ -200,30 +201,20 @@ contains
             end do
          end do
       end if
-      approach = -minval(h)
+      approach = -smallest_of(size(h), h)
       h = h + approach
    end subroutine shift_distance
 
    !> Do both bodies exist in all elements, and does the gap change by less than a limit from each row to the next?
    pure logical function falls_slowly(h, limit)
       !> See `shift_distance`
-      real(wp), intent(in) :: h(:, :)
+      real(wp), contiguous, intent(in) :: h(:, :)
       !> Limit [mm]
       real(wp), intent(in) :: limit
-      integer :: ix, iy, others
 
-      others = 0
-      do iy = 1, size(h, 2)
-         do ix = 1, size(h, 1)
-            if (h(ix, iy) >= 0.5_wp*nothing_there) others = others + 1
-         end do
-      end do
-      do iy = 2, size(h, 2)
-         do ix = 1, size(h, 1)
-            if (abs(h(ix, iy) - h(ix, iy - 1)) > limit) others = others + 1
-         end do
-      end do
-      falls_slowly = others == 0
+      falls_slowly = .not. largest_of(size(h), h) >= 0.5_wp*nothing_there
+      if (falls_slowly .and. size(h, 2) > 1) &
+         & falls_slowly = .not. largest_difference(size(h) - size(h, 1), h(:, 2:), h) > limit
    end function falls_slowly
 
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach

@@ -8,6 +8,7 @@ module contact_wheelrail_profile_ends
    use contact_base_constants, only : excluded_threshold, pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
+   use contact_numeric_vectors, only : largest_of
    use contact_patch_result, only : border_contact
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface_hull, only : stretch_hull
@@ -79,16 +80,9 @@ contains
    !> Is a surface missing in an element?
    pure logical function has_missing(h)
       !> Undeformed distance [mm], shape (mx, my)
-      real(wp), intent(in) :: h(:, :)
-      integer :: ix, iy, number
+      real(wp), contiguous, intent(in) :: h(:, :)
 
-      number = 0
-      do iy = 1, size(h, 2)
-         do ix = 1, size(h, 1)
-            if (h(ix, iy) >= missing) number = number + 1
-         end do
-      end do
-      has_missing = number > 0
+      has_missing = largest_of(size(h), h) >= missing
    end function has_missing
 
    !> Find ends of the wheel's profile that are within the rail outside all patches

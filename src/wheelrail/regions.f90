@@ -44,7 +44,9 @@ contains
       integer :: i, k
 
       smallest = no_surface
-      if (gap%n > 0) smallest = minval(gap%gap)
+      do i = 1, gap%n
+         smallest = min(smallest, gap%gap(i))
+      end do
       do i = 2, gap%n - 1
          if (gap%gap(i) > far_away .or. gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
          k = 0
@@ -234,7 +236,8 @@ contains
             end do
             i = last + 1
          else
-            if (is_minimum(g, i)) then
+            ! most points are no minimum
+            if (g(i) <= g(max(1, i - 1)) .and. is_minimum(g, i)) then
                call look_closer(gap, g, i, i, weight_power, found, is_shown_closer, closer)
                if (.not. is_shown_closer) then
                   call describe_miss(gap, g, i, region)

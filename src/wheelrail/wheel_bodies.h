@@ -1,42 +1,77 @@
 /* Loops of wheel_loops.c, for one kind of processor; see lanes.h */
 
-/* Newton's method for eight points of a row at once; 1 if all are found on the piece, otherwise nothing is changed */
-TARGET static int OF(meet)(const double *piece, const double *y, const double *z, double radius, const double *base, const double *axis,
-                           const double *along, double near, double tolerance, int most_steps, const double *x, double *place,
-                           double *n) {
-  const double first = piece[0], last = piece[1], k1 = along[0], k2 = along[1], k3 = along[2];
-  four p[2], h[2], r[2], q1[2], q2[2], q3[2], t[2];
+/* One coefficient of the pieces of four points */
+#define OF_PIECES(c, k, power) ((four){(c)[4 * (k)[0] + (power)], (c)[4 * (k)[1] + (power)], (c)[4 * (k)[2] + (power)], (c)[4 * (k)[3] + (power)]})
+
+/* Coefficients of the pieces on which four points lie */
+typedef struct {
+  int piece[4];
+  four start, end, y0, y1, y2, y3, z0, z1, z2, z3;
+} OF(four_pieces);
+
+/* Find the pieces of four positions, starting from those of the last step or from a common one; false beyond the ends of the profile */
+TARGET static inline int OF(find_pieces)(const double *place, int pieces, const double *ends, const double *cy, const double *cz,
+                                         OF(four_pieces) *at) {
+  for (int lane = 0; lane < 4; lane++) {
+    int k = at->piece[lane];
+    if (!(place[lane] >= ends[0] && place[lane] <= ends[pieces])) return 0;
+    while (place[lane] > ends[k + 1]) k++;
+    while (place[lane] < ends[k]) k--;
+    at->piece[lane] = k;
+    at->start[lane] = ends[k];
+    at->end[lane] = ends[k + 1];
+  }
+  const int *k = at->piece;
+  at->y0 = OF_PIECES(cy, k, 0);
+  at->y1 = OF_PIECES(cy, k, 1);
+  at->y2 = OF_PIECES(cy, k, 2);
+  at->y3 = OF_PIECES(cy, k, 3);
+  at->z0 = OF_PIECES(cz, k, 0);
+  at->z1 = OF_PIECES(cz, k, 1);
+  at->z2 = OF_PIECES(cz, k, 2);
+  at->z3 = OF_PIECES(cz, k, 3);
+  return 1;
+}
+
+/* Newton's method for eight points of a row at once; 1 if all are found, otherwise nothing is changed but the piece */
+TARGET static int OF(meet)(int pieces, const double *ends, const double *cy, const double *cz, double radius, const double *base,
+                           const double *axis, const double *along, double near, double tolerance, int most_steps, const double *x,
+                           int *piece, double *place, double *n) {
+  const double k1 = along[0], k2 = along[1], k3 = along[2];
+  four p[2], h[2];
+  OF(four_pieces) at[2];
   for (int g = 0; g < 2; g++) {
     p[g] = READ_FOUR(place + 4 * g);
     h[g] = READ_FOUR(n + 4 * g);
+    for (int lane = 0; lane < 4; lane++) at[g].piece[lane] = g == 0 ? *piece - 1 : at[0].piece[0];
+    if (!OF(find_pieces)((const double *)(p + g), pieces, ends, cy, cz, at + g)) return 0;
   }
+  *piece = at[0].piece[0] + 1;
   for (int step = 0; step < most_steps; step++) {
-    four_masks fits = {-1, -1, -1, -1};
+    four_masks solved = {-1, -1, -1, -1}, inside = solved, fits = solved;
     for (int g = 0; g < 2; g++) {
-      const four xg = READ_FOUR(x + 4 * g);
-      t[g] = p[g] - first;
-      q1[g] = base[0] + axis[0] * xg + k1 * h[g];
-      q2[g] = base[1] + axis[1] * xg + k2 * h[g];
-      q3[g] = base[2] + axis[2] * xg + k3 * h[g];
-      r[g] = radius + z[0] + t[g] * (z[1] + t[g] * (z[2] + t[g] * z[3]));
-      fits &= (p[g] >= first) & (p[g] <= last) & (MAGNITUDES(q1[g]) <= near * r[g]);
-    }
-    if (!ALL_OF(fits)) return 0;
-    four_masks solved = {-1, -1, -1, -1};
-    for (int g = 0; g < 2; g++) {
-      const four y_s = y[1] + t[g] * (2.0 * y[2] + t[g] * 3.0 * y[3]), z_s = z[1] + t[g] * (2.0 * z[2] + t[g] * 3.0 * z[3]);
-      const four depth = ROOTS(r[g] * r[g] - q1[g] * q1[g]);
-      const four f1 = q2[g] - (y[0] + t[g] * (y[1] + t[g] * (y[2] + t[g] * y[3]))), f2 = q3[g] + radius - depth;
-      const four j21 = -r[g] * z_s / depth, j22 = k3 + q1[g] * k1 / depth, det = -y_s * j22 - k2 * j21;
-      if (!ALL_OF(MAGNITUDES(det) > 0.0)) return 0;
+      const OF(four_pieces) *c = at + g;
+      const four xg = READ_FOUR(x + 4 * g), t = p[g] - c->start;
+      const four q1 = base[0] + axis[0] * xg + k1 * h[g], q2 = base[1] + axis[1] * xg + k2 * h[g];
+      const four q3 = base[2] + axis[2] * xg + k3 * h[g], r = radius + c->z0 + t * (c->z1 + t * (c->z2 + t * c->z3));
+      const four y_s = c->y1 + t * (2.0 * c->y2 + t * 3.0 * c->y3), z_s = c->z1 + t * (2.0 * c->z2 + t * 3.0 * c->z3);
+      const four depth = ROOTS(r * r - q1 * q1);
+      const four f1 = q2 - (c->y0 + t * (c->y1 + t * (c->y2 + t * c->y3))), f2 = q3 + radius - depth;
+      const four j21 = -r * z_s / depth, j22 = k3 + q1 * k1 / depth, det = -y_s * j22 - k2 * j21;
       /* steps of position and height */
       const four dp = (f1 * j22 - k2 * f2) / det, dh = (-y_s * f2 - f1 * j21) / det;
+      fits &= (MAGNITUDES(q1) <= near * r) & (MAGNITUDES(det) > 0.0);
       p[g] -= dp;
       h[g] -= dh;
       solved &= MAGNITUDES(dp) + MAGNITUDES(dh) <= tolerance * radius;
+      inside &= (p[g] >= c->start) & (p[g] <= c->end);
+    }
+    if (!ALL_OF(fits)) return 0;
+    if (!ALL_OF(inside)) {
+      for (int g = 0; g < 2; g++)
+        if (!OF(find_pieces)((const double *)(p + g), pieces, ends, cy, cz, at + g)) return 0;
     }
     if (!ALL_OF(solved)) continue;
-    if (!ALL_OF((p[0] >= first) & (p[0] <= last) & (p[1] >= first) & (p[1] <= last))) return 0;
     for (int g = 0; g < 2; g++) {
       FOUR(place + 4 * g) = p[g];
       FOUR(n + 4 * g) = h[g];
@@ -46,9 +81,17 @@ TARGET static int OF(meet)(const double *piece, const double *y, const double *z
   return 0;
 }
 
-/* A polynomial of degree 7 at points from -1 to 1 at even distances */
-TARGET static void OF(spread)(const double *p, int n, double *values) {
-  const double step = 2.0 / (n - 1);
+/* The polynomial of degree 7 through the values at eight nodes, at points from -1 to 1 at even distances: `powers` are the coefficients
+ * of the powers for a unit value at each node. `last` are the magnitudes of the coefficients of the two highest powers */
+TARGET static void OF(spread)(const double *powers, const double *node, int n, double *values, double *last) {
+  four low = {0.0, 0.0, 0.0, 0.0}, high = low;
+  for (int k = 0; k < 8; k++) {
+    low += node[k] * READ_FOUR(powers + 8 * k);
+    high += node[k] * READ_FOUR(powers + 8 * k + 4);
+  }
+  const double p[8] = {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}, step = 2.0 / (n - 1);
+  last[0] = fabs(p[6]);
+  last[1] = fabs(p[7]);
   int i = 0;
   for (; i + 3 < n; i += 4) {
     const four t = (four){i, i + 1, i + 2, i + 3} * step - 1.0;
@@ -78,9 +121,6 @@ TARGET static void OF(nodes)(int n, const double *y, const double *z, const doub
     *(four_flags *)(below + i) = __builtin_convertvector(CHOOSE(count > last, last, count), four_flags);
   }
 }
-
-/* One coefficient of the pieces of four points */
-#define OF_PIECES(c, k, power) ((four){(c)[4 * (k)[0] + (power)], (c)[4 * (k)[1] + (power)], (c)[4 * (k)[2] + (power)], (c)[4 * (k)[3] + (power)]})
 
 /* Points of the locus at given lateral positions, each on its piece, by Newton's method */
 TARGET static void OF(locus)(int n, const double *target, const int *piece, const double *ends, const double *cy, const double *cz,
@@ -123,3 +163,4 @@ TARGET static void OF(locus)(int n, const double *target, const int *piece, cons
     }
   }
 }
+#undef OF_PIECES

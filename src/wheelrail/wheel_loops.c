@@ -1,10 +1,10 @@
 /* Points of a wheel over a row of elements, described in wheel_loops.f90; lanes.h explains why they are in C */
 #include "../base/lanes.h"
 
-void contact_wheel_meet(const double *piece, const double *y, const double *z, double radius, const double *base, const double *axis,
-                       const double *along, double near, double tolerance, int most_steps, const double *x, double *place, double *n,
-                        int *found);
-void contact_wheel_spread(const double *p, int n, double *values);
+void contact_wheel_meet(int pieces, const double *ends, const double *cy, const double *cz, double radius, const double *base,
+                        const double *axis, const double *along, double near, double tolerance, int most_steps, const double *x,
+                        int *piece, double *place, double *n, int *found);
+void contact_wheel_spread(const double *powers, const double *node, int n, double *values, double *last);
 void contact_wheel_nodes(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
                          double radius, double furthest, double start, double per_step, int points, double *x, double *across,
                          double *height, int *below);
@@ -15,13 +15,15 @@ void contact_wheel_locus(int n, const double *target, const int *piece, const do
 #define LOOPS "../wheelrail/wheel_bodies.h"
 #include "../base/twice.h"
 
-void contact_wheel_meet(const double *piece, const double *y, const double *z, double radius, const double *base, const double *axis,
-                       const double *along, double near, double tolerance, int most_steps, const double *x, double *place, double *n,
-                        int *found) {
-  *found = CALL(meet, piece, y, z, radius, base, axis, along, near, tolerance, most_steps, x, place, n);
+void contact_wheel_meet(int pieces, const double *ends, const double *cy, const double *cz, double radius, const double *base,
+                        const double *axis, const double *along, double near, double tolerance, int most_steps, const double *x,
+                        int *piece, double *place, double *n, int *found) {
+  *found = CALL(meet, pieces, ends, cy, cz, radius, base, axis, along, near, tolerance, most_steps, x, piece, place, n);
 }
 
-void contact_wheel_spread(const double *p, int n, double *values) { CALL(spread, p, n, values); }
+void contact_wheel_spread(const double *powers, const double *node, int n, double *values, double *last) {
+  CALL(spread, powers, node, n, values, last);
+}
 
 void contact_wheel_nodes(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
                          double radius, double furthest, double start, double per_step, int points, double *x, double *across,

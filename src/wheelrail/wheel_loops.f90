@@ -10,12 +10,14 @@ module contact_wheelrail_wheel_loops
    integer, parameter :: together = 8
 
    interface
-      !> Intersections of lines with a piece of a round wheel, by Newton's method
-      pure subroutine meet_points(piece, y, z, radius, base, axis, along, near, tolerance, most_steps, x, place, n, found) &
-         & bind(c, name="contact_wheel_meet")
+      !> Intersections of lines with a round wheel, by Newton's method
+      pure subroutine meet_points(pieces, ends, cy, cz, radius, base, axis, along, near, tolerance, most_steps, x, piece, place, &
+         & n, found) bind(c, name="contact_wheel_meet")
          import :: c_double, c_int, together
-         !> Ends of the piece [mm]; coefficients of lateral position and height of the profile from its first end on
-         real(c_double), intent(in) :: piece(2), y(0:3), z(0:3)
+         !> Number of pieces of the profile
+         integer(c_int), value :: pieces
+         !> Their ends [mm]; coefficients of lateral position and height
+         real(c_double), intent(in) :: ends(*), cy(0:3, *), cz(0:3, *)
          !> Radius of the wheel at the origin of its profile [mm]
          real(c_double), value :: radius
          !> In the axes of the wheel: a point of the plane for x = 0 [mm], direction of x, direction of the lines
@@ -26,21 +28,27 @@ module contact_wheelrail_wheel_loops
          integer(c_int), value :: most_steps
          !> Positions of the points [mm]
          real(c_double), intent(in) :: x(together)
+         !> A piece near the estimates on entry, that of the first estimate on exit
+         integer(c_int), intent(inout) :: piece
          !> Position on the profile and height above each point [mm]: estimates on entry, solutions on exit
          real(c_double), intent(inout) :: place(together), n(together)
-         !> 1 if all points are found on the piece, otherwise 0, and nothing is changed
+         !> 1 if all points are found, otherwise 0, and positions and heights are not changed
          integer(c_int), intent(out) :: found
       end subroutine meet_points
 
-      !> Values of a polynomial of degree 7 at points from -1 to 1 at even distances
-      pure subroutine spread_polynomial(p, n, values) bind(c, name="contact_wheel_spread")
-         import :: c_double, c_int
-         !> Coefficients of the powers
-         real(c_double), intent(in) :: p(0:7)
+      !> Polynomial through the values at some nodes, at points from -1 to 1 at even distances
+      pure subroutine spread_polynomial(powers, node, n, values, last) bind(c, name="contact_wheel_spread")
+         import :: c_double, c_int, together
+         !> Coefficients of the powers (first index) for a unit value at a node (second index)
+         real(c_double), intent(in) :: powers(together, together)
+         !> Values at the nodes
+         real(c_double), intent(in) :: node(together)
          !> Number of points, at least 2
          integer(c_int), value :: n
          !> Values of the polynomial
          real(c_double), intent(inout) :: values(n)
+         !> Magnitudes of the coefficients of the two highest powers
+         real(c_double), intent(inout) :: last(2)
       end subroutine spread_polynomial
 
       !> The contact locus of a round wheel on a track at the nodes of its profile, by the first step of the iteration for its

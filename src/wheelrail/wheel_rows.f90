@@ -19,6 +19,12 @@ module contact_wheelrail_wheel_rows
    integer, parameter :: terms = together
    !> Maximum of the last two terms of a polynomial that is as accurate as the heights themselves [mm]
    real(wp), parameter :: negligible = 1.0e-10_wp
+   !> Coefficients of the powers (first index) of each Chebyshev polynomial, and of the highest power of the last two
+   real(wp), parameter :: chebyshev(terms, terms) = reshape(real([ &
+      & 1, 0, 0, 0, 0, 0, 0, 0,   0, 1, 0, 0, 0, 0, 0, 0,   -1, 0, 2, 0, 0, 0, 0, 0,   0, -3, 0, 4, 0, 0, 0, 0, &
+      & 1, 0, -8, 0, 8, 0, 0, 0,  0, 5, 0, -20, 0, 16, 0, 0,  -1, 0, 18, 0, -48, 0, 32, 0,  0, -7, 0, 56, 0, -112, 0, 64], wp), &
+      & [terms, terms])
+   real(wp), parameter :: chebyshev_end(2) = [chebyshev(terms - 1, terms - 1), chebyshev(terms, terms)]
    !> Number of consecutive rows without such a polynomial, after which none is tried
    integer, parameter :: patience = 5
    !> Maximum number of stored rows
@@ -33,8 +39,9 @@ module contact_wheelrail_wheel_rows
       !> Points at which heights are computed [mm]: all, or `terms`
       real(wp) :: nodes(terms) = 0.0_wp
       integer :: few = 0
-      !> Positions on the profile and heights of previous rows at the nodes [mm], the last one first, and number of known rows
-      real(wp) :: rows(terms, 2, remembered) = 0.0_wp
+      !> Positions on the profile (1...terms) and heights of previous rows at the nodes [mm], the last row first, and number of known
+      !> rows
+      real(wp) :: rows(2*terms, remembered) = 0.0_wp
       integer :: known = 0
       !> Initial values of the first point of a row: position on the profile and height [mm]
       real(wp) :: start(2) = 0.0_wp
@@ -73,6 +80,7 @@ contains
       self%start = start
       self%few = min(points, terms)
       self%known = 0
+      self%rows = 0.0_wp
       self%failures = 0
       self%has_all = .false.
       if (points > terms) then
@@ -106,7 +114,7 @@ contains
       real(wp), intent(in) :: missing
       !> Height over each point [mm]
       real(wp), contiguous, intent(out) :: n(:)
-      real(wp) :: some_places(terms), some_n(terms), c(terms)
+      real(wp) :: some(2*terms), last(2)
       logical :: some_found(terms)
       integer :: i, j
       !> Weights of sums whose first and last terms are halved
@@ -114,38 +122,38 @@ contains
       !> Coefficients of Chebyshev polynomials (first index) through heights at the points of `begin`
       real(wp), parameter :: factors(terms, terms) = reshape([((2.0_wp/(terms - 1)*ends_half(i)*ends_half(j) &
          & *cos(pi*i*(terms - 1 - j)/(terms - 1)), i=0, terms - 1), j=0, terms - 1)], [terms, terms])
+      !> Coefficients of the powers through heights there
+      real(wp), parameter :: powers(terms, terms) = matmul(chebyshev, factors)
 
       if (self%failures >= patience) then
          call find_all(self, wheel, radius, seen, s, n)
       else
-         associate (m => self%few)
-            call find_nodes(self, wheel, radius, seen, s, some_places(:m), some_n(:m), some_found(:m))
-            if (self%points == m) then
-               do i = 1, m
-                  n(i) = merge(some_n(i), missing, some_found(i))
-               end do
-               return
+         call find_nodes(self, wheel, radius, seen, s, some, some_found)
+         if (self%points == self%few) then
+            do i = 1, self%few
+               n(i) = merge(some(terms + i), missing, some_found(i))
+            end do
+            return
+         end if
+         associate (some_places => some(:terms), some_n => some(terms + 1:))
+            if (all(some_found)) then
+               call spread_polynomial(powers, some_n, self%points, n, last)
+               if (sum(last/chebyshev_end) <= negligible .and. is_inside(wheel, some_places)) then
+                  self%failures = 0
+                  return
+               end if
+            end if
+            call make_room(self)
+            if (all(some_found)) then
+               self%failures = self%failures + 1
+               call spread_polynomial(powers, some_places, self%points, self%place, last)
+               call row_from_estimates(wheel, radius, seen, self%x(:self%points), s, self%place(:self%points), n, &
+                  & self%found(:self%points))
+            else
+               call wheel_row(wheel, radius, seen, self%x(:self%points), s, self%start, self%place(:self%points), n, &
+                  & self%found(:self%points))
             end if
          end associate
-         if (all(some_found)) then
-            c = matmul(factors, some_n)
-            call between(c, n)
-            if (abs(c(terms - 1)) + abs(c(terms)) <= negligible .and. is_inside(wheel, some_places)) then
-               self%failures = 0
-               return
-            end if
-         end if
-         call make_room(self)
-         if (all(some_found)) then
-            self%failures = self%failures + 1
-            c = matmul(factors, some_places)
-            call between(c, self%place(:self%points))
-            call row_from_estimates(wheel, radius, seen, self%x(:self%points), s, self%place(:self%points), n, &
-               & self%found(:self%points))
-         else
-            call wheel_row(wheel, radius, seen, self%x(:self%points), s, self%start, self%place(:self%points), n, &
-               & self%found(:self%points))
-         end if
          if (self%failures == patience) then
             self%known = 0
             call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
@@ -157,35 +165,49 @@ contains
    end subroutine find
 
    !> Heights at the nodes, estimated from previous rows if there are any
-   pure subroutine find_nodes(self, wheel, radius, seen, s, place, n, found)
-      type(wheel_rows), intent(inout) :: self
+   pure subroutine find_nodes(self, wheel, radius, seen, s, some, found)
+      class(wheel_rows), intent(inout) :: self
       !> See `find`
       type(profile_curve), intent(in) :: wheel
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: s
-      !> Position on the profile and height at each node [mm], set if found
-      real(wp), intent(out) :: place(:), n(:)
-      logical, intent(out) :: found(:)
-      integer :: i
+      !> Position on the profile (1...terms) and height at each node [mm], set if found
+      real(wp), intent(out) :: some(2*terms)
+      logical, intent(out) :: found(terms)
+      integer :: i, j
 
-      if (self%known > 0) then
-         call estimate(self%rows(:self%few, :, :), self%known, place, n)
-         call row_from_estimates(wheel, radius, seen, self%nodes(:self%few), s, place, n, found)
-      else
-         place(1) = self%start(1)
-         n(1) = self%start(2)
-         call wheel_height(wheel, radius, seen, self%nodes(1), s, place(1), n(1), found(1))
+      associate (rows => self%rows, m => self%few, place => some(:terms), n => some(terms + 1:))
+         found = .true.
+         select case (self%known)
+         case (0)
+            some = 0.0_wp
+            place(1) = self%start(1)
+            n(1) = self%start(2)
+            call wheel_height(wheel, radius, seen, self%nodes(1), s, place(1), n(1), found(1))
+            if (found(1)) self%start = [place(1), n(1)]
+            ! the others are estimated by the circle of the wheel
+            do i = 2, m
+               place(i) = self%start(1)
+               n(i) = self%start(2) - 0.5_wp*(self%nodes(i)**2 - self%nodes(1)**2)/radius
+            end do
+            call row_from_estimates(wheel, radius, seen, self%nodes(2:m), s, place(2:m), n(2:m), found(2:m))
+         case (1)
+            some = rows(:, 1)
+         case (2)
+            some = 2.0_wp*rows(:, 1) - rows(:, 2)
+         case default
+            some = 3.0_wp*(rows(:, 1) - rows(:, 2)) + rows(:, 3)
+         end select
+         if (self%known > 0) call row_from_estimates(wheel, radius, seen, self%nodes(:m), s, place(:m), n(:m), found(:m))
          if (found(1)) self%start = [place(1), n(1)]
-         ! the others are estimated by the circle of the wheel
-         do i = 2, self%few
-            place(i) = self%start(1)
-            n(i) = self%start(2) - 0.5_wp*(self%nodes(i)**2 - self%nodes(1)**2)/radius
+         self%known = merge(min(self%known + 1, remembered), 0, all(found))
+         if (self%known == 0) return
+         do j = remembered, 2, -1
+            rows(:, j) = rows(:, j - 1)
          end do
-         call row_from_estimates(wheel, radius, seen, self%nodes(2:self%few), s, place(2:), n(2:), found(2:))
-      end if
-      if (found(1)) self%start = [place(1), n(1)]
-      call keep(place, n, all(found), self%rows(:self%few, :, :), self%known)
+         rows(:, 1) = some
+      end associate
    end subroutine find_nodes
 
    !> Heights at all points, estimated from previous rows if there are any
@@ -278,25 +300,6 @@ contains
          rows(i, 2, 1) = height(i)
       end do
    end subroutine keep
-
-   !> Values of a polynomial at points at even distances, including the ends
-   pure subroutine between(c, values)
-      !> Coefficients of Chebyshev polynomials
-      real(wp), intent(in) :: c(terms)
-      real(wp), contiguous, intent(inout) :: values(:)
-      real(wp) :: p(0:terms - 1)
-
-      ! converted to powers
-      p(0) = c(1) - c(3) + c(5) - c(7)
-      p(1) = c(2) - 3.0_wp*c(4) + 5.0_wp*c(6) - 7.0_wp*c(8)
-      p(2) = 2.0_wp*c(3) - 8.0_wp*c(5) + 18.0_wp*c(7)
-      p(3) = 4.0_wp*c(4) - 20.0_wp*c(6) + 56.0_wp*c(8)
-      p(4) = 8.0_wp*c(5) - 48.0_wp*c(7)
-      p(5) = 16.0_wp*(c(6) - 7.0_wp*c(8))
-      p(6) = 32.0_wp*c(7)
-      p(7) = 64.0_wp*c(8)
-      call spread_polynomial(p, size(values), values)
-   end subroutine between
 
    !> Are all positions between those at the nodes on the profile as well?
    pure logical function is_inside(wheel, place)

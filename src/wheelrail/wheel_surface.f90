@@ -103,7 +103,7 @@ contains
       integer :: i, k, last, piece
       logical :: done
 
-      piece = 1
+      piece = piece_of(wheel%y%s, place(1))
       do i = 1, size(x), together
          last = min(i + together - 1, size(x))
          ! beyond the end of the row the last point is repeated
@@ -112,7 +112,6 @@ contains
             some_place(k) = place(min(i + k - 1, last))
             some_n(k) = n(min(i + k - 1, last))
          end do
-         piece = next_piece(wheel%y%s, piece, place(i))
          call meet_together(wheel, radius, seen, some_x, s, piece, some_place, some_n, done)
          if (done) then
             place(i:last) = some_place(:last - i + 1)
@@ -127,7 +126,7 @@ contains
       end do
    end subroutine row_from_estimates
 
-   !> Solve several points of a row at once by Newton's method, if all of them are on one piece of the profile
+   !> Solve several points of a row at once by Newton's method
    !>
    !> Their equations are independent and vectorise. Nothing is changed if one of the points does not converge in this way.
    pure subroutine meet_together(wheel, radius, seen, x, s, piece, place, n, done)
@@ -136,8 +135,8 @@ contains
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: x(together), s
-      !> Piece of the profile that contains the estimates
-      integer, intent(in) :: piece
+      !> Piece of the profile near the estimates on entry, that of the first one on exit
+      integer, intent(inout) :: piece
       !> Position on the profile and height above each point [mm]: estimates on entry, solutions on exit
       real(wp), contiguous, intent(inout) :: place(:), n(:)
       !> Are all points found?
@@ -149,8 +148,8 @@ contains
       integer :: all_found
 
       base = seen%origin + seen%axes(:, 2)*s
-      call meet_points(wheel%y%s(piece:piece + 1), wheel%y%c(:, piece), wheel%z%c(:, piece), radius, base, seen%axes(:, 1), &
-         & seen%axes(:, 3), near, tolerance, most_steps, x, place, n, all_found)
+      call meet_points(size(wheel%y%s) - 1, wheel%y%s, wheel%y%c, wheel%z%c, radius, base, seen%axes(:, 1), seen%axes(:, 3), &
+         & near, tolerance, most_steps, x, piece, place, n, all_found)
       done = all_found > 0
    end subroutine meet_together
 
