@@ -177,7 +177,8 @@ contains
          if (fine%rows(k)%law == error_law%none .or. is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
          if (fine%rows(k)%name == "pmax") then
-            result%errors%value(k) = error_of_peak(result, scale, load**power_of_load(fine%rows(k))*peak_of(level%result%pn))
+            result%errors%value(k) = error_of_peak(problem, result, scale, &
+               & load**power_of_load(fine%rows(k))*peak_of(level%result%pn))
          else
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if

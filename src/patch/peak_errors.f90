@@ -2,11 +2,12 @@
 !>
 !> See doc/theory/errors.md.
 module contact_patch_peak_errors
-   use contact_base_constants, only : pi
+   use contact_base_constants, only : excluded_threshold, pi
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_error_scales, only : normal_order, resolved, scale_type, unresolved_floor
    use contact_patch_peak, only : peak_of
+   use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_traction_errors, only : trusted
    implicit none (type, external)
@@ -30,32 +31,32 @@ module contact_patch_peak_errors
    !> difference is larger than its order predicts, and the exponent is smaller; of viscoelastic bodies and bumpy profiles (seeds 55
    !> and 5301)
    real(wp), parameter :: clear_peak = 20.0_wp
-   !> A peak within few elements of an edge of the contact: error over the excess of the outermost pressure above that of a
-   !> semi-ellipse; chosen with hard wheels (seed 611)
-   real(wp), parameter :: hidden_edge = 0.5_wp
    !> Rough surfaces have peaks between element centres: factor of the standard deviation of heights over the approach, in excess of
    !> that of single jumps of the curvature, times n; of rough profiles of hard wheels (seed 611)
    real(wp), parameter :: rough_peak = 0.6_wp, usual_roughness = 0.02_wp
    !> A strip of n elements is between n - 1 and n + 1 elements wide; for the largest peak pressure that its load may have, its
    !> width is taken as n less this; chosen
    real(wp), parameter :: narrower = 0.5_wp
+   !> The pressure of an ellipse of semi-axes a > b exceeds that of a strip with the same curvature and load per length across b by
+   !> this fraction of b/a, in squares: Hertz's theory gives 4/pi for a circle
+   real(wp), parameter :: excess_of_circle = 4.0_wp/pi - 1.0_wp
 
    !> Shape of a peak along a line of elements through it
    type :: peak_shape
-      !> Number of elements in contact without a gap, and their sum of pressures [N/mm2]
-      integer :: n = 0
+      !> Number of elements in contact without a gap, the first and the last one, and their sum of pressures [N/mm2]
+      integer :: n = 0, first = 0, last = 0
       real(wp) :: load = 0.0_wp
       !> Second difference at the peak, and the same with the harmonic mean of the decreases on both sides [N/mm2]
       real(wp) :: bend = 0.0_wp, cusp = 0.0_wp
-      !> Excess of the pressure at an edge within few elements of the peak above that of a semi-ellipse, over the peak [-]
-      real(wp) :: step = 0.0_wp
    end type peak_shape
 
 contains
 
    !> Error of the largest pressure: the error of pressures, with order 1 the difference between the peak and the nearest element
    !> centre, and the height of lower peaks that elements do not resolve
-   pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
+   pure real(wp) function error_of_peak(problem, result, scale, coarse_peak) result(e)
+      !> The problem that was solved
+      type(patch_problem), intent(in) :: problem
       !> Solved patch, with the contributions of solvers and window
       type(patch_result), intent(in) :: result
       !> See type scale_type
@@ -82,35 +83,90 @@ contains
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
       floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
-      e = max(e, floor, unresolved*cusp, hidden_edge*maxval(shape%step), &
-         & rough_peak*max(0.0_wp, scale%roughness - usual_roughness)*scale%across)
-      e = max(e, hidden_peak(result%pn)/result%pmax - 1.0_wp)
+      e = max(e, floor, unresolved*cusp, rough_peak*max(0.0_wp, scale%roughness - usual_roughness)*scale%across, &
+         & hidden_peak(problem, result)/result%pmax - 1.0_wp)
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
 
-   !> Largest peak pressure that lower peaks of few elements may have, by their load; at least the highest one [N/mm2]
-   pure real(wp) function hidden_peak(pn) result(peak)
-      !> Pressures [N/mm2], shape (mx, my)
-      real(wp), contiguous, intent(in) :: pn(:, :)
-      real(wp) :: highest, least
+   !> Largest pressure that peaks of few elements may have by their load, and by their load and the curvature of the undeformed
+   !> distance; at least the highest one of the elements [N/mm2]
+   pure real(wp) function hidden_peak(problem, result) result(peak)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(in) :: result
+      type(peak_shape) :: shape(2)
+      real(wp) :: highest, least, extent(2)
       integer :: ix, iy, x0, x1, y0, y1
 
-      highest = maxval(pn)
-      peak = highest
-      ! the load of a single element gives a peak that is higher by the inverse of this ratio
-      least = highest*(1.0_wp - narrower)*pi/4.0_wp
-      do iy = 1, size(pn, 2)
-         y0 = max(1, iy - 1)
-         y1 = min(size(pn, 2), iy + 1)
-         do ix = 1, size(pn, 1)
-            if (pn(ix, iy) < least .or. pn(ix, iy) >= highest) cycle
-            x0 = max(1, ix - 1)
-            x1 = min(size(pn, 1), ix + 1)
-            if (any(pn(x0:x1, y0:y1) > pn(ix, iy))) cycle
-            peak = max(peak, by_load(shape_of(pn(:, iy), ix)), by_load(shape_of(pn(ix, :), iy)))
+      associate (pn => result%pn, modulus => problem%model%material%gg/(1.0_wp - problem%model%material%nu))
+         highest = maxval(pn)
+         peak = highest
+         ! the load of a single element gives a peak that is higher by the inverse of this ratio
+         least = highest*(1.0_wp - narrower)*pi/4.0_wp
+         do iy = 1, size(pn, 2)
+            y0 = max(1, iy - 1)
+            y1 = min(size(pn, 2), iy + 1)
+            do ix = 1, size(pn, 1)
+               if (pn(ix, iy) < least) cycle
+               x0 = max(1, ix - 1)
+               x1 = min(size(pn, 1), ix + 1)
+               if (any(pn(x0:x1, y0:y1) > pn(ix, iy))) cycle
+               shape = [shape_of(pn(:, iy), ix), shape_of(pn(ix, :), iy)]
+               if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)))
+               extent = shape%n*[result%grid%dx, result%grid%dy]
+               ! fields that are constant in one direction are strips
+               where (shape%n == 0) extent = sqrt(huge(highest))
+               peak = max(peak, &
+                  & by_curvature(pn(:, iy), problem%h(:, iy), shape(1), ix, result%grid%dx, extent(1)/extent(2), modulus), &
+                  & by_curvature(pn(ix, :), problem%h(ix, :), shape(2), iy, result%grid%dy, extent(2)/extent(1), modulus))
+            end do
          end do
-      end do
+      end associate
    end function hidden_peak
+
+   !> Peak of few elements, or within few elements of an edge of the contact, by Hertz's theory: from the load of these elements and
+   !> the largest curvature of the undeformed distance there; 0 for other peaks [N/mm2]
+   !>
+   !> A strip of contact of load q per length, in which the distance has the curvature k, has the peak sqrt(q E k/pi), with the
+   !> modulus E of both bodies. At an edge, beyond which the curvature decreases, the elements up to the peak are such a strip.
+   pure real(wp) function by_curvature(line, h, shape, i, side, ratio, modulus) result(peak)
+      !> Pressures [N/mm2] and undeformed distances [mm] of elements along a line
+      real(wp), intent(in) :: line(:), h(:)
+      !> Shape of the peak
+      type(peak_shape), intent(in) :: shape
+      !> Element of the peak
+      integer, intent(in) :: i
+      !> Side of the elements along the line [mm]; ratio of the extent of contact along the line to that across [-]; modulus of both
+      !> bodies, see above [N/mm2]
+      real(wp), intent(in) :: side, ratio, modulus
+
+      peak = 0.0_wp
+      if (shape%n == 0) return
+      if (2*shape%n < resolved) then
+         peak = of_strip(shape%first, shape%last)
+         return
+      end if
+      ! where the grid cuts off the contact there is no edge
+      if (shape%first > 1 .and. 2*(i - shape%first) < resolved) peak = of_strip(shape%first, i)
+      if (shape%last < size(line) .and. 2*(shape%last - i) < resolved) peak = max(peak, of_strip(i, shape%last))
+      ! contact continues on the other side: the peak is between that of the element and that of a strip
+      peak = 0.5_wp*(line(i) + peak)
+
+   contains
+
+      !> Peak of a strip of the given elements [N/mm2]
+      pure real(wp) function of_strip(first, last)
+         integer, intent(in) :: first, last
+         real(wp) :: curvature
+         integer :: k
+
+         curvature = 0.0_wp
+         do k = max(2, first), min(size(h) - 1, last)
+            if (maxval(h(k - 1:k + 1)) > excluded_threshold) cycle
+            curvature = max(curvature, (h(k - 1) - 2.0_wp*h(k) + h(k + 1))/side**2)
+         end do
+         of_strip = sqrt(sum(line(first:last))*side*modulus*curvature/pi*(1.0_wp + excess_of_circle*min(1.0_wp, ratio)))
+      end function of_strip
+   end function by_curvature
 
    !> Peak of a semi-ellipse with the load of a few elements; 0 for more elements [N/mm2]
    elemental real(wp) function by_load(shape) result(peak)
@@ -141,28 +197,13 @@ contains
          last = last + 1
       end do
       shape%n = last - first + 1
+      shape%first = first
+      shape%last = last
       shape%load = sum(line(first:last))
       decrease = line(i)
       if (i > 1) decrease(1) = line(i) - line(i - 1)
       if (i < size(line)) decrease(2) = line(i) - line(i + 1)
       shape%bend = sum(decrease)
       if (minval(decrease) > 0.0_wp) shape%cusp = 4.0_wp*product(decrease)/sum(decrease)
-      ! where the grid cuts off the contact there is no edge
-      if (first > 1) shape%step = excess_at_edge(line(first)/line(i), i - first)
-      if (last < size(line)) shape%step = max(shape%step, excess_at_edge(line(last)/line(i), last - i))
    end function shape_of
-
-   !> Excess of the pressure of the outermost element in contact above the largest one of a semi-ellipse with the same peak, both
-   !> relative to the peak [-]; 0 if the peak is in this element or far from it
-   pure real(wp) function excess_at_edge(pressure, distance) result(excess)
-      !> Pressure over that of the peak [-]
-      real(wp), intent(in) :: pressure
-      !> Number of elements from the edge to the peak
-      integer, intent(in) :: distance
-
-      excess = 0.0_wp
-      if (distance < 1 .or. 2*distance >= resolved) return
-      ! the centre of the outermost element is at most one element inside the contact, that of the peak one more for each
-      excess = max(0.0_wp, pressure - sqrt(1.0_wp - (distance/(distance + 1.0_wp))**2))
-   end function excess_at_edge
 end module contact_patch_peak_errors

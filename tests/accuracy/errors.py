@@ -45,9 +45,9 @@ FIRST_NUMBERS, FIRST_BOUNDS = (18, 26, 46, 62, 71, 79, 80, 89), {"forces": (0.3,
 #: all kinds, and bounds against the rms over offsets
 SIGNED_SEED, SIGNED_COUNT, SIGNED_NUMBERS = 84001, 96, (6, 30, 45, 56, 71, 83)
 SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9), "max_tresca": (0.2, 5.0, 0.9)}
-#: Wheels whose largest pressure is at the edge of a profile section, by the first order: seed, count, numbers of the wheels, and
-#: bounds against the rms over sizes of the elements
-PEAK_SEED, PEAK_COUNT, PEAK_NUMBERS = 90101, 30, (7, 11, 17, 22)
+#: Wheels whose largest pressure is at the edge of a profile section, or in a second strip of one element, by the first order: seeds,
+#: counts, numbers of the wheels, and bounds against the rms over sizes of the elements
+PEAK_WHEELS = ((90101, 30, (7, 11, 17, 22)), (98001, 100, (84,)))
 PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
@@ -289,7 +289,7 @@ def main():
     elif asked.check == "wheels":
         asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
     elif asked.check == "peaks":
-        asked.count, asked.seed, asked.wheels, asked.places = 0, PEAK_SEED, PEAK_COUNT, len(WHEEL_PLACES)
+        asked.count, asked.places = 0, len(WHEEL_PLACES)
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
         asked.kinds = ",".join(FIRST)
@@ -307,9 +307,9 @@ def main():
         only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
-        if asked.wheels:
-            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name), asked.order, asked.places,
-                                 PEAK_NUMBERS if asked.check == "peaks" else ())
+        wheels = PEAK_WHEELS if asked.check == "peaks" else ((asked.seed, asked.wheels, ()),)
+        for seed, count, numbers in wheels:
+            rows += judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers) if count else []
     by_total, by_kind = {}, {}
     for c, n, places in rows:
         if not places:
