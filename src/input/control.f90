@@ -337,12 +337,11 @@ contains
       integer, intent(in) :: module_number
 
       digit = digit_value(digits, name)
-      ! most digits are not kept
-      if (scan(name(1:1), "LCMDE") == 0) return
-      select case (name)
+      ! by the first letter, which takes less time than by the name
+      select case (name(1:1))
       case ("L"); if (digit == 1) digit = spec%friction_law
-      case ("C"); if (digit <= 1) digit = spec%kernel
-      case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
+      case ("C"); if (name == "C" .and. digit <= 1) digit = spec%kernel
+      case ("M"); if (name == "M2" .and. digit == 1 .and. spec%has_damping) digit = 2
       case ("D"); if (module_number == 1 .and. digit <= 1) digit = spec%wheel_rail%search%location
       case ("E"); if (module_number == 3 .and. digit == 1) digit = spec%slip_source
       end select
