@@ -66,7 +66,8 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
    reference = [0 0];
    if (wheel_rail)
       s.config  = double(d.c1);
-      d_digit   = 1 + find(strcmp(char(c.inputs.search.location), {'locus','locus_extended','conformal','grid','steep_grid'}));
+      d_digit   = 1 + find(strcmp(char(c.inputs.search.location), {'locus','locus_extended','conformal','grid', ...
+                                                                 'steep_grid','first_contact'}));
       reference = [g.x_elem g.y_elem];
       s.meta    = pair_meta(c, p, ipatch, npatch, s.config);
       veloc     = g.veloc;
@@ -88,7 +89,7 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
    s.x = s.xl + ((1:s.mx)-0.5) * s.dx;
    s.y = s.yl + ((1:s.my)-0.5) * s.dy;
 
-   % arrays of elements have the shape (mx,my) in the file; what a frictionless case has not is zero
+   % arrays of elements have the shape (mx,my) in the file; what a frictionless case does not have is zero
    names = {'eldiv','h','mu','pn','px','py','un','ux','uy'};
    for i = 1 : numel(names)
       s.(names{i}) = zeros(s.my, s.mx);
@@ -161,8 +162,15 @@ function [ mater ] = materials( m, m_digit, p )
    elseif (m_digit>=2)
       mater.poiss = m.poiss([1 1]);
       mater.poiss = mater.poiss(:)';
-      mater.flx   = p.simplified.flx(:)';
-      mater = chosen(m, {'k0_mf','alfamf','betamf'}, mater);
+      mater.flx   = [0 0 0];       % without motion there are no flexibilities
+      if (isfield(p, 'simplified'))
+         mater.flx = p.simplified.flx(:)';
+      end
+      if (isfield(m, 'k0_mf'))
+         mater = chosen(m, {'k0_mf','alfamf','betamf'}, mater);
+      else                        % M = 6, 7: no reduction of the slope
+         mater.k0_mf = 1;   mater.alfamf = 1;   mater.betamf = 1;
+      end
    end
    mater = add_combined(mater);
 

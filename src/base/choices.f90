@@ -104,7 +104,7 @@ module contact_base_choices
    type :: contact_location_list
       !> Contact locus: planar patches, the same with extra rigid slip, and curved patches
       integer :: locus = 2, locus_extended = 3, conformal = 4
-      !> Search over a grid, and with a finer one for steep slopes
+      !> Search over a grid; the second is identical to the first, which refines its grid where necessary
       integer :: grid = 5, steep_grid = 6
       !> Contact locus with the first point of contact as reference point
       integer :: first_contact = 7

@@ -132,7 +132,8 @@ module contact_control_digits
       & "flat contact, contact locus, extended rigid slip", "locus_extended"), &
       & digit_row("D", 4, contact_location%conformal, module_1, .true., "conformal contact, contact locus", "conformal"), &
       & digit_row("D", 5, contact_location%grid, module_1, .true., "flat contact, search over a grid", "grid"), &
-      & digit_row("D", 6, contact_location%steep_grid, module_1, .true., "flat contact, search over a finer grid", "steep_grid"), &
+      & digit_row("D", 6, contact_location%steep_grid, module_1, .true., &
+      & "flat contact, the same search over a grid", "steep_grid"), &
       & digit_row("D", 7, contact_location%first_contact, module_1, .true., &
       & "flat contact, first point of contact as reference", "first_contact"), &
       & digit_row("D", 8, contact_location%oblique_locus, module_1, .false., &

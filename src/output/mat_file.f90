@@ -200,9 +200,11 @@ contains
          select case (spec%material_model)
          case (material_model%viscoelastic)
             values = [material%gg, material%poiss, material%fg, material%tc]
-         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip, material_model%fastrip_plain, &
-            & material_model%fastrip_sliding)
+         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
             values = [material%gg, material%poiss(1), solved%flx, material%k0_mf, material%alfamf, material%betamf]
+         case (material_model%fastrip_plain, material_model%fastrip_sliding)
+            ! values of an earlier case in store do not act
+            values = [material%gg, material%poiss(1), solved%flx, 1.0_wp, 1.0_wp, 1.0_wp]
          case (material_model%interfacial_layer)
             values = [material%gg, material%poiss, material%gg3, material%laythk, material%tau_c0, material%k_tau]
          case default

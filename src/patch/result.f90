@@ -368,9 +368,13 @@ contains
       class(patch_result), target, intent(in) :: self
       !> Rows whose values point to those of `self`; the actual argument must have the target attribute
       type(element_field), allocatable, intent(out) :: rows(:)
-      logical :: still
+      logical :: still, alike
 
       still = self%motion == motion_choice%none
+      ! pressures move the surfaces of unlike bodies sideways without friction, too
+      alike = still
+      if (still .and. allocated(self%ux) .and. allocated(self%uy)) &
+         & alike = .not. (any(abs(self%ux) > 0.0_wp) .or. any(abs(self%uy) > 0.0_wp))
       allocate(rows(0))
       call add(1, "h", "mm", "undeformed distance, approach not subtracted", self%h, label="distance")
       call add(2, "mu", "-", "coefficient of friction", self%mu, label="friction coefficient")
@@ -378,8 +382,8 @@ contains
       call add(3, "px", "N/mm2", "longitudinal traction on body 1", self%px, orientation%along, label="px", zero=still)
       call add(4, "py", "N/mm2", "lateral traction on body 1", self%py, orientation%across, label="py", zero=still)
       call add(9, "un", "mm", "normal displacement difference", self%un, label="un")
-      call add(7, "ux", "mm", "longitudinal displacement difference", self%ux, zero=still, label="ux")
-      call add(8, "uy", "mm", "lateral displacement difference", self%uy, orientation%side, zero=still, label="uy")
+      call add(7, "ux", "mm", "longitudinal displacement difference", self%ux, zero=alike, label="ux")
+      call add(8, "uy", "mm", "lateral displacement difference", self%uy, orientation%side, zero=alike, label="uy")
       if (is_rolling(self%motion)) then
          call add(15, "sx", "-", "longitudinal slip, relative", self%sx, orientation%along, self%dq, label="sx")
          call add(16, "sy", "-", "lateral slip, relative", self%sy, orientation%across, self%dq, label="sy")

@@ -192,6 +192,9 @@ contains
       call text%open_file(request%file, error, request%below)
       if (.not. allocated(error)) call read_slices_file(text, request%side, list, error)
       if (allocated(error)) return
+      if (.not. text%at_end()) call log%warning(request%file // ": what stands below line " // integer_text(text%line) // &
+         & " is ignored: NSLC = " // integer_text(size(list%slices)) // " slices, and the features that NFEAT and NKINK announce, &
+         &end there")
       allocate(curves(size(list%slices)))
       slice = request
       do k = 1, size(curves)

@@ -96,6 +96,25 @@ class Slices(unittest.TestCase):
             patch = result["patches"][0]
             self.assertAlmostEqual(patch["totals"]["xcp_tr"]["value"], 26.0, delta=0.5)
 
+    def test_rows_that_are_not_announced(self):
+        """NSLC below the number of rows, and features without NFEAT, cut the rail: that is no silent matter"""
+        self.cylinder()
+        self.slices("rail.slcs", range(-100, 101, 40), lambda u: [0.5*k for k in range(-60, 61)], lambda u, y: y*y/200.0)
+        path = os.path.join(self.folder, "rail.slcs")
+        with open(path) as file:
+            whole = file.read()
+        _result, warnings = self.solve()
+        self.assertEqual([line for line in warnings if "NSLC" in line], [])
+        for text, line in ((whole.replace("0 1\n6\n", "0 1\n4\n"), 8), (whole + "".join("%g 0 70\n" % u for u in (-100, -60)), 10)):
+            self.write("rail.slcs", text)
+            _result, warnings = self.solve()
+            found = [warning for warning in warnings if "NSLC" in warning]
+            self.assertEqual(len(found), 1, warnings)
+            self.assertIn("what stands below line %d is ignored" % line, found[0])
+        self.write("rail.slcs", whole + "\n% a comment\n")
+        _result, warnings = self.solve()
+        self.assertEqual([line for line in warnings if "NSLC" in line], [])
+
     def test_overlap_beyond_the_reach(self):
         self.cylinder()
 

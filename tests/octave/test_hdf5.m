@@ -82,6 +82,33 @@ s = loadcase('elements_re002', 1);
 delete('elements_re002.0001.mat');
 check_same_struct(loadcase('elements_re002', 1), s, 6, 'result element without .mat file');
 
+% --- what follows from other choices: FaStrip as published after slope reduction, each with and without motion
+txt = '';
+values = {sprintf('0.8 0.5 0.1\n'), '', ''};
+rolling = {'', sprintf('0 1 20000\n')};
+for m = [5 6 7]
+   for t = [0 3]
+      txt = [txt, sprintf(['3 MODULE\n20%d100\n0022%d10\n0002201\n100 100 30 1 1e-5\n9000 0.001 0 0\n0.3 0.3\n%s' ...
+                           '0.28 0.28 82000 82000\n%s-3\n9 9 4 3 1.125\n'], t, m, rolling{1+t/3}, values{m-4})];
+   end
+end
+% pressures displace the surfaces of dissimilar bodies laterally, without motion as well
+txt = [txt, sprintf(['3 MODULE\n200100\n0022010\n0002201\n100 100 30 10 1e-5\n9000 0 0 0\n0.3 0.3\n' ...
+                     '0.28 0.3 82000 2000\n-3\n9 9 4 3 1.125\n0\n'])];
+run_input('other', txt, '--hdf5');
+for icase = 1 : 7
+   compare('other', icase);
+end
+check(loadcase('other', 5).mater.k0_mf==1, 'slope reduction of an earlier case');
+check(max(abs(loadcase('other.h5', 7).ux(:)))>1e-4, 'displacements without motion');
+
+% the first point of contact as reference
+txt = sprintf('1 MODULE\n1%s0 0 100000 0 0 0\n20000 0 0 0 0 -43.5\n0\n', ...
+              strrep(strrep(head, '0022033', '0072033'), '203103', '203100'));
+run_input('first', txt, '--hdf5', 'profiles/60E1.prr', 'profiles/S1002.prw');
+compare('first', 1);
+check(loadcase('first.h5', 1).d_digit==7, 'digit D of wheel and rail');
+
 % --- without .mat and .subs files the HDF5 file is used; hints if there are no results
 delete('cattaneo.0002.mat');
 check(loadcase('cattaneo', 2).mx==19, 'HDF5 file instead of a .mat file');
