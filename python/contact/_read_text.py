@@ -182,9 +182,13 @@ def read_out(path: str) -> OutFile:
             cases[-1].status, cases[-1].reason = "not converged", line.partition("NOT CONVERGED: ")[2].strip()
         elif line.startswith(" ERROR. "):
             cases[-1].status, cases[-1].reason = "refused", line[8:].strip()
+        elif line.startswith(" Input: ERROR. ") and cases[-1].status != "refused":
+            cases[-1].status, cases[-1].reason = "refused", "its input cannot be used: " + line[15:].strip()
         if _HEADINGS.match(line):
             _take(cases[-1], patch, _below(line, following), in_module1)
     ours = any("open source" in line for line in lines[:6])
     ended = any(line.startswith(" CONTACT ended") for line in lines)
     short = any(line.startswith(" Not complete: ") for line in lines)
+    if cases and ours and not ended and cases[-1].status == "solved":
+        cases[-1].status, cases[-1].reason = "", "the file ends in the case"
     return OutFile(cases, not short and ended if ours else None)

@@ -150,6 +150,8 @@ contains
             call read_word(a, name, module_number, node, digit, is_known)
             if (is_known) then
                call put_digit(words%digits, name, digit)
+               ! nothing else reads the table of a case that ends damping or temperatures
+               if (any(name == ["M2", "H "]) .and. digit == 0) a%used(table) = .true.
             else
                is_good = .false.
             end if

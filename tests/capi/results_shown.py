@@ -324,6 +324,27 @@ def problems_of_elements(program):
         raises(KeyError, lambda: whole.case(1), "contact problem 2")
 
 
+def cases_without_result(program):
+    """A case whose input cannot be used, and one in which a file ends, are not solved in an .out file either"""
+    with open(os.path.join(SOURCE, "examples/cattaneo.inp"), encoding="utf-8") as file:
+        case = " 3 MODULE\n" + file.read().partition("MODULE\n")[2].partition("%")[0]
+    with open("faulty.inp", "w", encoding="utf-8") as file:
+        file.write(case + case.replace("9.1954", "-1") + case.replace("9.1954", "nan") + " 0 MODULE\n")
+    run = subprocess.run([program, "--hdf5", "2", "faulty"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    same(run.returncode, 1, "exit status of a run with a faulty case")
+    printed = contact.load("faulty.out")
+    same([each.status for each in printed], ["solved", "refused"], "statuses of the .out file")
+    check(printed[1].reason.startswith("its input cannot be used: faulty.inp:"), printed[1].reason)
+    if has("h5py"):
+        same([(each.status, each.reason) for each in contact.load("faulty.h5")], [(each.status, each.reason) for each in printed],
+             "statuses of both files")
+    with open("faulty.out", encoding="utf-8") as file:
+        text = file.read()
+    with open("cut.out", "w", encoding="utf-8") as file:
+        file.write(text[:text.index(" Case     2") + 15])
+    same([each.status for each in contact.load("cut.out")], ["solved", ""], "statuses of a file that ends in a case")
+
+
 def layer():
     """The older name for layers keeps the elastic constants"""
     with contact.Problem(motion="shift") as problem:
@@ -375,6 +396,7 @@ if __name__ == "__main__":
     loaded(sys.argv[1])
     places_of_wheels(sys.argv[1])
     problems_of_elements(sys.argv[1])
+    cases_without_result(sys.argv[1])
     layer()
     track(everything[-1])
     rates_of_pitch()

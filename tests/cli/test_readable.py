@@ -93,6 +93,34 @@ class Readable(unittest.TestCase):
             said = self.run_program("convert", "--output-dir", str(self.folder / "other"), str(EXAMPLES / (name + ".inp")))
             self.assertEqual("copy them there" in "".join(said[1:]), warns, said)
 
+    def test_what_ends(self):
+        """Temperatures, damping and wear of a case can end in the next one, in both formats and by conversion"""
+        text = (HEAD.replace('"shift"', '"steady_rolling"') + 'output_level = 2\n' + REST +
+                '[case.rolling]\ndq = 0.6\nveloc = 20000\n'
+                '[case.heat]\nbktemp = [20, 20]\nheatcp = [450, 450]\nlambda = [0.05, 0.05]\ndens = [7.85e-6, 7.85e-6]\n'
+                '[case.damping]\ncdampn = 1e-3\ncdampt = 1e-3\ndfnmax = 1e6\ndftmax = 1e6\n[case.wear]\n')
+        ends = "".join('[case.%s]\nmodel = "none"\n' % group for group in ("heat", "damping", "wear"))
+        (self.folder / "ends.toml").write_text(text + "[[case]]\n[[case]]\n" + ends)
+        expected = None
+        for step in ("ends.toml", "ends.inp", "again.toml"):
+            if step == "again.toml":
+                shutil.move(self.folder / "ends.inp", self.folder / "again.inp")
+            if step != "ends.toml":
+                status, _, errors = self.run_program("convert", ("ends.toml" if step == "ends.inp" else "again.inp"))
+                self.assertEqual(status, 0, errors)
+            status, _, errors = self.run_program("--json", "--quiet", "--order", "2", "2", step)
+            self.assertEqual(status, 0, errors)
+            lines = (self.folder / step).with_suffix(".jsonl").read_text().splitlines()[:3]
+            totals = [json.loads(line)["patches"][0]["totals"] for line in lines]
+            self.assertEqual(["max_temp1" in found for found in totals], [True, True, False], step)
+            printed = (self.folder / step).with_suffix(".out").read_text().split(" Case ")[1:]
+            self.assertEqual(["MAX(T1,T2)" in case for case in printed], [True, True, False], step)
+            forces = [found["fx"]["value"] for found in totals]
+            expected = expected or forces
+            self.assertEqual(forces, expected, step)
+        errors = self.complaints(text + '[[case]]\n[case.heat]\nmodel = "none"\nbktemp = [20, 20]\n')
+        self.assertIn('"bktemp" is not known, or has no meaning in this case', errors)
+
     def test_names_with_all_letters(self):
         """A name of a file survives both conversions, with quotes, marks of comments and separators in it"""
         folder = "driver's wheels, 50% \"a=b\" ''"
