@@ -214,7 +214,8 @@ void cntc_setverticalforce(const int *ire, const double *fz);
 /* Set the profile of wheel or rail by the name of a file.
  *   c_fname: name of the file, relative to the folder of input files
  *   iparam: itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the
- *       extension
+ *       extension; mirrory: 1 mirrors y, 0 and -1 leave it as the file says; others as in input
+ *       files
  *   rparam: factor to mm (-1 by the units), smoothing [-] or [mm], maxomit [-], zigthrs,
  *       kinkhigh, kinklow [rad], kinkwid [L] */
 void cntc_setprofileinputfname(const int *ire, const char *c_fname, const int *len_fname,
@@ -293,7 +294,7 @@ void cntc_getparameters(const int *ire, const int *icp, const int *itask, const 
  *   itask     val
  *   -1        state: 0 or CNTC_err_profil, and its detail
  *   0         number of points
- *   1, 2      y, then z of all points, in profile or track coordinates [mm]
+ *   1, 2      y of all points, then z of all points: 1 in profile, 2 in track coordinates [mm]
  *   3         for rails y, z of the highest point, offsets y, z, y, z of the gauge point [L]
  *   4, 5      arc length [mm], inclination [A] of the points
  *   6, 7, 8   x, then y, then z along a line with constant u, v or y on a varying profile [mm]

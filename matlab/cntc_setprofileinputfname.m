@@ -5,8 +5,8 @@ function cntc_setprofileinputfname( ire, fname, iparam, rparam )
 %
 %   ire       result element of a wheel-rail problem (default 1)
 %   fname     name of the file, relative to the folder of input files
-%   iparam    itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the extension (default
-%             -1)
+%   iparam    itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the extension; mirrory:
+%             1 mirrors y, 0 and -1 leave it as the file says; others as in input files (default -1)
 %   rparam    factor to mm (-1 by the units), smoothing [-] or [mm], maxomit [-], zigthrs, kinkhigh, kinklow [rad],
 %             kinkwid [L] (default [1 0])
 %

@@ -23,12 +23,13 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
    end
    [p, offset] = read_header(lines(keys), fname);
 
-   ncol    = 2;
+   columns = 'XY';
    allowed = Inf;
    if (~isempty(p.ColumnDef))
-      ncol    = numel(regexp(p.ColumnDef, '[A-Z]'));
-      allowed = ncol;
+      columns = regexprep(p.ColumnDef, '[ ,]', '');       % * is a column without meaning
+      allowed = numel(columns);
    end
+   ncol = numel(columns);
    [data, skipped] = number_rows(strrep(lines(numeric), ',', ' '), ncol, allowed);
    if (skipped>0)
       warning('read_miniprof: "%s": %d lines do not have %d numbers and are skipped.', fname, skipped, ncol);
@@ -37,10 +38,6 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
       error('read_miniprof: "%s" has %d points, at least two are needed.', fname, size(data,1));
    end
 
-   columns = 'XY';
-   if (~isempty(p.ColumnDef))
-      columns = regexprep(p.ColumnDef, '[^A-Z]', '');
-   end
    iy = find(columns=='X', 1);
    iz = find(columns=='Y', 1);
    if (isempty(iy) || isempty(iz))

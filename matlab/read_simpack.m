@@ -128,9 +128,11 @@ function [ p ] = apply_keys( points, key, fname )
    keep = drop_close_points(points(:,1), points(:,2), max(1e-6, key.point_dist_min));
    y = points(keep,1) + key.shift_y;
    z = points(keep,2) + key.shift_z;
-   if (abs(key.rotate/key.units_ang_f)>1e-6)
-      error('read_simpack: "%s" asks for a rotation, which is not supported.', fname);
+   angle = key.rotate / key.units_ang_f;
+   if (abs(angle)>pi)
+      error('read_simpack: rotate = %g in "%s" is an angle of %g rad; expected at most pi.', key.rotate, fname, angle);
    end
+   [y, z] = deal(cos(angle)*y - sin(angle)*z, sin(angle)*y + cos(angle)*z);
    if (key.bound_y_min<key.bound_y_max)
       inside = (y>=key.bound_y_min & y<=key.bound_y_max);
       y = y(inside);
@@ -138,6 +140,9 @@ function [ p ] = apply_keys( points, key, fname )
    end
    if (key.bound_z_min<key.bound_z_max)
       z = min(key.bound_z_max, max(key.bound_z_min, z));
+      keep = drop_close_points(y, z, max(1e-6, key.point_dist_min));
+      y = y(keep);
+      z = z(keep);
    end
    p.ProfileY = y * 1000/key.units_len_f;
    p.ProfileZ = z * 1000/key.units_len_f;

@@ -165,6 +165,7 @@ contains
       if (mirrors_z(file, request, y, z)) z = -z
       y = y*request%scale/file%units_per_mm
       z = z*request%scale/file%units_per_mm
+      call warn_of_direction(file, request, y, z, log)
       length = sum(hypot(y(2:) - y(:size(y) - 1), z(2:) - z(:size(y) - 1)))
       if (length < shortest .or. length > longest) then
          call fatal_error(error, "the profile is " // real_text(length) // " mm long; accepted are " // real_text(shortest) // &
@@ -299,6 +300,30 @@ contains
 
       mirror = request%mirror_y + merge(1, 0, file%mirror_y) == 1
    end function mirrors_y
+
+   !> Warn if z clearly points upwards with the direction that the user or the file requests
+   !>
+   !> Narrow profiles are left alone: a groove has raised sides in its correct position.
+   subroutine warn_of_direction(file, request, y, z, log)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+      !> Coordinates as mirrored [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      type(log_type), intent(inout) :: log
+      !> Least height of a flange or of side faces relative to the width, and least width of a rail head or a wheel [mm]
+      real(wp), parameter :: visible = 0.1_wp, wide = 50.0_wp
+      real(wp) :: upwards(size(z))
+      character(len=:), allocatable :: name
+
+      if (file%guess_z .and. request%mirror_z == 0) return
+      if (maxval(y) - minval(y) < wide) return
+      if (maxval(z) - minval(z) < visible*(maxval(y) - minval(y))) return
+      upwards = -z
+      if (.not. needs_mirror_z(request%side, y, z) .or. needs_mirror_z(request%side, y, upwards)) return
+      call find_name(request, name)
+      call log%warning(name // ": by its shape the profile is upside down: z has to point downwards. Its direction is that of " // &
+         & "MIRRORZ, and of mirror.z in a Simpack file.")
+   end subroutine warn_of_direction
 
    !> As for y; if the file leaves it open, it is determined from the shape unless the user sets it
    pure logical function mirrors_z(file, request, y, z) result(mirror)

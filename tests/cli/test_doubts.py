@@ -581,6 +581,27 @@ class Profiles(Program):
                 self.assertAlmostEqual(nearest[columns - 1], y, delta=0.5)
                 self.assertAlmostEqual(nearest[columns], z, delta=0.1)
 
+    def test_upside_down(self):
+        """A direction of z that the input or a Simpack file requests against the shape is used, with a warning"""
+        profiles = os.path.join(self.folder, "profiles")
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), profiles)
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            text = " 1 MODULE" + file.read().split(" 1 MODULE")[1]
+        for name in ("60E1.prr", "S1002.prw"):
+            with open(os.path.join(profiles, name), encoding="utf-8") as file:
+                points = file.read()
+            with open(os.path.join(profiles, "up_" + name), "w", encoding="utf-8") as file:
+                file.write(points.replace("inversion   = 0", "inversion   = 0\n  mirror.z    = 1"))
+            line = re.search(rf"'profiles/{name}' +0 +1\.0 +0\.0\b", text).group()
+            for changed, expected in ((line, []), (line + " -1", []), (line + " 1", [name]),
+                                      (line.replace(name, "up_" + name), ["up_" + name]),
+                                      (line.replace(name, "up_" + name) + " 1", [])):
+                _cases, warnings, _out = self.run_text(text.replace(line, changed))
+                found = [warning for warning in warnings if "upside down" in warning]
+                self.assertEqual(len(found), len(expected), (changed, warnings))
+                for warning, file in zip(found, expected):
+                    self.assertIn(f"profiles/{file}: by its shape", warning)
+
 
 if __name__ == "__main__":
     unittest.main()

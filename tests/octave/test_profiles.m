@@ -92,8 +92,12 @@ q = read_profile('opt.prr');
 check_near([q.ProfileY q.ProfileZ], [-4 1; -1 0; 3 1], 1e-12, 'shift, bounds, mirroring, weights');
 q = read_profile('opt.prr', 0, -1);
 check_near(q.ProfileY, [-3; 1; 4], 1e-12, 'the mirroring of the file is switched off');
-put('bad.prr', {'header.begin','type = 0','header.end','spline.begin','rotate = 0.1','point.begin','0 0','1 0','point.end','spline.end'});
-check_error(@() read_profile('bad.prr'), 'rotation');
+put('turn.prr', {'header.begin','type = 0','header.end','spline.begin','rotate = 90','units.ang.f = 57.295779513082323','units.len.f = 1', ...
+    'bound.y.min = -2','bound.y.max = 2','shift.y = 1','point.begin','-1 2','0 1','0.001 1','1 0','0 -1','-1 -3','point.end','spline.end'});
+q = read_profile('turn.prr', 0, 0, -1);
+check_near([q.ProfileY q.ProfileZ], 1000*[-2 0; -1 1; -1 1.001; 0 2; 1 1], 1e-9, 'rotated after the shift, then cut');
+put('bad.prr', {'header.begin','type = 0','header.end','spline.begin','rotate = 4','point.begin','0 0','1 0','point.end','spline.end'});
+check_error(@() read_profile('bad.prr'), 'at most pi');
 put('bad.prr', {'spline.begin','header.begin'});
 check_error(@() read_profile('bad.prr'), 'not expected here');
 put('bad.prr', {'header.begin','type = 0','header.end'});
@@ -108,6 +112,9 @@ check_near([q.ProfileY q.ProfileZ], [-30 10; -10 1; 0 0; 10 1; 30 11], 1e-12, 't
 put('cols.ban', {'XOffset=2','YOffset=-1','ColumnDef=X,Y,A','','-10 2 0','0 1 0','0 7','10 2 0'});
 q = with_warning_off(@() read_profile('cols.ban', 0, 0, -1));
 check_near([q.ProfileY q.ProfileZ], [-8 1; 2 0; 12 1], 1e-12, 'columns and offsets');
+put('other.ban', {'ColumnDef=*,Y,*,X','','7 2 9 -10','8 1 9 0','9 2 9 10'});
+q = read_profile('other.ban', 0, 0, -1);
+check_near([q.ProfileY q.ProfileZ], [-10 2; 0 1; 10 2], 1e-12, 'columns without meaning');
 put('bad.ban', {'XOffset=2','','1 2','Key=3','2 3'});
 check_error(@() read_profile('bad.ban'), 'keyword stands among the numbers');
 
