@@ -295,7 +295,8 @@ void cntc_getparameters(const int *ire, const int *icp, const int *itask, const 
  *   -1        state: 0 or CNTC_err_profil, and its detail
  *   0         number of points
  *   1, 2      y of all points, then z of all points: 1 in profile, 2 in track coordinates [mm]
- *   3         for rails y, z of the highest point, offsets y, z, y, z of the gauge point [L]
+ *   3         for rails y, z of the innermost point within the gauge height, offsets y, z of the profile,
+ *             y, z of the point at the gauge height [L]
  *   4, 5      arc length [mm], inclination [A] of the points
  *   6, 7, 8   x, then y, then z along a line with constant u, v or y on a varying profile [mm]
  *   9         writes the surface of a varying profile to dump_spl2d.m
