@@ -21,31 +21,32 @@ contains
    !> Smallest rectangle that contains all elements in contact
    pure function contact_box(division) result(box)
       !> Element states, shape (mx, my)
-      integer, intent(in) :: division(:, :)
+      integer, contiguous, intent(in) :: division(:, :)
       type(bounding_box) :: box
-      integer :: first, ix, iy, last, mx
-      logical :: is_inside
+      !> Number of columns that are examined together
+      integer, parameter :: together = 64
+      integer :: columns(together), ix, iy, first, n, row
 
-      mx = size(division, 1)
-      box = bounding_box(mx + 1, 0, size(division, 2) + 1, 0)
-      do iy = 1, size(division, 2)
-         ! elements outside the present box may extend it; one inside shows that the row belongs to it
-         do first = 1, box%ix0 - 1
-            if (division(first, iy) /= element%exterior) exit
+      box = bounding_box(size(division, 1) + 1, 0, size(division, 2) + 1, 0)
+      do first = 1, size(division, 1), together
+         n = min(together, size(division, 1) - first + 1)
+         ! exterior elements have no bits
+         columns = element%exterior
+         do iy = 1, size(division, 2)
+            row = element%exterior
+            do ix = 1, n
+               columns(ix) = ior(columns(ix), division(first + ix - 1, iy))
+               row = ior(row, division(first + ix - 1, iy))
+            end do
+            if (row == element%exterior) cycle
+            box%iy0 = min(box%iy0, iy)
+            box%iy1 = max(box%iy1, iy)
          end do
-         do last = mx, max(first, box%ix1 + 1), -1
-            if (division(last, iy) /= element%exterior) exit
+         do ix = 1, n
+            if (columns(ix) == element%exterior) cycle
+            box%ix0 = min(box%ix0, first + ix - 1)
+            box%ix1 = first + ix - 1
          end do
-         is_inside = first < box%ix0 .or. last >= max(first, box%ix1 + 1)
-         do ix = box%ix0, box%ix1
-            if (is_inside) exit
-            is_inside = division(ix, iy) /= element%exterior
-         end do
-         if (.not. is_inside) cycle
-         box%ix0 = min(box%ix0, first)
-         box%ix1 = max(box%ix1, last)
-         box%iy0 = min(box%iy0, iy)
-         box%iy1 = iy
       end do
    end function contact_box
 end module contact_grid_element_division

@@ -233,13 +233,11 @@ contains
       end do
       ! parabola through 2 k + 1 equidistant samples
       n = 2*k + 1
-      sum2 = 0.0_wp
-      sum4 = 0.0_wp
+      sum2 = real(k*(k + 1)*(2*k + 1)/3, wp)
+      sum4 = 0.2_wp*(3*k*(k + 1) - 1)*sum2
       moment0 = 0.0_wp
       moment2 = 0.0_wp
       do i = -k, k
-         sum2 = sum2 + real(i, wp)**2
-         sum4 = sum4 + real(i, wp)**4
          moment0 = moment0 + (row(middle + i) - row(middle))
          moment2 = moment2 + real(i, wp)**2*(row(middle + i) - row(middle))
       end do

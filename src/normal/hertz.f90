@@ -80,7 +80,7 @@ contains
       if (present(near)) g = near
       do i = 1, max_steps
          integrals = complete_elliptic(g)
-         step = (log(ratio) - log(g)*2.0_wp - log(integrals%d/integrals%b))/ratio_slope(g, integrals)
+         step = log(ratio*integrals%b/(g**2*integrals%d))/ratio_slope(g, integrals)
          g = min(1.0_wp, g*exp(step))
          if (abs(step) <= tolerance) exit
       end do

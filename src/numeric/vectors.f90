@@ -10,6 +10,10 @@ module contact_numeric_vectors
 
    public :: add, add_four, clear_numbers, copy_numbers, inner, inner_four, largest_difference, largest_of, smallest_of
 
+   !> Numbers that are copied or set by one call of the C library: it uses string instructions for more than two kilobytes, whose start
+   !> takes as long as copying so many
+   integer, parameter :: part = 128
+
    interface
       !> Inner product, of vectors whose squares neither overflow nor vanish
       pure real(c_double) function inner(n, a, b) bind(c, name="contact_vectors_inner")
@@ -98,7 +102,11 @@ contains
       !> Copy
       real(wp), intent(inout) :: to(n)
 
-      to = from
+      integer :: i
+
+      do i = 1, n, part
+         to(i:min(i + part - 1, n)) = from(i:min(i + part - 1, n))
+      end do
    end subroutine copy_numbers
 
    !> Set contiguous numbers to zero, see `copy_numbers`
@@ -108,6 +116,10 @@ contains
       !> Numbers
       real(wp), intent(inout) :: to(n)
 
-      to = 0.0_wp
+      integer :: i
+
+      do i = 1, n, part
+         to(i:min(i + part - 1, n)) = 0.0_wp
+      end do
    end subroutine clear_numbers
 end module contact_numeric_vectors

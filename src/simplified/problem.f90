@@ -109,8 +109,10 @@ contains
       do iy = 1, my
          do ix = 1, mx
             if (.not. problem%contact(ix, iy)) cycle
-            lowest = min(lowest, [problem%x(ix), problem%y(iy)])
-            highest = max(highest, [problem%x(ix), problem%y(iy)])
+            lowest(1) = min(lowest(1), problem%x(ix))
+            lowest(2) = min(lowest(2), problem%y(iy))
+            highest(1) = max(highest(1), problem%x(ix))
+            highest(2) = max(highest(2), problem%y(iy))
          end do
       end do
       if (lowest(1) <= highest(1)) problem%centre = 0.5_wp*(lowest + highest)

@@ -211,6 +211,13 @@ contains
       n = size(g)
       i = 1
       do while (i <= n)
+         ! most points are neither in contact nor a minimum
+         if (g(i) >= 0.0_wp) then
+            if (g(i) > g(max(1, i - 1)) .or. g(i) >= g(min(n, i + 1))) then
+               i = i + 1
+               cycle
+            end if
+         end if
          if (g(i) < 0.0_wp) then
             first = i
             last = i
@@ -236,8 +243,7 @@ contains
             end do
             i = last + 1
          else
-            ! most points are no minimum
-            if (g(i) <= g(max(1, i - 1)) .and. is_minimum(g, i)) then
+            if (is_minimum(g, i)) then
                call look_closer(gap, g, i, i, weight_power, found, is_shown_closer, closer)
                if (.not. is_shown_closer) then
                   call describe_miss(gap, g, i, region)

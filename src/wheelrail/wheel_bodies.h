@@ -9,11 +9,12 @@ typedef struct {
   four start, end, y0, y1, y2, y3, z0, z1, z2, z3;
 } OF(four_pieces);
 
-/* Find the pieces of four positions, starting from those of the last step or from a common one; false beyond the ends of the profile */
-TARGET static inline int OF(find_pieces)(const double *place, int pieces, const double *ends, const double *cy, const double *cz,
-                                         OF(four_pieces) *at) {
+/* Find the pieces of four positions, each starting from that of the one before; `near` is the first estimate. False beyond the ends of
+ * the profile */
+TARGET static inline int OF(find_pieces)(const double *place, int near, int pieces, const double *ends, const double *cy,
+                                         const double *cz, OF(four_pieces) *at) {
+  int k = near;
   for (int lane = 0; lane < 4; lane++) {
-    int k = at->piece[lane];
     if (!(place[lane] >= ends[0] && place[lane] <= ends[pieces])) return 0;
     while (place[lane] > ends[k + 1]) k++;
     while (place[lane] < ends[k]) k--;
@@ -21,15 +22,15 @@ TARGET static inline int OF(find_pieces)(const double *place, int pieces, const 
     at->start[lane] = ends[k];
     at->end[lane] = ends[k + 1];
   }
-  const int *k = at->piece;
-  at->y0 = OF_PIECES(cy, k, 0);
-  at->y1 = OF_PIECES(cy, k, 1);
-  at->y2 = OF_PIECES(cy, k, 2);
-  at->y3 = OF_PIECES(cy, k, 3);
-  at->z0 = OF_PIECES(cz, k, 0);
-  at->z1 = OF_PIECES(cz, k, 1);
-  at->z2 = OF_PIECES(cz, k, 2);
-  at->z3 = OF_PIECES(cz, k, 3);
+  const int *of = at->piece;
+  at->y0 = OF_PIECES(cy, of, 0);
+  at->y1 = OF_PIECES(cy, of, 1);
+  at->y2 = OF_PIECES(cy, of, 2);
+  at->y3 = OF_PIECES(cy, of, 3);
+  at->z0 = OF_PIECES(cz, of, 0);
+  at->z1 = OF_PIECES(cz, of, 1);
+  at->z2 = OF_PIECES(cz, of, 2);
+  at->z3 = OF_PIECES(cz, of, 3);
   return 1;
 }
 
@@ -43,8 +44,7 @@ TARGET static int OF(meet)(int pieces, const double *ends, const double *cy, con
   for (int g = 0; g < 2; g++) {
     p[g] = READ_FOUR(place + 4 * g);
     h[g] = READ_FOUR(n + 4 * g);
-    for (int lane = 0; lane < 4; lane++) at[g].piece[lane] = g == 0 ? *piece - 1 : at[0].piece[0];
-    if (!OF(find_pieces)((const double *)(p + g), pieces, ends, cy, cz, at + g)) return 0;
+    if (!OF(find_pieces)((const double *)(p + g), g == 0 ? *piece - 1 : at[0].piece[3], pieces, ends, cy, cz, at + g)) return 0;
   }
   *piece = at[0].piece[0] + 1;
   for (int step = 0; step < most_steps; step++) {
@@ -69,7 +69,7 @@ TARGET static int OF(meet)(int pieces, const double *ends, const double *cy, con
     if (!ALL_OF(fits)) return 0;
     if (!ALL_OF(inside)) {
       for (int g = 0; g < 2; g++)
-        if (!OF(find_pieces)((const double *)(p + g), pieces, ends, cy, cz, at + g)) return 0;
+        if (!OF(find_pieces)((const double *)(p + g), at[g].piece[0], pieces, ends, cy, cz, at + g)) return 0;
     }
     if (!ALL_OF(solved)) continue;
     for (int g = 0; g < 2; g++) {
