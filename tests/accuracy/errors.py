@@ -45,8 +45,8 @@ FIRST_NUMBERS, FIRST_BOUNDS = (18, 26, 46, 62, 71, 79, 80, 89), {"forces": (0.3,
 #: all kinds, and bounds against the rms over offsets
 SIGNED_SEED, SIGNED_COUNT, SIGNED_NUMBERS = 84001, 96, (6, 30, 45, 56, 71, 83)
 SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9), "max_tresca": (0.2, 5.0, 0.9)}
-#: Wheels whose largest pressure is at the edge of a profile section, or in a second strip of one element, by the first order: seeds,
-#: counts, numbers of the wheels, and bounds against the rms over sizes of the elements
+#: Wheels whose largest pressure is at the edge of a profile section, or in a second strip of one element, by the first order:
+#: seeds, counts, numbers of the wheels, and bounds against the rms over sizes of the elements
 PEAK_WHEELS = ((90101, 30, (7, 11, 17, 22)), (98001, 100, (84,)))
 PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
