@@ -3,8 +3,8 @@
  *
  * Each argument is passed by its address, single numbers included. Arrays are preceded by their
  * length; texts need no terminating null. No address is kept after a call.
- * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between
- * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md describes all. */
+ * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units selects mm or
+ * m. The named numbers are in caddon_flags.h; the library is described in doc/user/library.md. */
 #ifndef CONTACT_ADDON_H
 #define CONTACT_ADDON_H
 
@@ -440,11 +440,11 @@ void cntc_getmicroslip(const int *ire, const int *icp, const int *lenarr, double
 void cntc_getdisplacements(const int *ire, const int *icp, const int *lenarr, double *un,
                            double *ux, double *uy);
 
-/* Get derivatives of forces by approach and creepages.
+/* Get derivatives of forces with respect to approach and creepages.
  *   lenout, lenin: numbers of rows and columns
  *   sens: rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns, one after the
- *       other: approach [L], creepages and spin; on body 1 and by the creepages as they are set,
- *       in all units; zero if not computed, see the flag CNTC_ic_sens */
+ *       other: approach [L], creepages and spin; on body 1 and with respect to the creepages as
+ *       set, in all units; zero if not computed, see the flag CNTC_ic_sens */
 void cntc_getsensitivities(const int *ire, const int *icp, const int *lenout, const int *lenin,
                            double *sens);
 

@@ -17,22 +17,22 @@
 %   plot_2dspline   - the surface of a profile that varies along the rail or around the wheel.
 %   plot_update     - two profiles and their difference, magnified.
 %   plot_arrow      - an arrow in two or three dimensions.
-%   plot_cm         - the sign of a centre of mass.
+%   plot_cm         - the symbol of a centre of mass.
 %   circ_arrow      - an arrow along a circle.
-%   plot_axes       - two axes of coordinates with their names.
-%   plot_axes3      - three axes of coordinates in space.
-%   cntc_boundbox   - the rectangle that holds the elements in contact.
-%   matlab_color    - colours of lines by their numbers.
+%   plot_axes       - two coordinate axes with their names.
+%   plot_axes3      - three coordinate axes in space.
+%   cntc_boundbox   - bounding rectangle of the elements in contact.
+%   matlab_color    - line colours by their numbers.
 %
-% Fields of structs whose names have dots, as 'kincns.t_digit'.
+% Access to fields by names with dots, such as 'kincns.t_digit'.
 %
-%   mygetfield      - the field of a struct.
-%   mysetfield      - set it.
-%   myisfield       - is it there?
+%   mygetfield      - get a field.
+%   mysetfield      - set a field.
+%   myisfield       - does a struct have a field?
 %
 % Wheel and rail profiles.
 %
-%   read_profile    - read a profile of any kind.
+%   read_profile    - read a profile in any of the formats.
 %   read_slices     - read a profile that varies along the rail or around the wheel.
 %   read_simpack    - read a Simpack file (prr, prw).
 %   read_miniprof   - read a Miniprof file (ban, whl) or a table.
@@ -45,10 +45,10 @@
 %   eval_2dspline   - points on it, at given u and v or given u and y.
 %   eval_2dspline_deriv - its first derivatives.
 %   eval_bspline_basisfnc - B-splines at points.
-%   make_ppform     - polynomials of the pieces of a curve of B-splines.
-%   solve_cubic_eq  - where one piece of a spline takes a value.
-%   make_reflec     - angles at which a surface mirrors a light.
-%   make_arclength  - positions of the points of a profile along it.
+%   make_ppform     - piecewise polynomials of a B-spline curve.
+%   solve_cubic_eq  - position at which one piece of a spline has a given value.
+%   make_reflec     - reflection angles of a surface.
+%   make_arclength  - arc length at the points of a profile.
 %   modify_profile  - mirror, scale and order the points of a profile.
 %   resample_slices - corresponding points on the slices of a varying profile.
 %   write_simpack   - write a Simpack file.
@@ -67,7 +67,7 @@
 %
 % The library: settings of both modules.
 %
-%   cntc_setmaterialproperties  - set elastic bodies; short for cntc_setmaterialparameters with M = 0.
+%   cntc_setmaterialproperties  - set elastic bodies; abbreviation of cntc_setmaterialparameters with M = 0.
 %   cntc_setflags               - set flags and control digits.
 %   cntc_setmetadata            - set data that are written to the .mat files.
 %   cntc_setsolverflags         - set solution methods and their parameters by the G digit.
@@ -83,7 +83,7 @@
 %
 % The library: settings of basic contact.
 %
-%   cntc_setinterfaciallayer    - set a layer between the bodies, by an older name; elastic constants stay.
+%   cntc_setinterfaciallayer    - set a layer between the bodies, older name; elastic constants are kept.
 %   cntc_setreferencevelocity   - set the rolling velocity (basic contact).
 %   cntc_sethertzcontact        - set a Hertzian geometry and its grid (basic contact).
 %   cntc_setpenetration         - prescribe the approach of the bodies (basic contact); sets N = 0.
@@ -94,8 +94,8 @@
 %
 % The library: settings of wheel and rail.
 %
-%   cntc_settrackdimensions_new - an older name of cntc_settrackdimensions.
-%   cntc_settrackdimensions_old - set the track by an older order of values.
+%   cntc_settrackdimensions_new - older name of cntc_settrackdimensions.
+%   cntc_settrackdimensions_old - set the track by values in an older order.
 %   cntc_setverticalforce       - prescribe the vertical force of wheel on rail; sets N = 1.
 %   cntc_setprofileinputfname   - set the profile of wheel or rail by the name of a file.
 %   cntc_setprofileinputvalues  - set the profile of wheel or rail by its points.
@@ -139,7 +139,7 @@
 %   cntc_gettractions           - get the tractions of each element.
 %   cntc_getmicroslip           - get the slip of each element.
 %   cntc_getdisplacements       - get the displacement differences of each element.
-%   cntc_getsensitivities       - get derivatives of forces by approach and creepages.
+%   cntc_getsensitivities       - get derivatives of forces with respect to approach and creepages.
 %   cntc_getcalculationtime     - get the time of the calculations.
 %   cntc_resetcalculationtime   - set the time of the calculations to zero.
 %

@@ -24,7 +24,7 @@ function [ h ] = circ_arrow( pos_c, r, th0, th1, col, scale, width, rot )
    if (~any(n==[2 3]))
       error('circ_arrow: pos_c must have 2 or 3 numbers, it has %d.', n);
    end
-   % one radius counts for both directions
+% one radius applies to both directions
    r = [r(1), r(end)];
    if (r(1)<0)
       r = [abs(r(1)), -abs(r(2))];
@@ -32,7 +32,7 @@ function [ h ] = circ_arrow( pos_c, r, th0, th1, col, scale, width, rot )
    point = @(th) [r(1)*cosd(th); r(2)*sind(th); 0*th];
    arc = point(linspace(th0, th1, max(7, 1+ceil(abs(th1-th0)/3))));
    tip = point(th1);
-   % the middle of the back of the head is on the arc, too
+   % the middle of the rear edge of the head is on the arc, too
    back = tip - point(th1 - sign(th1-th0)*min(0.25*scale*180/pi, abs(th1-th0)));
    side = width*tan(15*pi/180) * [-back(2); back(1); 0];
    head = [tip-back+side, tip, tip-back-side];

@@ -2,7 +2,7 @@ function [ bbox ] = cntc_boundbox( sol, bbox )
 % CNTC_BOUNDBOX  Bounding rectangle of the elements in contact.
 %
 %   bbox = cntc_boundbox( sol )
-%   bbox = cntc_boundbox( sol, bbox )      enlarged to contain the given one, too
+%   bbox = cntc_boundbox( sol, bbox )      enlarged to contain the given one
 %
 %   sol      struct of LOADCASE or cntc_getcpresults, or an array of them
 %   bbox     [xmin xmax ymin ymax] [mm], for AXIS; [] without contact

@@ -21,6 +21,6 @@ function [ ierror ] = cntc_calculate( ire, icp, idebug )
       idebug = cntc_library('idebug');
    end
    ierror = cntc_call('cntc_calculate', ire, icp, []);
-   cntc_tell('cntc_calculate', ire, icp, ierror, idebug);
+   cntc_report_errors('cntc_calculate', ire, icp, ierror, idebug);
 
 end % function cntc_calculate

@@ -16,6 +16,6 @@ function [ tcpu, twall ] = cntc_getcalculationtime( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcalculationtime');
    [tcpu, twall] = cntc_call('cntc_getcalculationtime', ire, icp, [], []);
-   cntc_tell('cntc_getcalculationtime', ire, icp);
+   cntc_report_errors('cntc_getcalculationtime', ire, icp);
 
 end % function cntc_getcalculationtime

@@ -18,6 +18,6 @@ function [ fn, tx, ty, mz ] = cntc_getcontactforces( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcontactforces');
    [fn, tx, ty, mz] = cntc_call('cntc_getcontactforces', ire, icp, [], [], [], []);
-   cntc_tell('cntc_getcontactforces', ire, icp);
+   cntc_report_errors('cntc_getcontactforces', ire, icp);
 
 end % function cntc_getcontactforces

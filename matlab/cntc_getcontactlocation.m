@@ -23,6 +23,6 @@ function [ rvalues ] = cntc_getcontactlocation( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcontactlocation');
    rvalues = cntc_call('cntc_getcontactlocation', ire, icp, 38, zeros(38,1));
-   cntc_tell('cntc_getcontactlocation', ire, icp);
+   cntc_report_errors('cntc_getcontactlocation', ire, icp);
 
 end % function cntc_getcontactlocation

@@ -14,9 +14,9 @@ function [ carea, harea, sarea, parea ] = cntc_getcontactpatchareas( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcontactpatchareas');
    [carea, harea, sarea] = cntc_call('cntc_getcontactpatchareas', ire, icp, [], [], []);
-   cntc_tell('cntc_getcontactpatchareas', ire, icp);
+   cntc_report_errors('cntc_getcontactpatchareas', ire, icp);
    parea = carea - harea - sarea;
-   if parea <= 1e-9*carea   % areas are whole numbers of elements: rounding
+   if parea <= 1e-9*carea   % areas are multiples of the element area: this is round-off
       parea = 0;
    end
 

@@ -4,10 +4,10 @@ function [ sol ] = cntc_getcpresults( ire, icp )
 %   sol = cntc_getcpresults( ire, icp )
 %
 %   ire, icp   result element and contact patch or problem (default 1, 1)
-%   sol        struct as that of loadcase. For wheel and rail it has the profiles prr and prw too, so that
-%              plot3d( sol, opt ) needs no others. The radius of rollers is not known (Inf).
+%   sol        struct like that of loadcase. For wheel and rail it includes the profiles prr and prw, so that
+%              plot3d( sol, opt ) needs no other profiles. The radius of rollers is not known (Inf).
 %
-% Use CONTACT units, which have mm and tractions on the rail; profiles are in mm in all units.
+% Use CONTACT units (mm, tractions on the rail); profiles are in mm whatever the units.
 %
 % See also: loadcase, plot3d, cntc_gettractions.
 
@@ -19,17 +19,17 @@ function [ sol ] = cntc_getcpresults( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcpresults');
    CNTC = cntc_getmagicnumbers();
-   % a routine that is for wheel and rail only leaves its result alone in basic contact
+   % a routine for wheel and rail leaves its result unchanged in basic contact
    npatch = cntc_call('cntc_getnumcontactpatches', ire, -999);
    wheel_rail = (npatch~=-999);
    whole = icp;
    if (wheel_rail)
       whole = -1;
       if (icp>npatch)
-         error('cntc_getcpresults: there are %d contact patches, number %d was asked for.', npatch, icp);
+         error('cntc_getcpresults: there are %d contact patches, number %d was requested.', npatch, icp);
       end
    elseif (cntc_library('mex'))
-      % its complaint is no news
+      % its error message is expected and is discarded
       cntc_mex('error', ire, -1);
       cntc_mex('error', 0, -1);
    end

@@ -17,6 +17,6 @@ function [ vx, vy, phi ] = cntc_getcreepages( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcreepages');
    [vx, vy, phi] = cntc_call('cntc_getcreepages', ire, icp, [], [], []);
-   cntc_tell('cntc_getcreepages', ire, icp);
+   cntc_report_errors('cntc_getcreepages', ire, icp);
 
 end % function cntc_getcreepages

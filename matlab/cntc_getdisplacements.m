@@ -5,7 +5,7 @@ function [ un, ux, uy ] = cntc_getdisplacements( ire, icp )
 %
 %   ire, icp    result element and contact patch or problem (default 1, 1)
 %   un, ux, uy  normal and tangential differences [L]
-%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%   Values of elements are (my,mx) arrays; 0 if there is no grid yet.
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
@@ -24,7 +24,7 @@ function [ un, ux, uy ] = cntc_getdisplacements( ire, icp )
       return
    end
    [un, ux, uy] = cntc_call('cntc_getdisplacements', ire, icp, mx*my, zeros(mx,my), zeros(mx,my), zeros(mx,my));
-   cntc_tell('cntc_getdisplacements', ire, icp);
+   cntc_report_errors('cntc_getdisplacements', ire, icp);
    un = un';
    ux = ux';
    uy = uy';

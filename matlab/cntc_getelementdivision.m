@@ -5,7 +5,7 @@ function [ eldiv ] = cntc_getelementdivision( ire, icp )
 %
 %   ire, icp  result element and contact patch or problem (default 1, 1)
 %   eldiv     0 exterior, 1 adhesion, 2 slip, 3 plastic
-%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%   Values of elements are (my,mx) arrays; 0 if there is no grid yet.
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
@@ -22,7 +22,7 @@ function [ eldiv ] = cntc_getelementdivision( ire, icp )
       return
    end
    eldiv = cntc_call('cntc_getelementdivision', ire, icp, mx*my, zeros(mx,my));
-   cntc_tell('cntc_getelementdivision', ire, icp);
+   cntc_report_errors('cntc_getelementdivision', ire, icp);
    eldiv = eldiv';
 
 end % function cntc_getelementdivision

@@ -19,6 +19,6 @@ function [ rvalues ] = cntc_geterrors( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_geterrors');
    rvalues = cntc_call('cntc_geterrors', ire, icp, 12, zeros(12,1));
-   cntc_tell('cntc_geterrors', ire, icp);
+   cntc_report_errors('cntc_geterrors', ire, icp);
 
 end % function cntc_geterrors

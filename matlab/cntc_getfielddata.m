@@ -6,7 +6,7 @@ function [ fld ] = cntc_getfielddata( ire, icp, ifld )
 %   ire, icp  result element and contact patch or problem (default 1, 1)
 %   ifld      CNTC.fld_* (default CNTC.fld_pn)
 %   fld       value of each element, in the unit of the field
-%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%   Values of elements are (my,mx) arrays; 0 if there is no grid yet.
 %
 % See also: cntc_getmagicnumbers.
 %
@@ -28,7 +28,7 @@ function [ fld ] = cntc_getfielddata( ire, icp, ifld )
       return
    end
    fld = cntc_call('cntc_getfielddata', ire, icp, ifld, mx*my, zeros(mx,my));
-   cntc_tell('cntc_getfielddata', ire, icp);
+   cntc_report_errors('cntc_getfielddata', ire, icp);
    fld = fld';
 
 end % function cntc_getfielddata

@@ -19,6 +19,6 @@ function [ values ] = cntc_getflags( ire, icp, params )
    end
    [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_getflags');
    values = cntc_call('cntc_getflags', ire, icp, numel(params), params, zeros(numel(params),1));
-   cntc_tell('cntc_getflags', ire, icp);
+   cntc_report_errors('cntc_getflags', ire, icp);
 
 end % function cntc_getflags

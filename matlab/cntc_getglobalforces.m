@@ -19,6 +19,6 @@ function [ rvalues ] = cntc_getglobalforces( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_getglobalforces');
    rvalues = cntc_call('cntc_getglobalforces', ire, icp, 24, zeros(24,1));
-   cntc_tell('cntc_getglobalforces', ire, icp);
+   cntc_report_errors('cntc_getglobalforces', ire, icp);
 
 end % function cntc_getglobalforces

@@ -16,6 +16,6 @@ function [ dx, dy ] = cntc_getgriddiscretization( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getgriddiscretization');
    [dx, dy] = cntc_call('cntc_getgriddiscretization', ire, icp, [], []);
-   cntc_tell('cntc_getgriddiscretization', ire, icp);
+   cntc_report_errors('cntc_getgriddiscretization', ire, icp);
 
 end % function cntc_getgriddiscretization

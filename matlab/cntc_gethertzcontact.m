@@ -17,6 +17,6 @@ function [ rvalues ] = cntc_gethertzcontact( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_gethertzcontact');
    rvalues = cntc_call('cntc_gethertzcontact', ire, icp, 10, zeros(10,1));
-   cntc_tell('cntc_gethertzcontact', ire, icp);
+   cntc_report_errors('cntc_gethertzcontact', ire, icp);
 
 end % function cntc_gethertzcontact

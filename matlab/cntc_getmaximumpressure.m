@@ -16,6 +16,6 @@ function [ pnmax ] = cntc_getmaximumpressure( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getmaximumpressure');
    pnmax = cntc_call('cntc_getmaximumpressure', ire, icp, []);
-   cntc_tell('cntc_getmaximumpressure', ire, icp);
+   cntc_report_errors('cntc_getmaximumpressure', ire, icp);
 
 end % function cntc_getmaximumpressure

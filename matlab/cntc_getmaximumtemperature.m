@@ -16,6 +16,6 @@ function [ t1max, t2max ] = cntc_getmaximumtemperature( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getmaximumtemperature');
    [t1max, t2max] = cntc_call('cntc_getmaximumtemperature', ire, icp, [], []);
-   cntc_tell('cntc_getmaximumtemperature', ire, icp);
+   cntc_report_errors('cntc_getmaximumtemperature', ire, icp);
 
 end % function cntc_getmaximumtemperature

@@ -16,6 +16,6 @@ function [ ptmax ] = cntc_getmaximumtraction( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getmaximumtraction');
    ptmax = cntc_call('cntc_getmaximumtraction', ire, icp, []);
-   cntc_tell('cntc_getmaximumtraction', ire, icp);
+   cntc_report_errors('cntc_getmaximumtraction', ire, icp);
 
 end % function cntc_getmaximumtraction

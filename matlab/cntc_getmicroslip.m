@@ -5,7 +5,7 @@ function [ sx, sy ] = cntc_getmicroslip( ire, icp )
 %
 %   ire, icp  result element and contact patch or problem (default 1, 1)
 %   sx, sy    relative slip velocities [-], in shifts distances [mm]
-%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%   Values of elements are (my,mx) arrays; 0 if there is no grid yet.
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
@@ -23,7 +23,7 @@ function [ sx, sy ] = cntc_getmicroslip( ire, icp )
       return
    end
    [sx, sy] = cntc_call('cntc_getmicroslip', ire, icp, mx*my, zeros(mx,my), zeros(mx,my));
-   cntc_tell('cntc_getmicroslip', ire, icp);
+   cntc_report_errors('cntc_getmicroslip', ire, icp);
    sx = sx';
    sy = sy';
 

@@ -13,6 +13,6 @@ function [ npatch ] = cntc_getnumcontactpatches( ire )
    end
    ire = cntc_ids(ire);
    npatch = cntc_call('cntc_getnumcontactpatches', ire, []);
-   cntc_tell('cntc_getnumcontactpatches', ire, -1);
+   cntc_report_errors('cntc_getnumcontactpatches', ire, -1);
 
 end % function cntc_getnumcontactpatches

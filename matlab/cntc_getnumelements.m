@@ -16,6 +16,6 @@ function [ mx, my ] = cntc_getnumelements( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getnumelements');
    [mx, my] = cntc_call('cntc_getnumelements', ire, icp, [], []);
-   cntc_tell('cntc_getnumelements', ire, icp);
+   cntc_report_errors('cntc_getnumelements', ire, icp);
 
 end % function cntc_getnumelements

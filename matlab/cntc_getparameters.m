@@ -29,7 +29,7 @@ function [ sol ] = cntc_getparameters( ire, icp, itask )
    % friction of up to 1000 rows
    len = 30 + 3000*(itask==3);
    v   = cntc_call('cntc_getparameters', ire, icp, itask, len, zeros(len,1));
-   cntc_tell('cntc_getparameters', ire, icp);
+   cntc_report_errors('cntc_getparameters', ire, icp);
    sol = struct();
    for i = 1 : numel(names{itask})
       sol.(names{itask}{i}) = v(i);

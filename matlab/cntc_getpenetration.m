@@ -16,6 +16,6 @@ function [ pen ] = cntc_getpenetration( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getpenetration');
    pen = cntc_call('cntc_getpenetration', ire, icp, []);
-   cntc_tell('cntc_getpenetration', ire, icp);
+   cntc_report_errors('cntc_getpenetration', ire, icp);
 
 end % function cntc_getpenetration

@@ -16,7 +16,7 @@ function [ mx, my, xc1, yc1, dx, dy ] = cntc_getpotcontact( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getpotcontact');
    v = cntc_call('cntc_getpotcontact', ire, icp, 6, zeros(6,1));
-   cntc_tell('cntc_getpotcontact', ire, icp);
+   cntc_report_errors('cntc_getpotcontact', ire, icp);
    mx  = round(v(1));   my  = round(v(2));
    xc1 = v(3);          yc1 = v(4);
    dx  = v(5);          dy  = v(6);

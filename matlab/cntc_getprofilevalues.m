@@ -1,5 +1,5 @@
 function [ values ] = cntc_getprofilevalues( ire, itask, iparam, rparam )
-% CNTC_GETPROFILEVALUES  Get a profile as the library sees it.
+% CNTC_GETPROFILEVALUES  Get a profile as used by the library.
 %
 %   values = cntc_getprofilevalues( ire, itask, iparam, rparam )
 %
@@ -15,7 +15,7 @@ function [ values ] = cntc_getprofilevalues( ire, itask, iparam, rparam )
 %   iparam   itype: 0 rail, 1 wheel; isampl: -1 points of the input, 0 of the spline (default), 1 equal distances,
 %            n > 1 n steps between points of the spline
 %   rparam   distance of points [mm] (default 1), and for varying profiles: position [mm] or [rad], first and last
-%            place on the line
+%            position on the line
 
    if (nargin<1)
       ire = [];
@@ -34,7 +34,7 @@ function [ values ] = cntc_getprofilevalues( ire, itask, iparam, rparam )
    else
       n = cntc_call('cntc_getprofilevalues', ire, 0, numel(iparam), iparam, numel(rparam), rparam, 1, 0);
    end
-   cntc_tell('cntc_getprofilevalues', ire, -1);
+   cntc_report_errors('cntc_getprofilevalues', ire, -1);
    if (itask==0 && n>0)
       values = n;
       return
@@ -51,13 +51,13 @@ function [ values ] = cntc_getprofilevalues( ire, itask, iparam, rparam )
       return
    end
    v = cntc_call('cntc_getprofilevalues', ire, itask, numel(iparam), iparam, numel(rparam), rparam, n*width, zeros(n,width));
-   cntc_tell('cntc_getprofilevalues', ire, -1);
+   cntc_report_errors('cntc_getprofilevalues', ire, -1);
    if (itask==9)
       return
    elseif (itask==-1)
       v = v(1:2);
    elseif (width==3)
-      % marks of the library for places without surface
+      % values by which the library marks positions without surface
       nothing = any(v(:,1)>98e9, 2) | any(v(:,2:3)>998, 2);
       v(nothing,:) = NaN;
    end

@@ -16,6 +16,6 @@ function [ veloc ] = cntc_getreferencevelocity( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getreferencevelocity');
    veloc = cntc_call('cntc_getreferencevelocity', ire, icp, []);
-   cntc_tell('cntc_getreferencevelocity', ire, icp);
+   cntc_report_errors('cntc_getreferencevelocity', ire, icp);
 
 end % function cntc_getreferencevelocity

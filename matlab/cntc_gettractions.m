@@ -5,7 +5,7 @@ function [ pn, px, py ] = cntc_gettractions( ire, icp )
 %
 %   ire, icp    result element and contact patch or problem (default 1, 1)
 %   pn, px, py  normal and tangential tractions [F/L2]
-%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%   Values of elements are (my,mx) arrays; 0 if there is no grid yet.
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
@@ -24,7 +24,7 @@ function [ pn, px, py ] = cntc_gettractions( ire, icp )
       return
    end
    [pn, px, py] = cntc_call('cntc_gettractions', ire, icp, mx*my, zeros(mx,my), zeros(mx,my), zeros(mx,my));
-   cntc_tell('cntc_gettractions', ire, icp);
+   cntc_report_errors('cntc_gettractions', ire, icp);
    pn = pn';
    px = px';
    py = py';

@@ -19,6 +19,6 @@ function [ rvalues ] = cntc_getwear( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getwear');
    rvalues = cntc_call('cntc_getwear', ire, icp, 11, zeros(11,1));
-   cntc_tell('cntc_getwear', ire, icp);
+   cntc_report_errors('cntc_getwear', ire, icp);
 
 end % function cntc_getwear

@@ -13,6 +13,6 @@ function [ rvalues ] = cntc_getwheelsetposition( ire )
    end
    ire = cntc_ids(ire);
    rvalues = cntc_call('cntc_getwheelsetposition', ire, 6, zeros(6,1));
-   cntc_tell('cntc_getwheelsetposition', ire, -1);
+   cntc_report_errors('cntc_getwheelsetposition', ire, -1);
 
 end % function cntc_getwheelsetposition

@@ -13,6 +13,6 @@ function [ rvalues ] = cntc_getwheelsetvelocity( ire )
    end
    ire = cntc_ids(ire);
    rvalues = cntc_call('cntc_getwheelsetvelocity', ire, 6, zeros(6,1));
-   cntc_tell('cntc_getwheelsetvelocity', ire, -1);
+   cntc_report_errors('cntc_getwheelsetvelocity', ire, -1);
 
 end % function cntc_getwheelsetvelocity

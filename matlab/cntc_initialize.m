@@ -24,6 +24,6 @@ function [ ifcver, ierror ] = cntc_initialize( ire, imodul, outdir, idebug )
       idebug = cntc_library('idebug');
    end
    [ifcver, ierror] = cntc_call('cntc_initialize', ire, imodul, [], [], outdir, numel(outdir));
-   cntc_tell('cntc_initialize', ire, -1, ierror, idebug);
+   cntc_report_errors('cntc_initialize', ire, -1, ierror, idebug);
 
 end % function cntc_initialize

@@ -12,8 +12,8 @@ function [ CNTC, ifcver, ierror ] = cntc_initlibrary( wrkdir, outdir, expnam, id
 %   ifcver     version of the interface
 %   ierror     0, or a negative code
 %
-%   A library that is loaded already begins a new run. It is searched in bin or build/release/bin beside this folder,
-%   or given by the environment variable CONTACT_LIBRARY. Octave needs cntc_buildmex once.
+%   If the library is already loaded, a new run begins. The library is the one named by the environment variable
+%   CONTACT_LIBRARY, or is searched for in bin or build/release/bin beside this folder. Octave needs cntc_buildmex once.
 %
 % See also: cntc_buildmex, cntc_initialize, cntc_closelibrary.
 
@@ -44,7 +44,7 @@ function [ CNTC, ifcver, ierror ] = cntc_initlibrary( wrkdir, outdir, expnam, id
    if (~skip_init)
       [ifcver, ierror] = cntc_call('cntc_initializefirst_new', [], 0, 0, wrkdir, outdir, expnam, ...
                                    numel(wrkdir), numel(outdir), numel(expnam));
-      cntc_tell('cntc_initializefirst_new', 0, -1, ierror, idebug);
+      cntc_report_errors('cntc_initializefirst_new', 0, -1, ierror, idebug);
    end
 
 end % function cntc_initlibrary

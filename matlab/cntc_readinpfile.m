@@ -15,6 +15,6 @@ function [ ierror ] = cntc_readinpfile( ire, inp_type, fname )
    end
    ire = cntc_ids(ire);
    ierror = cntc_call('cntc_readinpfile', ire, inp_type, fname, numel(fname), []);
-   cntc_tell('cntc_readinpfile', ire, -1, ierror);
+   cntc_report_errors('cntc_readinpfile', ire, -1, ierror);
 
 end % function cntc_readinpfile

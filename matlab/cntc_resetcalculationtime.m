@@ -15,6 +15,6 @@ function cntc_resetcalculationtime( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_resetcalculationtime');
    cntc_call('cntc_resetcalculationtime', ire, icp);
-   cntc_tell('cntc_resetcalculationtime', ire, icp);
+   cntc_report_errors('cntc_resetcalculationtime', ire, icp);
 
 end % function cntc_resetcalculationtime

@@ -17,6 +17,6 @@ function cntc_setcreepages( ire, icp, vx, vy, phi )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_setcreepages');
    cntc_call('cntc_setcreepages', ire, icp, vx, vy, phi);
-   cntc_tell('cntc_setcreepages', ire, icp);
+   cntc_report_errors('cntc_setcreepages', ire, icp);
 
 end % function cntc_setcreepages

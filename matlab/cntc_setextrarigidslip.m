@@ -22,6 +22,6 @@ function cntc_setextrarigidslip( ire, icp, wx, wy )
    wx = wx';
    wy = wy';
    cntc_call('cntc_setextrarigidslip', ire, icp, numel(wx), wx(:), wy(:));
-   cntc_tell('cntc_setextrarigidslip', ire, icp);
+   cntc_report_errors('cntc_setextrarigidslip', ire, icp);
 
 end % function cntc_setextrarigidslip

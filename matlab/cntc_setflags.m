@@ -22,6 +22,6 @@ function cntc_setflags( ire, icp, params, values )
       error('cntc_setflags: there are %d params and %d values.', numel(params), numel(values));
    end
    cntc_call('cntc_setflags', ire, icp, numel(params), params, values);
-   cntc_tell('cntc_setflags', ire, icp);
+   cntc_report_errors('cntc_setflags', ire, icp);
 
 end % function cntc_setflags

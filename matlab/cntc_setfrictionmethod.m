@@ -30,6 +30,6 @@ function cntc_setfrictionmethod( ire, icp, imeth, params )
       params = [];
    end
    cntc_call('cntc_setfrictionmethod', ire, icp, imeth, numel(params), params);
-   cntc_tell('cntc_setfrictionmethod', ire, icp);
+   cntc_report_errors('cntc_setfrictionmethod', ire, icp);
 
 end % function cntc_setfrictionmethod

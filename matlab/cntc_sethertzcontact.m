@@ -22,6 +22,6 @@ function cntc_sethertzcontact( ire, icp, ipotcn, params )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_sethertzcontact');
    cntc_call('cntc_sethertzcontact', ire, icp, ipotcn, numel(params), params);
-   cntc_tell('cntc_sethertzcontact', ire, icp);
+   cntc_report_errors('cntc_sethertzcontact', ire, icp);
 
 end % function cntc_sethertzcontact

@@ -1,5 +1,5 @@
 function cntc_setinterfaciallayer( ire, icp, imeth, params )
-% CNTC_SETINTERFACIALLAYER  Set a layer between the bodies, by an older name; elastic constants stay.
+% CNTC_SETINTERFACIALLAYER  Set a layer between the bodies, older name; elastic constants are kept.
 %
 %   cntc_setinterfaciallayer( ire, icp, imeth, params )
 %

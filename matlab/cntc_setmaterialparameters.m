@@ -34,6 +34,6 @@ function cntc_setmaterialparameters( ire, icp, imeth, rparam )
       rparam = [];
    end
    cntc_call('cntc_setmaterialparameters', ire, icp, imeth, numel(rparam), rparam);
-   cntc_tell('cntc_setmaterialparameters', ire, icp);
+   cntc_report_errors('cntc_setmaterialparameters', ire, icp);
 
 end % function cntc_setmaterialparameters

@@ -1,5 +1,5 @@
 function cntc_setmaterialproperties( ire, icp, g1, nu1, g2, nu2 )
-% CNTC_SETMATERIALPROPERTIES  Set elastic bodies; short for cntc_setmaterialparameters with M = 0.
+% CNTC_SETMATERIALPROPERTIES  Set elastic bodies; abbreviation of cntc_setmaterialparameters with M = 0.
 %
 %   cntc_setmaterialproperties( ire, icp, g1, nu1, g2, nu2 )
 %

@@ -22,6 +22,6 @@ function cntc_setmetadata( ire, icp, params, values )
       error('cntc_setmetadata: there are %d params and %d values.', numel(params), numel(values));
    end
    cntc_call('cntc_setmetadata', ire, icp, numel(params), params, values);
-   cntc_tell('cntc_setmetadata', ire, icp);
+   cntc_report_errors('cntc_setmetadata', ire, icp);
 
 end % function cntc_setmetadata

@@ -16,6 +16,6 @@ function cntc_setnormalforce( ire, icp, fn )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_setnormalforce');
    cntc_call('cntc_setnormalforce', ire, icp, fn);
-   cntc_tell('cntc_setnormalforce', ire, icp);
+   cntc_report_errors('cntc_setnormalforce', ire, icp);
 
 end % function cntc_setnormalforce

@@ -16,6 +16,6 @@ function cntc_setpenetration( ire, icp, pen )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_setpenetration');
    cntc_call('cntc_setpenetration', ire, icp, pen);
-   cntc_tell('cntc_setpenetration', ire, icp);
+   cntc_report_errors('cntc_setpenetration', ire, icp);
 
 end % function cntc_setpenetration

@@ -24,6 +24,6 @@ function cntc_setpotcontact( ire, icp, ipotcn, params )
    end
    [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_setpotcontact');
    cntc_call('cntc_setpotcontact', ire, icp, ipotcn, numel(params), params);
-   cntc_tell('cntc_setpotcontact', ire, icp);
+   cntc_report_errors('cntc_setpotcontact', ire, icp);
 
 end % function cntc_setpotcontact

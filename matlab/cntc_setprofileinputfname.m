@@ -25,6 +25,6 @@ function cntc_setprofileinputfname( ire, fname, iparam, rparam )
       rparam = [1 0];
    end
    cntc_call('cntc_setprofileinputfname', ire, fname, numel(fname), numel(iparam), iparam, numel(rparam), rparam);
-   cntc_tell('cntc_setprofileinputfname', ire, -1);
+   cntc_report_errors('cntc_setprofileinputfname', ire, -1);
 
 end % function cntc_setprofileinputfname

@@ -25,6 +25,6 @@ function cntc_setprofileinputvalues( ire, values, iparam, rparam )
       values = values';
    end
    cntc_call('cntc_setprofileinputvalues', ire, numel(values)/2, values(:), numel(iparam), iparam, numel(rparam), rparam);
-   cntc_tell('cntc_setprofileinputvalues', ire, -1);
+   cntc_report_errors('cntc_setprofileinputvalues', ire, -1);
 
 end % function cntc_setprofileinputvalues

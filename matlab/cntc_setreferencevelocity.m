@@ -16,6 +16,6 @@ function cntc_setreferencevelocity( ire, icp, veloc )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_setreferencevelocity');
    cntc_call('cntc_setreferencevelocity', ire, icp, veloc);
-   cntc_tell('cntc_setreferencevelocity', ire, icp);
+   cntc_report_errors('cntc_setreferencevelocity', ire, icp);
 
 end % function cntc_setreferencevelocity

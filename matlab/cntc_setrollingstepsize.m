@@ -20,6 +20,6 @@ function cntc_setrollingstepsize( ire, icp, chi, dq )
       chi = 0;
    end
    cntc_call('cntc_setrollingstepsize', ire, icp, chi, dq);
-   cntc_tell('cntc_setrollingstepsize', ire, icp);
+   cntc_report_errors('cntc_setrollingstepsize', ire, icp);
 
 end % function cntc_setrollingstepsize

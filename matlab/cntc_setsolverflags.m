@@ -30,6 +30,6 @@ function cntc_setsolverflags( ire, icp, gdigit, iparam, rparam )
       rparam = [];
    end
    cntc_call('cntc_setsolverflags', ire, icp, gdigit, numel(iparam), iparam, numel(rparam), rparam);
-   cntc_tell('cntc_setsolverflags', ire, icp);
+   cntc_report_errors('cntc_setsolverflags', ire, icp);
 
 end % function cntc_setsolverflags

@@ -20,6 +20,6 @@ function cntc_settangentialforces( ire, icp, fx, fy )
       fy = 0;
    end
    cntc_call('cntc_settangentialforces', ire, icp, fx, fy);
-   cntc_tell('cntc_settangentialforces', ire, icp);
+   cntc_report_errors('cntc_settangentialforces', ire, icp);
 
 end % function cntc_settangentialforces

@@ -16,6 +16,6 @@ function cntc_settimestep( ire, icp, dt )
    end
    [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_settimestep');
    cntc_call('cntc_settimestep', ire, icp, dt);
-   cntc_tell('cntc_settimestep', ire, icp);
+   cntc_report_errors('cntc_settimestep', ire, icp);
 
 end % function cntc_settimestep

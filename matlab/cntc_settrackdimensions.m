@@ -23,6 +23,6 @@ function cntc_settrackdimensions( ire, ztrack, params )
       params = [];
    end
    cntc_call('cntc_settrackdimensions', ire, ztrack, numel(params), params);
-   cntc_tell('cntc_settrackdimensions', ire, -1);
+   cntc_report_errors('cntc_settrackdimensions', ire, -1);
 
 end % function cntc_settrackdimensions

@@ -1,5 +1,5 @@
 function cntc_settrackdimensions_new( ire, ztrack, params )
-% CNTC_SETTRACKDIMENSIONS_NEW  An older name of cntc_settrackdimensions.
+% CNTC_SETTRACKDIMENSIONS_NEW  Older name of cntc_settrackdimensions.
 %
 %   cntc_settrackdimensions_new( ire, ztrack, params )
 %

@@ -1,5 +1,5 @@
 function cntc_settrackdimensions_old( ire, ztrack, params )
-% CNTC_SETTRACKDIMENSIONS_OLD  Set the track by an older order of values.
+% CNTC_SETTRACKDIMENSIONS_OLD  Set the track by values in an older order.
 %
 %   cntc_settrackdimensions_old( ire, ztrack, params )
 %

@@ -21,6 +21,6 @@ function cntc_setundeformeddistc( ire, icp, ibase, prmudf )
       prmudf = prmudf';
    end
    cntc_call('cntc_setundeformeddistc', ire, icp, ibase, numel(prmudf), prmudf(:));
-   cntc_tell('cntc_setundeformeddistc', ire, icp);
+   cntc_report_errors('cntc_setundeformeddistc', ire, icp);
 
 end % function cntc_setundeformeddistc

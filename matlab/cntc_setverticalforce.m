@@ -13,6 +13,6 @@ function cntc_setverticalforce( ire, fz )
    end
    ire = cntc_ids(ire);
    cntc_call('cntc_setverticalforce', ire, fz);
-   cntc_tell('cntc_setverticalforce', ire, -1);
+   cntc_report_errors('cntc_setverticalforce', ire, -1);
 
 end % function cntc_setverticalforce

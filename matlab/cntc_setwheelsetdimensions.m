@@ -20,6 +20,6 @@ function cntc_setwheelsetdimensions( ire, ewheel, params )
       params = [];
    end
    cntc_call('cntc_setwheelsetdimensions', ire, ewheel, numel(params), params);
-   cntc_tell('cntc_setwheelsetdimensions', ire, -1);
+   cntc_report_errors('cntc_setwheelsetdimensions', ire, -1);
 
 end % function cntc_setwheelsetdimensions

@@ -20,6 +20,6 @@ function cntc_setwheelsetflexibility( ire, ewheel, params )
       params = [];
    end
    cntc_call('cntc_setwheelsetflexibility', ire, ewheel, numel(params), params);
-   cntc_tell('cntc_setwheelsetflexibility', ire, -1);
+   cntc_report_errors('cntc_setwheelsetflexibility', ire, -1);
 
 end % function cntc_setwheelsetflexibility

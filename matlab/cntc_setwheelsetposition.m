@@ -17,6 +17,6 @@ function cntc_setwheelsetposition( ire, ewheel, params )
       ewheel = 1;
    end
    cntc_call('cntc_setwheelsetposition', ire, ewheel, numel(params), params);
-   cntc_tell('cntc_setwheelsetposition', ire, -1);
+   cntc_report_errors('cntc_setwheelsetposition', ire, -1);
 
 end % function cntc_setwheelsetposition

@@ -17,6 +17,6 @@ function cntc_setwheelsetvelocity( ire, ewheel, params )
       ewheel = 2;
    end
    cntc_call('cntc_setwheelsetvelocity', ire, ewheel, numel(params), params);
-   cntc_tell('cntc_setwheelsetvelocity', ire, -1);
+   cntc_report_errors('cntc_setwheelsetvelocity', ire, -1);
 
 end % function cntc_setwheelsetvelocity

@@ -4,7 +4,7 @@ function [ dif ] = diffcase( sol1, sol2 )
 %   dif = diffcase( sol1, sol2 )
 %
 %   sol1, sol2   structs of LOADCASE for one patch each
-%   dif          struct of the same kind: differences of all fields of both. The element division is that of
+%   dif          struct of the same kind with the differences of all common fields. The element division is that of
 %                sol1, outside its contact area that of sol2; positions and parameters are those of sol1.
 %
 % Derived fields of plot3d, such as ptabs, then show the magnitude of the difference.
@@ -12,14 +12,14 @@ function [ dif ] = diffcase( sol1, sol2 )
 % See also: loadcase, diffstrs.
 
    if (numel(sol1)~=1 || numel(sol2)~=1)
-      error('diffcase: each argument must hold one contact patch, they hold %d and %d.', numel(sol1), numel(sol2));
+      error('diffcase: each argument must be one contact patch; they have %d and %d.', numel(sol1), numel(sol2));
    end
    if (sol1.mx~=sol2.mx || sol1.my~=sol2.my)
       error('diffcase: the grids have different sizes, %d x %d and %d x %d.', sol1.mx, sol1.my, sol2.mx, sol2.my);
    end
    tolerance = 1e-3 * min(sol1.dx, sol1.dy);
    if (max(abs([sol1.xl-sol2.xl, sol1.yl-sol2.yl, sol1.mx*(sol1.dx-sol2.dx), sol1.my*(sol1.dy-sol2.dy)]))>tolerance)
-      warning('diffcase: the grids lie at different places or have different elements; rows and columns are compared.');
+      warning('diffcase: the grids have different positions or element sizes; elements with the same row and column are compared.');
    end
 
    dif = sol1;

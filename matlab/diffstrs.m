@@ -1,12 +1,12 @@
 function [ dif ] = diffstrs( blk1, blk2 )
-% DIFFSTRS  Difference blk1 - blk2 of stresses below the surface in the same points.
+% DIFFSTRS  Difference blk1 - blk2 of stresses below the surface at the same points.
 %
 %   dif = diffstrs( blk1, blk2 )
 %
 %   blk1, blk2   structs of LOADSTRS
 %   dif          struct of the same kind. Displacements, mean stress and components of the tensor are
-%                differences. sigvm, sigtr and the principal stresses are those of the difference of the
-%                tensors if both files hold these; without tensors sigvm is the difference of the two values.
+%                differences. sigvm, sigtr and the principal stresses are computed from the difference of the
+%                tensors if both files have them; otherwise sigvm is the difference of the two values.
 %
 % See also: loadstrs, plotstrs, diffcase.
 

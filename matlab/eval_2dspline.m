@@ -1,11 +1,11 @@
 function [ v, x, y, z ] = eval_2dspline( spl2d, u_in, v_in, y_in, idebug )
-% EVAL_2DSPLINE  Points of a surface of splines, at given u and v or at given u and y.
+% EVAL_2DSPLINE  Points of a spline surface, at given u and v or at given u and y.
 %
 %   [v, x, y, z] = eval_2dspline( spl2d, u, v )
 %   [v, x, y, z] = eval_2dspline( spl2d, u, [], y )
 %
-%   spl2d    struct of MAKE_2DSPLINE, or of READ_SLICES: then v goes from 0 to 1 between the ends of the slices
-%   u, v, y  of one size: points one by one; else all u with all v or y, in numel(u) x numel(v) arrays
+%   spl2d    struct of MAKE_2DSPLINE, or of READ_SLICES: then v runs from 0 to 1 between the ends of the slices
+%   u, v, y  of equal size: one point for each pair; else all u with all v or y, in numel(u) x numel(v) arrays
 %   idebug   accepted for compatibility and ignored
 %
 % Values are NaN outside the surface, and if no v has the given y. If several v have it, the smallest is used.
@@ -32,7 +32,7 @@ end % function eval_2dspline
 %------------------------------------------------------------------------------------------------------
 
 function [ x, y, z ] = points( spl2d, u, v, one_by_one )
-% Coordinates; an array v with a row for each u is one by one, too
+% Coordinates; an array v with a row for each u is evaluated pair by pair, too
 
    if (one_by_one && ~isequal(size(u), size(v)))
       u = repmat(u(:), 1, size(v,2));
@@ -53,7 +53,7 @@ end % function points
 %------------------------------------------------------------------------------------------------------
 
 function [ v ] = places_of( spl2d, u, y )
-% v of given y: on lines of the surface, by bisection between knots and their middles
+% v at given y: on lines of the surface, by bisection between knots and the midpoints between knots
 
    paired = isequal(size(u), size(y));
    if (paired)
@@ -83,7 +83,7 @@ end % function places_of
 %------------------------------------------------------------------------------------------------------
 
 function [ r ] = root( knots, coef, at, values, wanted )
-% The first place of a value on a line, whose values at some places are known
+% First position of a value on a line whose values are known at some positions
 
    r = NaN;
    k = find((values(1:end-1)-wanted).*(values(2:end)-wanted)<=0, 1);

@@ -1,10 +1,10 @@
 function [ dx, dy, dz ] = eval_2dspline_deriv( spl2d, u, v, idir, idebug )
-% EVAL_2DSPLINE_DERIV  First derivatives of a surface of splines.
+% EVAL_2DSPLINE_DERIV  First derivatives of a spline surface.
 %
 %   [dx, dy, dz] = eval_2dspline_deriv( spl2d, u, v, idir )
 %
 %   spl2d, u, v   as for EVAL_2DSPLINE
-%   idir     1 (default): derivatives to u; 2: to v
+%   idir     1 (default): derivatives with respect to u; 2: to v
 %   idebug   accepted for compatibility and ignored
 %
 % See also: make_2dspline, eval_2dspline.

@@ -3,13 +3,13 @@ function [ varargout ] = eval_bspline_basisfnc( tj, si, k, idebug )
 %
 %   [b1, b2, b3, b4] = eval_bspline_basisfnc( tj, si, k )
 %
-%   tj       knots, not decreasing; a repeated knot makes splines less smooth
+%   tj       knots, non-decreasing; a repeated knot makes splines less smooth
 %   si       points; beyond the knots all splines are zero
 %   k        order, 1 to 8; 4 (default): cubic splines
 %   idebug   accepted for compatibility and ignored
 %
-%   b1 ... bk   for each order m an array numel(si) x (numel(tj)-m): one row per point, one column per spline. At a knot splines are
-%               continued from the right, at the last one from the left
+%   b1 ... bk   for each order m an array numel(si) x (numel(tj)-m): one row per point, one column per spline. Values at a knot
+%               are limits from the right, at the last knot from the left
 %
 % See also: make_spline, make_ppform, make_2dspline.
 
@@ -19,9 +19,9 @@ function [ varargout ] = eval_bspline_basisfnc( tj, si, k, idebug )
    t = tj(:)';
    x = si(:);
    if (numel(t)<=k || any(diff(t)<0) || ~(t(end)>t(1)))
-      error('eval_bspline_basisfnc: order %d needs more than %d knots that do not fall.', k, k);
+      error('eval_bspline_basisfnc: order %d needs more than %d non-decreasing knots.', k, k);
    elseif (nargout>k)
-      error('eval_bspline_basisfnc: %d outputs are asked for, the order is %d.', nargout, k);
+      error('eval_bspline_basisfnc: %d outputs are requested, the order is %d.', nargout, k);
    end
    n = numel(t);
    b = zeros(numel(x), n-1);
@@ -35,7 +35,7 @@ function [ varargout ] = eval_bspline_basisfnc( tj, si, k, idebug )
    for m = 2 : k
       rise = t(m:n-1) - t(1:n-m);
       fall = t(m+1:n) - t(2:n-m+1);
-      % nothing over an interval without length
+      % zero over an interval of zero length
       rise(rise==0) = Inf;
       fall(fall==0) = Inf;
       b = bsxfun(@rdivide, beyond(t(1:n-m)), rise) .* b(:,1:n-m) - bsxfun(@rdivide, beyond(t(m+1:n)), fall) .* b(:,2:n-m+1);

@@ -9,7 +9,7 @@ function [ s, y, z ] = eval_spline( spl, s_in, y_in, idebug )
 %   y_in     values of y; the first position from the start of the spline with this value is returned, NaN if there is none
 %   idebug   accepted for compatibility and ignored
 %
-%   s, y, z  arrays like the input; z is [] for a spline without
+%   s, y, z  arrays like the input; z is [] for a spline without z
 %
 % See also: make_spline, eval_spline_deriv.
 

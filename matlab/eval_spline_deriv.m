@@ -4,10 +4,10 @@ function [ dy, ddy, dz, ddz, kappa, rcurv ] = eval_spline_deriv( spl, s, idebug 
 %   [dy, ddy, dz, ddz, kappa, rcurv] = eval_spline_deriv( spl, s )
 %
 %   spl      struct of make_spline, with y and z
-%   s        positions along the curve (default: those of its points); before and behind its ends the ends are taken
+%   s        positions along the curve (default: those of its points); beyond its ends the end points are used
 %   idebug   accepted for compatibility and ignored
 %
-%   dy, ddy, dz, ddz   first and second derivatives to s
+%   dy, ddy, dz, ddz   first and second derivatives with respect to s
 %   kappa    curvature (y' z'' - z' y'') / (y'^2 + z'^2)^(3/2) [1/mm]
 %   rcurv    its radius [mm], at most 1e6
 %

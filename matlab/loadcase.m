@@ -4,13 +4,13 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   s = loadcase( expnam )                 case 1
 %   s = loadcase( expnam, icase )          all patches of a wheel-rail case, in an array of structs
 %   s = loadcase( expnam, icase, ipatch )  one patch
-%   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none; -1 may be left out
+%   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] for missing ones; -1 can be omitted
 %
-%   expnam   experiment name, with a folder if need be, without extension. Cases without .mat files are read from
-%            expnam.h5 (contact --hdf5); give the extension .h5 to read this file in any case
+%   expnam   experiment name without extension, optionally with a folder. Cases without .mat files are read from
+%            expnam.h5 (contact --hdf5); with the extension .h5 this file is always read
 %   icase    number of the case (default 1)
-%   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them); one that the case does not have gives []
-%            and a warning
+%   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them); for a patch that does not exist the
+%            result is [], with a warning
 %
 % Fields of the struct; arrays have one row per grid row, so s.pn(iy,ix) belongs to (s.x(ix), s.y(iy)):
 %
@@ -22,7 +22,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   meta.reason       which iteration did not reach its tolerance, and by how much; '' for solved cases
 %   mx, my            numbers of elements along and across the rolling direction
 %   xl, yl, dx, dy    lower left corner of the grid and size of the elements [mm]
-%   x_offset, y_offset  empty; when set, plot3d moves the grid by these amounts [mm]
+%   x_offset, y_offset  empty; if set, plot3d moves the grid by these amounts [mm]
 %   x, y              centres of the elements [mm]
 %   eldiv             0 exterior, 1 adhesion, 2 slip, 3 plastic deformation
 %   h                 undeformed distance, approach not subtracted [mm]
@@ -34,8 +34,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   temp1, temp2      with temperatures: those of the surfaces of bodies 1 and 2 [degC]
 %   trcbnd            traction bound [N/mm2]
 %
-% With A=1 a .mat file holds the elements in contact only; tractions are zero elsewhere, and unknown values (h, mu,
-% displacements, slip, temperatures) are NaN. HDF5 files hold all elements.
+% With A=1 a .mat file has the elements in contact only; tractions are zero elsewhere, and unknown values (h, mu,
+% displacements, slip, temperatures) are NaN. HDF5 files have all elements.
 %
 % See also: diffcase, plot2d, plot3d, loadstrs.
 
@@ -78,7 +78,7 @@ function [ patches ] = the_patch( patches, ipatch, expnam, icase )
 
    npatch = numel(patches);
    if (ipatch>npatch)
-      warning('loadcase: case %d of "%s" has %d contact patch(es), there is no number %d.', icase, expnam, npatch, ipatch);
+      warning('loadcase: case %d of "%s" has %d contact patch(es); number %d does not exist.', icase, expnam, npatch, ipatch);
       patches = {[]};
    else
       patches = patches(ipatch);
@@ -89,19 +89,19 @@ end % function the_patch
 %------------------------------------------------------------------------------------------------------
 
 function [ patches ] = mat_patches( expnam, icase, ipatch )
-% Structs of the .mat files of a case: of one patch, or all of them; {} when there are no files
+% Structs of the .mat files of a case: of one patch, or all of them; {} if there are no files
 
    patches = {};
    fname = '';
    if (ipatch<=1)
-      % module 3 has no letters
+      % files of module 3 have no letters
       fname = result_file(expnam, icase, 0, '.mat');
    end
    if (isempty(fname))
       fname = result_file(expnam, icase, max(1,ipatch), '.mat');
    end
    if (isempty(fname) && ipatch>1)
-      % the first one knows how many there are
+      % the first file has the number of patches
       patches = mat_patches(expnam, icase, 0);
       if (~isempty(patches))
          patches = the_patch(patches, ipatch, expnam, icase);

@@ -3,16 +3,16 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
 %
 %   [blk1, blk2, ...] = loadstrs( expnam, icase, ipatch )
 %
-%   expnam   experiment name, with a folder if need be, without extension. Without .subs file the case is read from
-%            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
+%   expnam   experiment name without extension, optionally with a folder. Without .subs file the case is read from
+%            expnam.h5 (contact --hdf5); with the extension .h5 this file is always read
 %   icase    number of the case (default 1)
-%   ipatch   number of the contact patch of a wheel-rail case (default 0: none, then the first)
+%   ipatch   number of the contact patch of a wheel-rail case (default 0: file without patch letter, else the first patch)
 %
 % One struct for each block of points of the input, [] for a missing block:
 %
 %   nx, ny, nz, npoints   numbers of points
 %   x, y, z               their coordinates, column vectors [mm]
-%   ux, uy, uz            displacements [mm], arrays of nx * ny * nz, as all that follow
+%   ux, uy, uz            displacements [mm], nx x ny x nz arrays, like all that follow
 %   sighyd, sigvm         mean hydrostatic and von Mises stress [N/mm2], tension positive
 %   sigxx, sigxy, sigxz, sigyy, sigyz, sigzz   full stress tensor [N/mm2], if the file has it; HDF5 files have it
 %   sigtr, sigma1, sigma2, sigma3   with the full tensor: Tresca's maximum shear stress (sigma1 - sigma3)
@@ -51,7 +51,7 @@ end % function loadstrs
 %------------------------------------------------------------------------------------------------------
 
 function [ fname ] = subs_file( expnam, icase, ipatch )
-% With the number of the case, then with the letter of a patch; very large numbers are left out of names
+% File names with the number of the case, then with the letter of a patch; very large numbers are omitted from names
 
    if (ipatch==0)
       fname = result_file(expnam, icase, 0, '.subs');
@@ -85,7 +85,7 @@ function [ blocks ] = read_blocks( fname )
       nx = table(first,1);  ny = table(first,2);  nz = table(first,3);
       np = nx*ny*nz;
       if (any([nx ny nz]<1) || any([nx ny nz]~=fix([nx ny nz])))
-         error('loadstrs: "%s" is damaged: block %d has no sensible numbers of points.', fname, numel(blocks)+1);
+         error('loadstrs: "%s" is damaged: block %d has invalid numbers of points.', fname, numel(blocks)+1);
       end
       if (first+np>size(table,1))
          error('loadstrs: "%s" ends inside block %d.', fname, numel(blocks)+1);
@@ -110,7 +110,7 @@ end % function read_blocks
 %------------------------------------------------------------------------------------------------------
 
 function [ blocks, fname ] = hdf5_blocks( expnam, icase, ipatch )
-% Blocks of a patch in the HDF5 file of an experiment; {} when there is no file, case or block
+% Blocks of a patch in the HDF5 file of an experiment; {} if there is no file, case or block
 
    patch  = sprintf('patch_%d', ipatch);
    blocks = {};

@@ -4,19 +4,19 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
 %   spl2d = make_2dspline( ui, vj, xij, yij, zij, mask_j, use_approx )
 %   spl2d = make_2dspline( ui, vj, yij, zij, mask_j, use_approx )
 %
-%   ui, vj   rising parameters: positions of the slices, and of the points along them; at least 4 of each
+%   ui, vj   increasing parameters: positions of the slices, and of the points along them; at least 4 of each
 %   xij, yij, zij   coordinates, numel(ui) x numel(vj) arrays; without xij, or with [], x is ui
-%   mask_j   numel(ui) x numel(vj) array, 0 where a slice has no point, such as behind its end. NaN in a coordinate
+%   mask_j   numel(ui) x numel(vj) array, 0 where a slice has no point, for example beyond its end. NaN in a coordinate
 %            has the same meaning. The surface exists where its four surrounding points exist; elsewhere values are
 %            NaN
 %   use_approx   1 (default): along u the points are the control points, as for slices with U_METHOD 2; 0: the surface goes
 %            through the points
 %
-% Along v, and along u with use_approx = 0, splines go through the points, and are one polynomial at the second point and at
-% the last but one. Three points make a parabola, two a line.
+% Along v, and along u with use_approx = 0, splines interpolate the points, with "not a knot" conditions at the second and the
+% last but one point. Three points give a parabola, two a line.
 %
-%   spl2d    struct with ui, vj, knots tui, tvj, coefficients cij_y, cij_z and, where x is given, cij_x; mask_j: 0 for
-%            coefficients that are not there
+%   spl2d    struct with ui, vj, knots tui, tvj, coefficients cij_y, cij_z and, if x is given, cij_x; mask_j: 0 for
+%            missing coefficients
 %
 % See also: eval_2dspline, eval_2dspline_deriv, read_slices.
 
@@ -24,7 +24,7 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
    vj = vj(:);
    shape = [numel(ui) numel(vj)];
    args  = varargin;
-   % the form without xij has its mask, or nothing, in the place of zij
+   % the form without xij has its mask, or nothing, in the position of zij
    if (numel(args)<3 || ~isequal(size(args{3}), shape) || (numel(args)<5 && all(args{3}(:)==0 | args{3}(:)==1)))
       args = [{[]}, args];
    end
@@ -34,7 +34,7 @@ function [ spl2d ] = make_2dspline( ui, vj, varargin )
       use_approx = 1;
    end
    if (any(shape<4) || any(diff(ui)<=0) || any(diff(vj)<=0))
-      error('make_2dspline: ui and vj must rise and have 4 values at least.');
+      error('make_2dspline: ui and vj must increase and have at least 4 values.');
    end
    if (~isequal(size(y), shape) || ~isequal(size(z), shape) || (~isempty(x) && ~isequal(size(x), shape)))
       error('make_2dspline: arrays of %d x %d coordinates are needed.', shape);
@@ -66,7 +66,7 @@ end % function make_2dspline
 %------------------------------------------------------------------------------------------------------
 
 function [ t ] = knots( x )
-% All points, and three more on both sides
+% All points, and three more on each side
 
    t = [x(1)-(3:-1:1)'*(x(2)-x(1)); x; x(end)+(1:3)'*(x(end)-x(end-1))];
 
@@ -75,15 +75,15 @@ end % function knots
 %------------------------------------------------------------------------------------------------------
 
 function [ c, known ] = curves( t, x, values, there, method )
-% Coefficients of the splines of all columns, which may lack points
+% Coefficients of the splines of all columns, in which points may be missing
 
    c = zeros(size(values) + [2 0]);
    known = false(size(c));
-   % columns that lack the same points are solved together
+   % columns in which the same points are missing are solved together
    [masks, ~, which] = unique(there', 'rows');
    for i = 1 : size(masks,1)
       j = find(which==i);
-      % points that follow each other; those without a neighbour are part of no surface
+      % sequences of consecutive points; points without a neighbour do not belong to a surface
       step  = diff([0; masks(i,:)'; 0]);
       first = find(step==1);
       last  = find(step==-1) - 1;
@@ -108,7 +108,7 @@ function [ c ] = curve_through( t, x, k, values )
    n  = numel(k);
    at = (k(1):k(end)+2)';
    b  = bspline_basis(t, x(k), 0);
-   % second derivative at the first point, third ones of all pieces
+   % unknowns: second derivative at the first point, third derivatives of all pieces
    [~, b2] = eval_bspline_basisfnc(t, x(k(1)), 2);
    second = b2 * bspline_derivative(t, 3) * bspline_derivative(t, 4);
    b1 = eval_bspline_basisfnc(t, (x(k(1:end-1)) + x(k(2:end)))/2, 1);
@@ -129,7 +129,7 @@ end % function curve_through
 %------------------------------------------------------------------------------------------------------
 
 function [ c ] = control_points( t, x, k, values )
-% The values themselves, and one more on both sides in a line
+% The values, and one linearly extrapolated value on each side
 
    d = diff(t);
    i = 3 + [k(1); k(end)];

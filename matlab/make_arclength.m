@@ -1,10 +1,10 @@
 function [ s ] = make_arclength( y, z )
-% MAKE_ARCLENGTH  Positions of the points of a profile along it: sums of chords, zero where y is zero.
+% MAKE_ARCLENGTH  Arc length at the points of a profile: sums of chords, zero where y is zero.
 %
 %   s = make_arclength( y, z )
 %
 %   y, z     coordinates of the points
-%   s        column of positions; they start at zero if y has no zero, or several
+%   s        column of arc lengths; they start at zero if y has no zero, or several
 %
 % See also: make_spline, eval_spline.
 

@@ -1,13 +1,13 @@
 function [ spl ] = make_ppform( spl, d1, d2, d3 )
-% MAKE_PPFORM  Polynomials of the pieces of a curve of cubic B-splines.
+% MAKE_PPFORM  Piecewise polynomials of a curve of cubic B-splines.
 %
 %   spl = make_ppform( spl )
 %   spl = make_ppform( spl, d1, d2, d3 )
 %
-%   spl      struct with s: the beginnings of the pieces and the end; tj: knots; cy, cz: coefficients (cz may be lacking or [])
+%   spl      struct with s: the beginnings of the pieces and the end; tj: knots; cy, cz: coefficients (cz may be missing or [])
 %   d1 ... d3   arrays that convert coefficients into those of the derivative, from order 2, 3 and 4; computed from tj if absent
 %
-%   spl      the same with ay0 ... ay3, az0 ... az3, see MAKE_SPLINE; those of the last point stand for the curve behind it
+%   spl      the same with ay0 ... ay3, az0 ... az3, see MAKE_SPLINE; those of the last point continue the curve beyond it
 %
 % See also: make_spline, eval_spline, eval_bspline_basisfnc.
 

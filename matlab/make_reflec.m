@@ -8,7 +8,7 @@ function [ x, y, z, theta ] = make_reflec( spl2d, vec_a, vec_v, ui, vj )
 %   ui, vj   parameters of the points, all of ui with all of vj
 %
 %   x, y, z  the points, numel(ui) x numel(vj) arrays
-%   theta    angle between the mirrored ray and the light [deg], 0 to 180
+%   theta    angle between the reflected ray and the light [deg], 0 to 180
 %
 % See also: make_2dspline, eval_2dspline, plot_2dspline.
 
@@ -35,7 +35,7 @@ end % function make_reflec
 %------------------------------------------------------------------------------------------------------
 
 function [ d ] = direction( d )
-% A unit column
+% Unit vector as a column
 
    d = d(:);
    if (numel(d)==2)

@@ -3,27 +3,27 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
 %
 %   spl = make_spline( s, y, z, lambda, wgt, ikinks )
 %
-%   s        places of the points along the curve, rising; [] (default): sums of chords of y and z
+%   s        positions of the points along the curve, increasing; [] (default): sums of chords of y and z
 %   y, z     values, vectors of the same length; z = [] for one function y(s)
-%   lambda   weight of smoothness; 0 (default): through all points. The spline makes the sum of wgt (y - y_i)^2 and lambda times
-%            the integral of the squared second derivative along s as small as possible, for y and z alike
+%   lambda   weight of smoothness; 0 (default): interpolation of all points. The spline minimises the sum of wgt (y - y_i)^2 plus
+%            lambda times the integral of the squared second derivative along s, for y and z
 %   wgt      weights of the points (default 1)
 %   ikinks   numbers of points at which the direction may jump (default none)
 %   iaccel   numbers of points at which the curvature may jump (default none). They occur with use_deriv = 3 or with
 %            knots other than the points; otherwise the smoothest curve has no such jumps
 %   use_bspline   1: the curve is made of B-splines; 0 (default): only if iaccel, ds_bspl or use_deriv = 3 need it
-%   ds_bspl  distance of their knots, about; [] (default): a knot at each point
+%   ds_bspl  approximate distance of their knots; [] (default): a knot at each point
 %   use_deriv     2 (default): the second derivative is smoothed; 3: the third
-%   use_repl      outer knots: 1 (default): those at the ends four times; 0: three more at the first and last distance. The curve
+%   use_repl      outer knots: 1 (default): end knots repeated four times; 0: three more at the first and last distance. The curve
 %                 is the same
 %   idebug   accepted for compatibility and ignored
 %
-% Natural ends, also at kinks. B-splines with a knot at each point give the same curve. Where knots are closer than points, and lambda
-% is 0, the smoothest curve through them is taken.
+% Ends are natural, also at kinks. B-splines with a knot at each point give the same curve. If knots are closer than points and
+% lambda is 0, the result is the smoothest curve through the points.
 %
 %   spl      struct with s, y, z of points on the spline (those given, or the knots), ikinks, iaccel, and for each piece, with
 %            d = s - s(i): y = a0y(i) + a1y(i) d + a2y(i) d^2 + a3y(i) d^3, the same with a0z ... a3z; also as
-%            ay0 ... az3, as other scripts have them. Of B-splines also tj: knots; cy, cz: coefficients
+%            ay0 ... az3, the names of other scripts. For B-splines also tj: knots; cy, cz: coefficients
 %
 % See also: eval_spline, smooth_profile, make_ppform, read_profile.
 
@@ -39,7 +39,7 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
    if (~any(use_deriv==[2 3]))
       error('make_spline: use_deriv must be 2 or 3.');
    elseif (~isempty(ds_bspl) && ~(isscalar(ds_bspl) && isfinite(ds_bspl)))
-      error('make_spline: ds_bspl must be a distance.');
+      error('make_spline: ds_bspl must be a positive number.');
    end
    ds_bspl(ds_bspl<=0) = [];
    y = y(:);
@@ -53,17 +53,17 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
    end
    s = s(:);
    if (n<2 || numel(s)~=n || (~isempty(z) && numel(z)~=n) || any(~isfinite([s; y; z])) || any(diff(s)<=0))
-      error('make_spline: s, y and z must have the same number of points, at least 2, and s must rise.');
+      error('make_spline: s, y and z must have the same number of points, at least 2, and s must increase.');
    end
    if (~(isscalar(lambda) && lambda>=0 && isfinite(lambda)))
-      error('make_spline: lambda must be a number that is not negative.');
+      error('make_spline: lambda must not be negative.');
    end
    if (isempty(wgt))
       wgt = ones(n, 1);
    end
    wgt = wgt(:);
    if (numel(wgt)~=n || any(~(wgt>0)))
-      error('make_spline: wgt must have a positive number for each of the %d points.', n);
+      error('make_spline: wgt must have a positive value for each of the %d points.', n);
    end
    ikinks = unique(ikinks(ikinks>1 & ikinks<n));
    iaccel = setdiff(iaccel(iaccel>1 & iaccel<n), ikinks);
@@ -96,12 +96,12 @@ end % function make_spline
 %------------------------------------------------------------------------------------------------------
 
 function [ f, a ] = pieces( s, y, lambda, wgt, ends )
-% Values and coefficients of the smoothing spline: Reinsch's equations for the stretches between kinks, joined by the values at
-% the kinks (all stretches in one system)
+% Values and coefficients of the smoothing spline: Reinsch's equations for the sections between kinks, joined by the values at
+% the kinks (all sections in one system)
 
    n = numel(s);
    h = diff(s);
-   % second derivatives are unknown at points that are no ends of a stretch
+   % second derivatives are unknown at inner points of a section
    inner = setdiff((2:n-1)', ends);
    m = numel(inner);
    k = (1:m)';

@@ -7,7 +7,7 @@ function [ rgb ] = matlab_color( num )
 %
 % See also: plot_arrow, plot_cm.
 
-   % the order of lines since Matlab R2014b
+   % the order of Matlab since R2014b
    order = [   0, 114, 189
              217,  83,  25
              237, 177,  32

@@ -17,11 +17,11 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, vara
 %   p = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, y_tape, reverse_order, point_dist_min, delete_foldback, make_plot )
 %
 %   mirror_z         1: change the sign of z; direction and order are not detected
-%   y_tape           a wheel is moved such that z = 0 at this y; [] (default): it is not
+%   y_tape           a wheel is moved such that z = 0 at this y; [] (default): not moved
 %   reverse_order    1: reverse the list of points
-%   point_dist_min   points that follow the last one kept by less than this along the profile are left out (default: none)
+%   point_dist_min   points closer than this to the last point kept, along the profile, are omitted (default: none)
 %   delete_foldback  points at which y turns back, seen from the top of a rail or the tip of a flange: 1: p.Mask is 0 there; 2: they
-%                    are left out; 0 (default): they stay
+%                    are omitted; 0 (default): they are kept
 %   make_plot        number of a figure in which both profiles are drawn; 0 (default): none
 %
 %   p then has ProfileAngle, ProfileCurvature, ProfileData with these four columns, OrigData, XYPoints and Mask, too
@@ -51,7 +51,7 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, vara
    y = p.ProfileY(:);
    z = p.ProfileZ(:);
    if (numel(y)<2)
-      error('modify_profile: a profile needs at least two points, there are %d.', numel(y));
+      error('modify_profile: a profile needs at least two points; this one has %d.', numel(y));
    end
    if (mirror_y==1)
       y = -y;
@@ -109,7 +109,7 @@ function [ p ] = as_established( p, is_wheel, mirror_y, mirror_z, scale_yz, more
    end
    data = data .* [scale_yz, scale_yz, 1, 1/scale_yz];
    if (is_wheel && ~isempty(y_tape))
-      % the profile near the place, where y is a coordinate of it
+      % the profile near y_tape, where y can be used as its coordinate
       near = find(abs(data(:,1)-y_tape) < 5);
       if (numel(near)<2)
          error('modify_profile: there is no profile at y_tape = %g.', y_tape);
@@ -124,7 +124,7 @@ function [ p ] = as_established( p, is_wheel, mirror_y, mirror_z, scale_yz, more
    end
    mask = true(size(data,1), 1);
    if (delete_foldback)
-      mask = goes_on(data(:,1), data(:,2), is_wheel);
+      mask = advances(data(:,1), data(:,2), is_wheel);
    end
    if (delete_foldback>1)
       data = data(mask,:);
@@ -154,7 +154,7 @@ end % function as_established
 %------------------------------------------------------------------------------------------------------
 
 function [ keep ] = far_apart( y, z, least )
-% Numbers of points that follow the last one kept by at least a distance along the profile
+% Indices of points that are at least a distance from the last point kept, along the profile
 
    along = [0; cumsum(hypot(diff(y), diff(z)))];
    keep  = 1;
@@ -168,8 +168,8 @@ end % function far_apart
 
 %------------------------------------------------------------------------------------------------------
 
-function [ yes ] = goes_on( y, z, is_wheel )
-% Points at which y goes farther from the top of a rail, or the tip of a flange, than all points before, seen from there
+function [ yes ] = advances( y, z, is_wheel )
+% Points at which y is farther from the top of a rail, or the tip of a flange, than at all points between
 
    if (is_wheel)
       y = -y;
@@ -184,12 +184,12 @@ function [ yes ] = goes_on( y, z, is_wheel )
    left = cummin(y(top:-1:1));
    yes(top-1:-1:1) = y(top-1:-1:1) <= left(1:end-1) - least;
 
-end % function goes_on
+end % function advances
 
 %------------------------------------------------------------------------------------------------------
 
 function [ upside_down ] = is_upside_down( y, z, is_wheel )
-% Does z point up? The sides of a rail hang down; of a wheel the flange does, and the field side is highest
+% Does z point up? The sides of a rail point down; on a wheel the flange does, and the field side is highest
 
    n = numel(z);
    [zmin, lowest]  = min(z);
@@ -209,7 +209,7 @@ function [ upside_down ] = is_upside_down( y, z, is_wheel )
       return
    end
 
-   % where z falls inwards from an end, the side face points down
+   % if z decreases inwards from an end, the side face points down
    near  = max(1, fix(0.10*n));
    limit = 0.001 * (zmax-zmin);
    last  = min(n, 1+near);
@@ -234,7 +234,7 @@ end % function at_end
 %------------------------------------------------------------------------------------------------------
 
 function [ d ] = direction( z, limit )
-% 1: z falls inwards from the first point; -1: it rises; 0: there is no visible change
+% 1: z decreases inwards from the first point; -1: it increases; 0: no significant change
 
    d = 0;
    i = find(abs(z-z(1))>limit, 1);
@@ -247,7 +247,7 @@ end % function direction
 %------------------------------------------------------------------------------------------------------
 
 function [ backwards ] = runs_backwards( y, z, is_wheel )
-% Must the list be reversed? Told by the steps at the highest point of a rail and at the tip of a flange
+% Must the list be reversed? Determined from the steps at the highest point of a rail and at the tip of a flange
 
    n = numel(y);
    if (~is_wheel)
@@ -269,7 +269,7 @@ function [ backwards ] = runs_backwards( y, z, is_wheel )
    elseif (before>=0 && behind>=0)
       backwards = true;
    else
-      % the material stays on the right-hand side, so the tip is a turn to the right
+      % the material is on the right-hand side, so the profile turns right at the tip
       backwards = before*(z(i+1)-z(i)) - behind*(z(i)-z(i-1)) < 0;
    end
 

@@ -1,7 +1,7 @@
 function [ value ] = mygetfield( s, name )
 % MYGETFIELD  A field of a struct whose name may have dots: mygetfield(s, 'kincns.t_digit').
 %
-% For an array of structs it returns the numbers of all, in a row.
+% For an array of structs it returns the values of all elements as a row.
 %
 % See also: mysetfield, myisfield.
 

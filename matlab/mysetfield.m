@@ -2,7 +2,7 @@ function [ s ] = mysetfield( s, varargin )
 % MYSETFIELD  Set a field of a struct whose name may have dots: s = mysetfield(s, 'kincns.t_digit', 3).
 %
 %   s = mysetfield(s, name, value)
-%   s = mysetfield(s, {i,j}, name, {k}, value)   with subscripts, as setfield takes them
+%   s = mysetfield(s, {i,j}, name, {k}, value)   with subscripts, as in setfield
 %
 % See also: mygetfield, myisfield.
 

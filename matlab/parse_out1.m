@@ -11,19 +11,19 @@ function [ sol, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs ] = parse_
 % Values of a case are rows with one column per case; values of contact patches are arrays with one row per
 % patch and one column per case. Missing values are NaN, e.g. for patches that do not exist.
 %
-%   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
+%   sol.complete  false, with a warning, if the file reports missing cases or is truncated
 %   sol.icase     numbers of the cases; sol.ire, sol.tim: result elements and times [s], in files of the library
 %   sol.config    0, 1: left and right wheel on rail; 4, 5: the same on roller
 %   sol.ws_pos    wheelset: s (for rollers x), y, z [mm], roll, yaw, pitch [rad]
 %                 and velocities vs, vy, vz [mm/s], vroll, vyaw, vpitch, vpitch_rol [rad/s]
-%   sol.whl_dev   deviations of a flexible wheelset: dx, dy, dz, droll, dyaw, dpitch and their velocities with v ahead
+%   sol.whl_dev   deviations of a flexible wheelset: dx, dy, dz, droll, dyaw, dpitch and their velocities vx, ..., vpitch
 %   sol.rail      deviations dy, dz [mm], droll [rad] with velocities vy, vz, vroll; of the massless
 %                 rail: deflections dy_defl, dz_defl [mm], springs ky, kz [N/mm], forces fy, fz [N]
 %   sol.tot_forc  forces on the rail in track and wheelset directions: fx_tr ... fz_ws [N]; with O >= 4 moments at
 %                 the rail and wheel markers: mx_r_tr, my_r_tr, mz_r_tr, mx_w_ws, my_w_ws, mz_w_ws [N mm]
 %   sol.npatch    numbers of contact patches
 %   sol.cp_pos    contact reference: xcp_tr, ycp_tr, zcp_tr [mm], delttr [rad], ycp_r, zcp_r, xcp_w, ycp_w, zcp_w [mm];
-%                 prev1, prev2: patches of the case before that this one continues, 0 for a new one
+%                 prev1, prev2: patches of the previous case that this one continues, 0 for a new one
 %   sol.cp_creep  cksi, ceta [-], cphi [rad/mm]; pen: approach [mm]; veloc [mm/s], chi [rad], dq [mm]
 %   sol.cp_force  fn, fx, fs [N], mn [N mm]; fx_rel, fs_rel: forces relative to fstat * fn, or to fn;
 %                 elen: elastic energy [J], fricw: frictional power [W], pmax [N/mm2], temp [degC].
@@ -41,7 +41,7 @@ function [ sol, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs ] = parse_
    sol = other_names(sol);
    if (nargin>1 && ~isempty(ire) && ire>=0)
       if (~isfield(sol, 'ire'))
-         error('parse_out1: "%s" tells no result elements.', fname);
+         error('parse_out1: "%s" has no numbers of result elements.', fname);
       end
       sol = chosen_cases(sol, sol.ire==ire, numel(sol.icase));
    end
@@ -60,7 +60,7 @@ end % function parse_out1
 %------------------------------------------------------------------------------------------------------
 
 function [ sol ] = other_names( sol )
-% The names of other scripts beside ours
+% Additional names that other scripts use
 
    sol.ws_pos.x  = sol.ws_pos.s;
    sol.ws_pos.vx = sol.ws_pos.vs;
@@ -89,7 +89,7 @@ end % function other_names
 %------------------------------------------------------------------------------------------------------
 
 function [ to ] = copied( to, from, names, others )
-% Values under other names, where there are any
+% Values under additional names, if they exist
 
    if (all(isnan(from.(names{1})(:))))
       return
@@ -103,7 +103,7 @@ end % function copied
 %------------------------------------------------------------------------------------------------------
 
 function [ s ] = chosen_cases( s, wanted, n )
-% Some of the n cases, in all arrays of nested structs
+% Selected cases out of n, in all arrays of nested structs
 
    names = fieldnames(s);
    for i = 1 : numel(names)
@@ -190,7 +190,7 @@ end % function parse_lines
 %------------------------------------------------------------------------------------------------------
 
 function [ config ] = find_config( out )
-% Configuration of each case; NaN for other modules. With O=1 there is no title and total forces tell the module
+% Configuration of each case; NaN for other modules. With O=1 there is no title; then total forces indicate the module
 
    config = NaN(1, out.ncase);
    k = find_text(out.lines, 'FX(TR)      FY(TR)');
@@ -220,7 +220,7 @@ end % function count_patches
 %------------------------------------------------------------------------------------------------------
 
 function [ pos ] = previous_patches( out, m, pos )
-% Numbers behind PREV in the headings of patches
+% Numbers after PREV in the headings of patches
 
    pos.prev1 = NaN(m, out.ncase);
    pos.prev2 = NaN(m, out.ncase);

@@ -11,14 +11,14 @@ function [ sol, force, subs ] = parse_out3( fname, use_struct, idebug )
 %
 %   creep   columns pen, cksi, ceta, cphi, ncon, nadh, nslip, nplast
 %   force   columns fn, fx, fy, mz, elen, fricw, pmax, temp1, temp2; temp1 is the higher temperature, temp2 NaN, as
-%           the file has only one
+%           the file has only one value
 %   subs    array (case, 4, 8) of value, x, y, z of sighyd, sigvm, sigtr, sigma1, sigma3, sigxx, sigyy, sigzz, of the
-%           first block; [] without
+%           first block; [] if there is none
 %
-% All results are rows with one value per case, NaN where the file has none (module 1 cases, cases that could
-% not be solved, output with O = 0 or 1):
+% All results are rows with one value per case, NaN for values that the file does not have (module 1 cases,
+% refused cases, output with O = 0 or 1):
 %
-%   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
+%   sol.complete  false, with a warning, if the file reports missing cases or is truncated
 %   sol.icase   numbers of the cases
 %   sol.kincns  chi [rad] (rolling) or dt [s] (shifts), dq [mm], veloc [mm/s]
 %   sol.creep   ncon, nadh, nslip, nplast as in stat; cksi, ceta [-] or shift distances [mm], cphi [rad/mm] or [rad]; pen: approach [mm]
@@ -26,7 +26,7 @@ function [ sol, force, subs ] = parse_out3( fname, use_struct, idebug )
 %               fx_true, fy_true [N]; mz [N mm]; elen: elastic energy [J]; fricw: frictional power [W], in
 %               shifts work [J]; pmax [N/mm2]; temp, also temp1: maximum temperature [degC]
 %   sol.stat    numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
-%   sol.subs    largest stresses below the surface and their places, arrays (1, ncase, nblock): sighyd.val, .x, ...
+%   sol.subs    largest stresses below the surface and their positions, arrays (1, ncase, nblock): sighyd.val, .x, ...
 %
 % Creepages and forces that were computed replace prescribed ones. Forces relative to friction come as printed, for
 % prescribed forces from the input echo (O >= 2).

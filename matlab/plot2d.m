@@ -2,7 +2,7 @@ function [ opt ] = plot2d( sol, opt )
 % PLOT2D  Plot tangential tractions and the traction bound along rows or columns of the contact area.
 %
 %   opt = plot2d         the options with their default values
-%   opt = plot2d( [], opt )   those of opt, completed
+%   opt = plot2d( [], opt )   opt, completed by defaults
 %   plot2d( sol )        plot with the default options
 %   plot2d( sol, opt )
 %
@@ -15,12 +15,12 @@ function [ opt ] = plot2d( sol, opt )
 %   yslc          orie=2: the same for y [mm] of the rows
 %   negpn         1: traction bound on the positive side (default); 0: on both; -1: on the negative side
 %   facpt         factor of px or py: 1 (default), or -1 to plot their negatives
-%   xlim, ylim    range [mm] of the horizontal axis for rows and for columns; default: the grid and one element more
+%   xlim, ylim    range [mm] of the horizontal axis for rows and for columns; default: the grid and one more element
 %   plim          range of the vertical axis [N/mm2]; default: a little more than the traction bound
 %   pn_linestyle  line style of the traction bound (default '--')
 %   pt_linestyle  line style of the tractions (default '-o')
 %
-% The lines are added when the figure is held (hold on); otherwise the axes are cleared.
+% The lines are added if the figure is held (hold on); otherwise the axes are cleared.
 %
 % See also: loadcase, plot3d.
 
@@ -35,12 +35,12 @@ function [ opt ] = plot2d( sol, opt )
    end
    opt = with_defaults(opt, defaults, 'plot2d');
    if (isnumeric(sol) && isempty(sol) && nargout>0)
-      % nothing to plot: the options, completed, without those that are unknown
+      % nothing to plot: return the completed options without unknown ones
       opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
       return
    end
    if (numel(sol)~=1)
-      error('plot2d: the solution must hold one contact patch, it holds %d.', numel(sol));
+      error('plot2d: the solution must be one contact patch; it has %d.', numel(sol));
    end
 
    % slices as columns of arrays
@@ -49,7 +49,7 @@ function [ opt ] = plot2d( sol, opt )
 
    held = ishold;
    if (~held && ~isempty(get(gca, 'children')))
-      % Octave would keep that of the picture before
+      % Octave would keep that of the previous picture
       legend('off');
    end
    colors = get(gca, 'colororder');
@@ -101,7 +101,7 @@ end % function plot2d
 %------------------------------------------------------------------------------------------------------
 
 function [ pos, bound, pt, where, axis_lim ] = take_slices( sol, opt )
-% Positions along the slices, traction bound and tractions in columns, places of the slices [mm]
+% Positions along the slices, traction bound and tractions in columns, positions of the slices [mm]
 
    if (~any(strcmp(opt.pxory, {'x','y'})))
       error('plot2d: option pxory must be ''x'' or ''y''.');
@@ -135,7 +135,7 @@ end % function take_slices
 %------------------------------------------------------------------------------------------------------
 
 function [ range ] = vertical_range( opt, bound, pt )
-% As asked for, or the range of all lines and five percent on both sides
+% The requested range, or that of all lines and five percent on both sides
 
    if (~isempty(opt.plim))
       range = opt.plim;
@@ -160,7 +160,7 @@ end % function vertical_range
 %------------------------------------------------------------------------------------------------------
 
 function [ x ] = rounded( x )
-% For texts: centres of elements that should be zero carry rounding errors of the file
+% For texts: element centres that should be zero have round-off errors of the file
 
    x = round(1e4*x)/1e4 + 0;
 

@@ -6,7 +6,7 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %   plot3d( sol, opt )
 %   plot3d( sol, opt, prr, prw, subs )
 %
-%   sol        struct of LOADCASE or cntc_getcpresults; an array of them where several patches are shown together
+%   sol        struct of LOADCASE or cntc_getcpresults; an array of them if several patches are shown together
 %   opt        struct of options, below
 %   prr, prw   rail and wheel profile: struct of READ_PROFILE or a file name; needed for rw_surf other
 %              than 'none' unless sol has them
@@ -33,7 +33,7 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %              or the name of any other array of the struct
 %   rw_surf    'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on the rail with the
 %              wheel added, in rail coordinates
-%   rw_surfc   the same under the name of other scripts; 'both' in rear and side view then uses track coordinates. A
+%   rw_surfc   the same under the name that other scripts use; 'both' in rear and side view then uses track coordinates. A
 %              missing profile is omitted, with a warning
 %   typplot    'surf' (default), 'contourf', or with profiles 'rw_rear', 'rw_side': rear and side view; the
 %              largest value of each row or column is then drawn as a bar along the surface normal
@@ -46,7 +46,7 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 %   xysteps    distance of thin lines on surfaces [mm], dxy or [dx dy] (default: from their size)
 %   zrange     range of the values for heights and colours
 %   ixrange, iyrange   numbers of the first and last element to be shown; 'auto' (default) or 'tight': the
-%              contact area and one element more; 'all': the whole grid
+%              contact area and one more element; 'all': the whole grid
 %   numvecx, numvecy   largest number of arrows in x- and y-direction (default 15)
 %   xstretch   factor of lengths in x-direction against those in y-direction; 1 (default): to scale. A single row or
 %              column of elements fills the figure
@@ -87,14 +87,14 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
    end
    opt = with_defaults(opt, defaults, 'plot3d');
    if (isnumeric(sol) && isempty(sol) && nargout>0)
-      % nothing to plot: the options, completed, without those that are unknown
+      % nothing to plot: return the completed options without unknown ones
       opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
       return
    end
    one_of(opt.rw_surf, {'none','prr','prw','both'}, 'rw_surf');
    one_of(opt.typplot, {'surf','contourf','rw_rear','rw_side'}, 'typplot');
    if (isempty(sol))
-      warning('plot3d: there is no contact patch to be plotted.');
+      warning('plot3d: there is no contact patch to plot.');
       return
    end
    sol = completed(sol);
@@ -153,7 +153,7 @@ end % function plot3d
 %------------------------------------------------------------------------------------------------------
 
 function [ sol ] = completed( sol )
-% What a struct that was put together by hand from results of the library may lack
+% Add fields that may be missing in a struct made by hand from results of the library
 
    if (~isfield(sol,'x_offset'))
       [sol.x_offset] = deal([]);
@@ -176,13 +176,13 @@ end % function completed
 %------------------------------------------------------------------------------------------------------
 
 function [ surface ] = surface_at_hand( sol, surface, prr, prw )
-% The surface that other scripts ask for, without profiles that are not there
+% The surface requested by the option of other scripts, without missing profiles
 
    bodies = {'prr','prw'};
    there  = [~isempty(prr) || isfield(sol,'prr'), ~isempty(prw) || isfield(sol,'prw')];
    asked  = strcmp(surface, 'both') | strcmp(surface, bodies);
    if (any(asked & ~there))
-      warning('plot3d: rw_surfc = ''%s'' without the profile; it is left out.', surface);
+      warning('plot3d: rw_surfc = ''%s'' without the profile, which is left out.', surface);
       left = [bodies(asked & there), {'none'}];
       surface = left{1};
    end
@@ -200,7 +200,7 @@ function check_blocks( subs, sol, opt )
    if (numel(subs)~=numel(sol))
       error('plot3d: %d blocks of stresses are given for %d patches.', numel(subs), numel(sol));
    elseif (~any(strcmp(opt.typplot, {'rw_rear','rw_side'})))
-      warning('plot3d: stresses below the surface are drawn in rear and side view only; plotstrs shows them by themselves.');
+      warning('plot3d: stresses below the surface are drawn in rear and side view only; see also plotstrs.');
    end
 
 end % function check_blocks

@@ -3,7 +3,7 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %
 %   opt = plot_2dspline                  the options with their default values
 %   plot_2dspline( slcs, opt )
-%   plot_2dspline( sol, slcs, opt )      sol: struct of LOADCASE, or []: with it, rails stand about the contact: u - s_ws
+%   plot_2dspline( sol, slcs, opt )      sol: struct of LOADCASE, or []: with it, positions on rails are relative to the contact: u - s_ws
 %
 %   slcs   struct of READ_SLICES, or of READ_PROFILE for such a file
 %
@@ -11,7 +11,7 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %   urange     range of positions [mm], of wheels angles [rad] (default: all)
 %   vrange     range along the slices, 0 to 1 between their ends (default: all)
 %   xysteps    distance of thin lines on the surface, du or [du dv] (default: 20 lines each way)
-%   show_slc   numbers of slices that are highlighted; those beyond the last are left out;  slc_color: their colours, a name or
+%   show_slc   numbers of slices that are highlighted; those that do not exist are omitted;  slc_color: their colours, a name or
 %              numbers for MATLAB_COLOR in a column, taken in turn (default 'r')
 %   show_feat  numbers of features that are highlighted;  feat_color: their colours (default 'r')
 %   refl_avec  direction of the light for 'refl': [azimuth elevation] in degrees, or a vector (default [0 1 0])
@@ -44,7 +44,7 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
    end
    opt = with_defaults(opt, defaults, 'plot_2dspline');
    if (~any(strcmp(opt.typplot, {'surf','topol','refl'})))
-      error('plot_2dspline: option typplot = ''%s'' is none of ''surf'', ''topol'', ''refl''.', opt.typplot);
+      error('plot_2dspline: option typplot = ''%s'' must be ''surf'', ''topol'' or ''refl''.', opt.typplot);
    end
    if (~isstruct(slcs) || ~isfield(slcs, 'nslc'))
       error('plot_2dspline: a struct of read_slices is needed.');
@@ -112,7 +112,7 @@ end % function plot_2dspline
 %------------------------------------------------------------------------------------------------------
 
 function [ u, y, z, parts ] = surface_points( slcs )
-% Points of all slices, equally many between features that follow each other; columns of the features
+% Points of all slices, with equal numbers between consecutive features; columns of the features
 
    u = slcs.u(:);
    nfeat = size(slcs.s_feat, 2);
@@ -125,7 +125,7 @@ function [ u, y, z, parts ] = surface_points( slcs )
       s = p.ProfileS(:);
       f = min(slcs.s_feat(i,:), s(end));
       for k = 1 : nfeat-1
-         % negative places stand for features that a slice has not
+         % negative positions mark features that a slice does not have
          if (f(k)<0 || f(k+1)<0)
             continue
          end
@@ -140,7 +140,7 @@ end % function surface_points
 %------------------------------------------------------------------------------------------------------
 
 function thin_lines( x, y, z, u, opt )
-% Lines at equal steps
+% Lines at equal distances
 
    if (isempty(opt.xysteps))
       nu = max(1, round(size(x,1)/20));
@@ -162,7 +162,7 @@ end % function thin_lines
 %------------------------------------------------------------------------------------------------------
 
 function [ c ] = stripes( x, y, z, opt )
-% Light and shade by the angle between the normal and the direction of the light
+% Brightness by the angle between the normal and the direction of the light
 
    a = opt.refl_avec(:)';
    if (numel(a)==2)
@@ -179,7 +179,7 @@ end % function stripes
 %------------------------------------------------------------------------------------------------------
 
 function [ col ] = turn_of( colors, i )
-% The colours in turn
+% The colours, repeated cyclically
 
    if (ischar(colors) && size(colors,1)==1)
       col = colors;

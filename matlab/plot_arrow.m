@@ -8,8 +8,7 @@ function [ h ] = plot_arrow( pos0, vec, col, scale, width, pln )
 %   col     colour: a name, red, green, blue, or a number for MATLAB_COLOR (default 'b')
 %   scale   size of the head; 1 (default): a quarter of the length
 %   width   width of the head; 1 (default): 15 degrees to each side
-%   pln     in three dimensions: direction that the plane of the head is normal to (default [0 0 1], or [1 0 0] for an
-%           arrow along it)
+%   pln     in three dimensions: normal of the plane of the head (default [0 0 1], or [1 0 0] for an arrow along z)
 %
 %   h       handles of the shaft and of the head
 %

@@ -1,17 +1,17 @@
 function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fontsiz, txtcol, th_txt, fac_txt, no_orie, no_head, ...
                             left_hnd )
-% PLOT_AXES  Draw two axes of coordinates, seen along the third, with names and the positive sense of rotation.
+% PLOT_AXES  Draw two coordinate axes, seen along the third, with names and the positive sense of rotation.
 %
 %   h = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fontsiz, txtcol, th_txt, fac_txt, no_orie, no_head, left_hnd )
 %
 %   O        origin in the current axes, 2 numbers
 %   scl      length of the arrows
 %   theta    angle of the first axis [deg], from that of x to that of y of the current axes (default 0)
-%   zpos     where one looks from on the third axis; negative: from below, the second axis is a quarter turn the other way (default 1)
+%   zpos     position of the viewer on the third axis; negative: from below, with the second axis reversed (default 1)
 %   axnams   names of the three axes: letters, or an array or cell array of texts (default 'xyz')
 %   col      colour: a name, red, green, blue, or a number for MATLAB_COLOR (default 'b')
-%   mrksiz   size of the mark in the origin (default 8): a dot where the third axis points to the reader, else a cross
-%   siz_o    radius of the circle about it (default 0.07 scl)
+%   mrksiz   size of the mark in the origin (default 8): a dot if the third axis points to the viewer, else a cross
+%   siz_o    radius of the circle around it (default 0.07 scl)
 %   fontsiz, txtcol, th_txt   size of the names, their colour (default col) and angle [deg]
 %   fac_txt  distance of the names from the origin, relative to scl, one number or three (default 1.15)
 %   no_orie, no_head, left_hnd   1: without the sense of rotation, without heads; left-handed axes (default 0)
@@ -38,7 +38,7 @@ function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fon
    O = O(:)';
    fac_txt = fac_txt(:)' .* ones(1,3);
    axnams = names_of(axnams);
-   % a quarter turn as it is seen: pictures with one axis reversed are mirrored
+   % a quarter turn as seen on the screen: pictures with one axis reversed are mirrored
    turn = 1 - 2*xor(strcmp(get(gca,'xdir'),'reverse'), strcmp(get(gca,'ydir'),'reverse'));
    turn = turn * (1 - 2*(zpos<0)) * (1 - 2*(left_hnd>0));
    first  = [cosd(theta), sind(theta)];
@@ -60,7 +60,7 @@ function [ h ] = plot_axes( O, scl, theta, zpos, axnams, col, mrksiz, siz_o, fon
    end
    h(10) = named(O - fac_txt(3)*2*siz_o*(first+second), 3);
    if (~no_orie)
-      % rotation about the third axis turns the first into the second
+      % rotation about the third axis turns the first towards the second
       c = O + 0.4*scl*(first+second);
       f = 0.05*scl*[-1 1];
       h(11) = plot(c(1)+f*first(1), c(2)+f*first(2), '-', 'color',col);

@@ -3,7 +3,7 @@ function [ h ] = plot_cm( O, r, veclen, theta, col, no_vec, no_head )
 %
 %   h = plot_cm( O, r, veclen, theta, col, no_vec, no_head )
 %
-%   O        place in the current axes (default [0 0])
+%   O        position in the current axes (default [0 0])
 %   r        radius (default 1)
 %   veclen   length of the arrows, which begin at the circle (default 2 r)
 %   theta    angle of the first arrow [deg] (default 0)

@@ -4,17 +4,17 @@ function [ dst_max, l, n ] = plot_update( prf1, prf2, fac, plot_n, use_angl2, no
 %   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, add_plot )
 %   [dst_max, l, n] = plot_update( prf1, prf2, fac, plot_n, use_angl2, norm_dist, show_angl, add_plot, force_spline )
 %
-%   prf1, prf2   structs of READ_PROFILE. With the same number of points they are compared point by point, otherwise each point of
-%                prf2 with the nearest of the curve through prf1
-%   fac          magnification; negative (default): 1, 2 or 5 times a power of ten, with which the largest difference
-%                takes at most a tenth of the width
+%   prf1, prf2   structs of READ_PROFILE. With equal numbers of points they are compared point by point, otherwise each point of
+%                prf2 with the nearest point of the curve through prf1
+%   fac          magnification; negative (default): 1, 2 or 5 times a power of ten such that the largest difference
+%                is at most a tenth of the width
 %   plot_n       a line at every plot_n-th point; 0 (default): none
 %   use_angl2    1: normals of prf2; 0 (default): of prf1
-%   norm_dist    1 (default): difference along the normal; 0: both parts; -1: along the tangent, drawn along the normal
-%   add_plot     1: draw into the figure as it is; 0 (default): clear it
-%   force_spline 1: the nearest of the curve also with the same number of points; show_angl is accepted and ignored
+%   norm_dist    1 (default): difference along the normal; 0: both components; -1: along the tangent, drawn along the normal
+%   add_plot     1: add to the current figure; 0 (default): clear it
+%   force_spline 1: nearest point of the curve also with equal numbers of points; show_angl is accepted and ignored
 %
-%   dst_max      largest difference of this kind [mm]
+%   dst_max      largest difference as selected by norm_dist [mm]
 %   l            lines: first profile, second profile, magnified difference
 %   n            lines at points
 %
@@ -91,7 +91,7 @@ end % function round_down
 %------------------------------------------------------------------------------------------------------
 
 function [ y, z ] = opposite( y1, z1, y2, z2, force_spline )
-% Points of the first profile that belong to those of the second
+% Points of the first profile that correspond to those of the second
 
    y = y1;
    z = z1;
@@ -115,7 +115,7 @@ end % function opposite
 %------------------------------------------------------------------------------------------------------
 
 function [ ty, tz ] = tangents( y, z )
-% Directions at the points: means of those of the chords beside them
+% Directions at the points: means of those of the adjacent chords
 
    d = hypot(diff(y), diff(z));
    ty = diff(y)./d;

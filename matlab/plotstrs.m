@@ -37,7 +37,7 @@ function [ opt ] = plotstrs( sol, opt )
    end
    opt = with_defaults(opt, defaults, 'plotstrs');
    if (isnumeric(sol) && isempty(sol) && nargout>0)
-      % nothing to plot: the options, completed, without those that are unknown
+      % nothing to plot: return the completed options without unknown ones
       opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
       return
    end
@@ -116,7 +116,7 @@ end % function field_of_block
 %------------------------------------------------------------------------------------------------------
 
 function [ a, b, val, labels, at ] = take_slice( sol, opt, val )
-% Horizontal and vertical coordinates, values with one row per vertical position, place of the slice
+% Horizontal and vertical coordinates, values with one row per vertical position, position of the slice
 
    switch (opt.dir)
       case 'x'
@@ -135,7 +135,7 @@ function [ a, b, val, labels, at ] = take_slice( sol, opt, val )
          error('plotstrs: option dir must be ''x'', ''y'' or ''z''.');
    end
    if (numel(k)~=1)
-      error('plotstrs: one slice can be plotted at a time, %d were asked for.', numel(k));
+      error('plotstrs: one slice can be plotted at a time; %d were requested.', numel(k));
    end
 
 end % function take_slice

@@ -4,7 +4,7 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
 %   p = read_miniprof( fname )
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] after the offsets of the header, Fname, ColumnDef, and
-%       ProfileData with all columns. Mirroring and order are left to READ_PROFILE.
+%       ProfileData with all columns. READ_PROFILE mirrors and orders.
 %   idebug, make_plot  accepted for compatibility and ignored; use READ_PROFILE to plot
 %
 % See also: read_profile, write_miniprof.
@@ -19,7 +19,7 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
    end
    keys    = find(filled & ~numeric & ~cellfun('isempty', strfind(lines, '=')));
    if (any(keys>first))
-      error('read_miniprof: "%s", line %d: a keyword stands among the numbers.', fname, keys(end));
+      error('read_miniprof: "%s", line %d: a keyword among the numbers.', fname, keys(end));
    end
    [p, offset] = read_header(lines(keys), fname);
 
@@ -35,7 +35,7 @@ function [ p ] = read_miniprof( fname, idebug, make_plot )
       warning('read_miniprof: "%s": %d lines do not have %d numbers and are skipped.', fname, skipped, ncol);
    end
    if (size(data,1)<2)
-      error('read_miniprof: "%s" has %d points, at least two are needed.', fname, size(data,1));
+      error('read_miniprof: "%s" has %d points; at least two are required.', fname, size(data,1));
    end
 
    iy = find(columns=='X', 1);

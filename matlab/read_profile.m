@@ -15,10 +15,10 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] and ProfileS [mm], sums of chords from the first
 %       point on, and with Fname and is_wheel. Right-hand side profile, y positive to the field side, z
-%       positive down; rails from the track centre to the field side, wheels the other way round.
+%       positive down; rails from the track centre to the field side, wheels in the opposite direction.
 %       For slices the struct of READ_SLICES.
 %
-% Smoothing and the removal of zig-zags are left to the program.
+% Smoothing and the removal of zig-zags are done by the program.
 %
 % See also: read_slices, read_simpack, read_miniprof, modify_profile, plot3d.
 
@@ -44,7 +44,7 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
       is_wheel = wheel_kind;
    elseif ((is_wheel && rail_kind) || (~is_wheel && wheel_kind))
       body = {'rail','wheel'};
-      error('read_profile: "%s" is a %s profile by its extension, asked for was a %s.', fname, ...
+      error('read_profile: "%s" is a %s profile by its extension; a %s was requested.', fname, ...
             body{1+wheel_kind}, body{1+(is_wheel~=0)});
    end
 
@@ -56,7 +56,7 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
          rgt_side = [];
       end
       p = read_vampire(fname, rgt_side);
-      % heights point downwards already
+      % z points downwards already
       if (mirror_z==0)
          mirror_z = -1;
       end
@@ -65,7 +65,7 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
       if ((p.type==1) ~= is_wheel)
          error('read_profile: "%s" has type = %d in its header, which does not fit its extension.', fname, p.type);
       end
-      % two times mirrored is not mirrored; -1 switches the file's mirroring off
+      % mirroring twice has no effect; -1 disables the mirroring of the file
       mirror_y = (mirror_y + p.mirror_y == 1);
       if (p.mirror_z==1 && mirror_z~=0)
          mirror_z = -1;
@@ -75,7 +75,7 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rg
    else
       p = read_miniprof(fname);
    end
-   % the order of points follows from the shape; what a file says of it does not hold where y is mirrored, and may be wrong
+   % the order of points is detected from the shape; that of the file does not apply if y is mirrored, and may be wrong
    p = modify_profile(p, is_wheel, mirror_y, mirror_z, scale_yz);
    if (nargin>=8 && ~isempty(make_plot) && make_plot>0)
       figure(make_plot);

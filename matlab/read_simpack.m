@@ -5,7 +5,7 @@ function [ p ] = read_simpack( fname, idebug, make_plot )
 %
 %   p   struct with columns ProfileY, ProfileZ [mm], Fname, and from the file: type (0 rail, 1 wheel), mirror_y,
 %       mirror_z (0, 1), inversion (0, 1, or [] if not given), comment. Points that are too
-%       close are dropped, shifts and bounds are applied; mirroring and order are left to READ_PROFILE.
+%       close are dropped, shifts and bounds are applied; READ_PROFILE mirrors and orders.
 %   idebug, make_plot  accepted for compatibility and ignored; use READ_PROFILE to plot
 %
 % See also: read_profile, write_simpack.
@@ -19,7 +19,7 @@ function [ p ] = read_simpack( fname, idebug, make_plot )
    ended   = false;
    lines   = strip_comments(lines);
    filled  = find(~cellfun('isempty', lines));
-   % the list of points is read at once, whatever stands there that is no keyword
+   % the list of points is read at once: all lines up to the next keyword
    begins  = find(strcmp(lines, 'point.begin'), 1);
    ends    = find(strcmp(lines, 'point.end'), 1);
    points  = zeros(0, 2);
@@ -54,13 +54,13 @@ function [ p ] = read_simpack( fname, idebug, make_plot )
             break
          end
       else
-         error('read_simpack: "%s", line %d stands outside the list of points.', fname, i);
+         error('read_simpack: "%s", line %d is outside the list of points.', fname, i);
       end
    end
    if (~ended)
       error('read_simpack: "%s" has no spline.end.', fname);
    elseif (npoint<2)
-      error('read_simpack: "%s" has %d points, at least two are needed.', fname, npoint);
+      error('read_simpack: "%s" has %d points; at least two are required.', fname, npoint);
    elseif (~any(key.type==[0 1]))
       error('read_simpack: "%s" needs type = 0 (rail) or 1 (wheel) in its header.', fname);
    end
@@ -78,7 +78,7 @@ end % function read_simpack
 %------------------------------------------------------------------------------------------------------
 
 function [ lines ] = strip_comments( lines )
-% Without what follows ! or % outside of quotes
+% Remove comments, which begin with ! or % outside of quotes
 
    for i = find(~cellfun('isempty', strfind(lines, '''')))
       quoted = mod(cumsum(lines{i}==''''), 2)==1;
@@ -107,7 +107,7 @@ end % function one_number
 %------------------------------------------------------------------------------------------------------
 
 function [ section, ended ] = next_section( section, word, fname, i )
-% Follow header.begin ... spline.end
+% Follow the sections header.begin ... spline.end
 
    steps = {'','header.begin','header'; 'header','header.end',''; '','spline.begin','spline'; ...
             'spline','point.begin','point'; 'point','point.end','spline'; 'spline','spline.end',''};

@@ -11,8 +11,8 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 %          prof       cell array with the struct of READ_PROFILE for each slice
 %          u_intpol, u_method  1: interpolation between slices, 2: approximation
 %          s_feat     nslc x nfeat array of positions of features along the slices [mm], negative where absent
-%          slc_ib     numbers of the first and the last feature that each slice has; slc_file, and s or th, are Fname and u
-%                     as other scripts call them
+%          slc_ib     numbers of the first and the last feature of each slice; slc_file, and s or th, are Fname and u
+%                     under the names of other scripts
 %          kink, accel   numbers of parts with kinks and accelerations to the next part
 %          xsurf, ysurf, zsurf   points of the surface, one row for each slice, see RESAMPLE_SLICES
 %
@@ -21,7 +21,7 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 % See also: read_profile, resample_slices, plot3d.
 
    if (nargin>=4 && isnumeric(scale_yz) && ~isempty(scale_yz) && scale_yz<=0)
-      % no scale: the arguments as READ_PROFILE has them, with is_wheel in front
+      % no scale: the arguments of READ_PROFILE, with is_wheel first
       mirror_y = mirror_z;
       mirror_z = scale_yz;
       scale_yz = [];
@@ -58,7 +58,7 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
    naccel   = v(3) * (nfeat>1);
    u_intpol = first_numbers(lines{4}, 1, fname);
    if (~any(u_intpol==[1 2]))
-      error('read_slices: "%s" has interpolation method %d, allowed are 1 and 2.', fname, u_intpol);
+      error('read_slices: "%s" has interpolation method %d; it must be 1 or 2.', fname, u_intpol);
    end
    if (numel(lines) < 4+nslc)
       error('read_slices: "%s" ends before slice %d.', fname, nslc);
@@ -139,7 +139,7 @@ function [ s_feat ] = read_features( lines, next, u, nfeat, u_scale, fname )
    for i = 1 : nslc
       v = first_numbers(lines{next+i-1}, nfeat+1, fname);
       if (abs(u_scale*(v(1)-u(i)))>1e-3)
-         error('read_slices: "%s": features of slice %d stand at position %g instead of %g.', fname, i, v(1), u(i));
+         error('read_slices: "%s": features of slice %d have position %g instead of %g.', fname, i, v(1), u(i));
       end
       s_feat(i,:) = v(2:end);
    end

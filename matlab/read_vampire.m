@@ -14,7 +14,7 @@ function [ p ] = read_vampire( fname, right_side, idebug, make_plot )
 %                y = 0, and the top of the rail, which becomes z = 0
 %
 % Datums: EUROPEAN (70 mm), US1 (2 27/32 in), US2 (3 1/16 in) and CUSTOM with a number; gauge points: EUROPEAN (14 mm), US (5/8
-% in) and CUSTOM with a number. Order and mirroring are left to READ_PROFILE.
+% in) and CUSTOM with a number. READ_PROFILE mirrors and orders.
 %
 % See also: read_profile, read_simpack, read_miniprof.
 
@@ -61,7 +61,7 @@ function [ p ] = read_vampire( fname, right_side, idebug, make_plot )
    if (p.is_wheel)
       y = y - p.FlangeBackDist/2 + p.FlangeBackPos;
    else
-      % heights of rails point upwards in the file
+      % z of rails points upwards in the file
       z = -z;
       if (y(end)<y(1))
          y = flipud(y);
@@ -69,7 +69,7 @@ function [ p ] = read_vampire( fname, right_side, idebug, make_plot )
       end
       p.rail_z0 = min(z);
       z = z - p.rail_z0;
-      % first crossing of the gauge height from the track centre on
+      % first crossing of the gauge height, from the track centre
       k = find(z<p.GaugeHeight, 1);
       p.rail_y0 = y(1);
       if (k>1)
@@ -85,7 +85,7 @@ end % function read_vampire
 %------------------------------------------------------------------------------------------------------
 
 function [ text ] = behind( line, word, fname )
-% What stands behind a word at the beginning of a line
+% The text after a word at the beginning of a line
 
    if (~strncmpi(line, word, numel(word)))
       error('read_vampire: "%s": the line "%s" should begin with %s.', fname, line, word);
@@ -100,7 +100,7 @@ function [ v ] = number( text, fname )
 
    v = sscanf(text, '%f', 1);
    if (isempty(v))
-      error('read_vampire: "%s": a number should stand where "%s" is.', fname, text);
+      error('read_vampire: "%s": a number is expected instead of "%s".', fname, text);
    end
 
 end % function number
@@ -108,7 +108,7 @@ end % function number
 %------------------------------------------------------------------------------------------------------
 
 function [ v ] = datum( text, words, values, fname )
-% The value of a datum that has a name or is given
+% The value of a datum, which is a name or CUSTOM with a number
 
    k = find(strcmpi(text, words), 1);
    if (~isempty(k))
@@ -116,7 +116,7 @@ function [ v ] = datum( text, words, values, fname )
    elseif (strncmpi(text, 'CUSTOM', 6))
       v = number(text(7:end), fname);
    else
-      error('read_vampire: "%s": "%s" is none of %s and CUSTOM.', fname, text, strjoin(words, ', '));
+      error('read_vampire: "%s": "%s" is unknown; expected %s or CUSTOM.', fname, text, strjoin(words, ', '));
    end
 
 end % function datum

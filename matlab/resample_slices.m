@@ -1,16 +1,16 @@
 function [ slcs, ierror ] = resample_slices( slcs, ds, varargin )
-% RESAMPLE_SLICES  Give all slices of a varying profile points that correspond to each other.
+% RESAMPLE_SLICES  Compute corresponding points on all slices of a varying profile.
 %
 %   slcs = resample_slices( slcs, ds )
 %
 %   slcs   struct of READ_SLICES
 %   ds     largest distance of points across the profile [mm] (default 0.5); further arguments are ignored
-%   ierror 0: what is wrong ends in an error
+%   ierror 0: problems are reported as errors
 %
 % The parts between features are divided into the same number of equal steps in all slices. Added fields:
 %
 %   vy, vz   nslc x npnt arrays of coordinates [mm]; NaN where a slice does not have a part
-%   xsurf, ysurf, zsurf   positions u of the slices in an array of the same size, and vy, vz as other scripts call them
+%   xsurf, ysurf, zsurf   positions u of the slices in an array of the same size, and vy, vz, under the names of other scripts
 %
 % Lines through points with the same number run along the surface. At a position u between slices,
 % interp1(slcs.u, slcs.vy, u) and interp1(slcs.u, slcs.vz, u) are the points of a section.
@@ -46,7 +46,7 @@ function [ slcs, ierror ] = resample_slices( slcs, ds, varargin )
          step = step(1:end-1);
       end
       at = s(:,part)*ones(size(step)) + len*step;
-      % where a part ends in front of one that is not there
+      % where a part ends at a part that is missing
       at(:,1) = s(:,part);
       vy = NaN(size(at));
       vz = NaN(size(at));

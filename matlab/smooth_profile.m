@@ -4,12 +4,12 @@ function [ p, spl ] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iacce
 %   [p, spl] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iaccel, use_wgt )
 %
 %   p         struct of READ_PROFILE, or an array of y and z [mm], one row per point
-%   l_filt    wavelength that is halved [mm]: long waves stay, short ones go; or [] and
-%   lambda    weight of smoothness itself, see MAKE_SPLINE [mm^3]; default 0: a spline through all points
-%   ds_sampl  distance of the new points along the profile [mm]; [] (default): the places of the points of p
+%   l_filt    wavelength whose amplitude is halved [mm]: longer waves are kept, shorter ones removed; or [] and
+%   lambda    weight of smoothness, see MAKE_SPLINE [mm^3]; default 0: interpolation of all points
+%   ds_sampl  distance of the new points along the profile [mm]; [] (default): the positions of the points of p
 %   ikinks    numbers of points with a kink; -1 (default): those where the direction turns by more than 30 degrees; []: none
-%   iaccel    numbers of points at which the curvature may jump; [] or -1 (default): none, they are not searched for
-%   use_wgt   1 (default): each point counts with the length of profile that belongs to it; 0: all points alike
+%   iaccel    numbers of points at which the curvature may jump; [] or -1 (default): none; they are not detected
+%   use_wgt   1 (default): points are weighted by the length of profile around them; 0: equal weights
 %   use_bspline, ds_bspl   see MAKE_SPLINE
 %   idebug    accepted for compatibility and ignored
 %

@@ -1,5 +1,5 @@
 function [ u, found ] = solve_cubic_eq( ppcoef, useg, yev, varargin )
-% SOLVE_CUBIC_EQ  Where one piece of a spline takes a value.
+% SOLVE_CUBIC_EQ  Position at which one piece of a spline has a given value.
 %
 %   [u, found] = solve_cubic_eq( ppcoef, useg, yev )
 %
@@ -7,14 +7,14 @@ function [ u, found ] = solve_cubic_eq( ppcoef, useg, yev, varargin )
 %   useg     its beginning and end
 %   yev      the value; further arguments of other scripts (idebug, iout, jout, jseg) have no effect
 %
-%   u        the first place from useg(1) on, NaN where there is none;  found   1: there is one; 0: none
+%   u        the first such position in useg, NaN if there is none;  found   1: found; 0: none
 %
 % See also: eval_spline, make_ppform.
 
    h = useg(2) - useg(1);
    a = [ppcoef(1)-yev, ppcoef(2)*h, ppcoef(3)*h^2, ppcoef(4)*h^3];
    u = NaN;
-   % a cubic stays within the hull of its Bernstein coefficients
+   % a cubic is within the convex hull of its Bernstein coefficients
    b = [a(1), a(1)+a(2)/3, a(1)+2*a(2)/3+a(3)/3, sum(a)];
    slack = 1e-12 * max(abs(a));
    if (min(b)<=slack && max(b)>=-slack)

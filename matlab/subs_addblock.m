@@ -4,7 +4,7 @@ function subs_addblock( ire, icp, iblk, isubs, xparam, yparam, zparam )
 %   subs_addblock( ire, icp, iblk, isubs, xparam, yparam, zparam )
 %
 %   ire, icp   result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
-%   iblk     number of the block (default 1); blocks from there on are forgotten, 0 forgets all
+%   iblk     number of the block (default 1); this and later blocks are deleted, 0 deletes all
 %   isubs    xparam; yparam; zparam
 %   1        none; none; nz, zl, dz [L]                                     all element centres
 %   2        ixl, ixinc, ixh; iyl, iyinc, iyh; nz, zl, dz                   ranges of elements
@@ -32,6 +32,6 @@ function subs_addblock( ire, icp, iblk, isubs, xparam, yparam, zparam )
       zparam = 0;
    end
    cntc_call('subs_addblock', ire, icp, iblk, isubs, numel(xparam), numel(yparam), numel(zparam), xparam, yparam, zparam);
-   cntc_tell('subs_addblock', ire, icp);
+   cntc_report_errors('subs_addblock', ire, icp);
 
 end % function subs_addblock

@@ -20,6 +20,6 @@ function [ ierror ] = subs_calculate( ire, icp, idebug )
       idebug = cntc_library('idebug');
    end
    ierror = cntc_call('subs_calculate', ire, icp, []);
-   cntc_tell('subs_calculate', ire, icp, ierror, idebug);
+   cntc_report_errors('subs_calculate', ire, icp, ierror, idebug);
 
 end % function subs_calculate

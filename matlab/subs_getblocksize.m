@@ -20,6 +20,6 @@ function [ nx, ny, nz ] = subs_getblocksize( ire, icp, iblk )
       iblk = 1;
    end
    [nx, ny, nz] = cntc_call('subs_getblocksize', ire, icp, iblk, [], [], []);
-   cntc_tell('subs_getblocksize', ire, icp);
+   cntc_report_errors('subs_getblocksize', ire, icp);
 
 end % function subs_getblocksize

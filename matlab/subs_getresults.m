@@ -5,10 +5,10 @@ function [ res ] = subs_getresults( ire, icp, iblk, icol )
 %
 %   ire, icp   result element and contact patch or problem (default 1, 1)
 %   iblk     number of the block (default 1)
-%   icol     columns wanted, or 'all' (default)
+%   icol     requested columns, or 'all' (default)
 %            1-3 x, y, z [L]; 4-6 ux, uy, uz [L]; 7-9 hydrostatic, von Mises, Tresca stress; 10-12 principal
 %            stresses; 13-21 tensor xx, yx, zx, xy, yy, zy, xz, yz, zz [F/L2]
-%   res      (npoint,ncol) array; for 'all' a struct as that of loadstrs
+%   res      (npoint,ncol) array; for 'all' a struct like that of loadstrs
 %
 % See also: subs_addblock, plotstrs.
 
@@ -35,7 +35,7 @@ function [ res ] = subs_getresults( ire, icp, iblk, icol )
    end
    n   = nx*ny*nz;
    res = cntc_call('subs_getresults', ire, icp, iblk, n, numel(icol), icol, zeros(n,numel(icol)));
-   cntc_tell('subs_getresults', ire, icp);
+   cntc_report_errors('subs_getresults', ire, icp);
    if (~all_columns)
       return
    end

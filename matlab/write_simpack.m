@@ -2,7 +2,7 @@ function write_simpack( p, fname, comment, z )
 % WRITE_SIMPACK  Write a profile to a Simpack file (.prr for rails, .prw for wheels).
 %
 %   write_simpack( p, fname, comment )
-%   write_simpack( fname, comment, y, z )     the order of other scripts
+%   write_simpack( fname, comment, y, z )     argument order of other scripts
 %
 %   p         struct of READ_PROFILE, or an n x 2 array of y and z [mm]
 %   fname     name of the file; .prw makes it a wheel profile, .prr a rail profile

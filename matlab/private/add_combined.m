@@ -1,5 +1,5 @@
 function [ mater ] = add_combined( mater )
-% ADD_COMBINED  Constants of both bodies together, as established scripts name them.
+% ADD_COMBINED  Combined constants of both bodies, by the names of established scripts.
 %
 %   mater.ga   combined modulus of rigidity [N/mm2], the harmonic mean
 %   mater.si   combined Poisson ratio [-]

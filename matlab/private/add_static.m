@@ -1,5 +1,5 @@
 function [ fric ] = add_static( fric )
-% ADD_STATIC  Coefficients of friction at rest and far from it for laws that do not give them, as established scripts name them.
+% ADD_STATIC  Static and kinetic coefficients of friction for laws that do not have them as parameters, as in established scripts.
 
    if (isfield(fric, 'fref'))
       fric.fstat = fric.fref;

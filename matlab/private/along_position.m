@@ -1,5 +1,5 @@
 function [ u ] = along_position( sol, body, x )
-% ALONG_POSITION  Position in a slices file of a place x [mm] in rail or wheel coordinates.
+% ALONG_POSITION  Position in a slices file for a coordinate x [mm] of the rail or wheel.
 %
 % Rails: distance along the track. Wheels: angle, zero at the bottom when the wheel is not turned; turning by a
 % negative pitch angle, as in forward rolling, brings positive angles to the bottom.

@@ -1,7 +1,7 @@
 function [ h ] = axis_name( at, name, fontsiz, col, angle )
-% AXIS_NAME  Write the name of an axis of coordinates; names in dollars are formulae.
+% AXIS_NAME  Write the name of a coordinate axis; names in dollar signs are formulae.
 %
-%   at      place of its middle, 2 or 3 numbers
+%   at      position of its centre, 2 or 3 numbers
 %   angle   of the text [deg]
 
    how = 'tex';

@@ -1,7 +1,7 @@
 function [ b ] = bspline_basis( t, x, derivative )
-% BSPLINE_BASIS  Cubic B-splines at points within the knots that they are complete between.
+% BSPLINE_BASIS  Cubic B-splines at points in the interval in which their basis is complete.
 %
-%   t           knots, rising
+%   t           knots, increasing
 %   x           column of points; those outside of t(4) ... t(end-3) give rows of NaN
 %   derivative  0: values; 1: first derivatives
 %

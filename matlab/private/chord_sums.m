@@ -1,5 +1,5 @@
 function [ s ] = chord_sums( y, z )
-% CHORD_SUMS  Summed lengths of the chords from the first point of a profile on.
+% CHORD_SUMS  Cumulative lengths of the chords from the first point of a profile.
 
    s = [0; cumsum(hypot(diff(y(:)), diff(z(:))))];
 

@@ -4,7 +4,7 @@ function [ varargout ] = cntc_call( name, varargin )
 %   [out1, out2, ...] = cntc_call( name, arg1, arg2, ... )
 %
 %   name        routine as in contact_addon.h
-%   arg1, ...   all of its arguments in order; for results [] (a single number) or an array of the size wanted
+%   arg1, ...   all of its arguments in order; for results [] (a single number) or an array of the required size
 %   out1, ...   the results in order
 
    letters = cntc_signature(name);

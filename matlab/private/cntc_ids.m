@@ -17,7 +17,7 @@ function [ ire, icp ] = cntc_ids( ire, icp, kind, caller )
       end
    end
    if (strcmp(kind,'patch') && icp<=0)
-      error('%s: icp must be the number of a contact patch or problem, from 1 on; it is %d.', caller, icp);
+      error('%s: icp must be the number of a contact patch or problem, 1 or larger; it is %d.', caller, icp);
    end
 
 end % function cntc_ids

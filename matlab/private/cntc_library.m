@@ -1,14 +1,14 @@
 function [ answer ] = cntc_library( question, value )
-% CNTC_LIBRARY  The loaded library: how it is reached and how much it tells.
+% CNTC_LIBRARY  The loaded library: how it is called, and which messages it reports.
 %
-%   cntc_library('load')          load it, unless it is there; answer: was it there already?
+%   cntc_library('load')          load it unless it is loaded; returns whether it was loaded before
 %   cntc_library('unload')
-%   cntc_library('mex')           is it reached by the gateway cntc_mex? Otherwise by Matlab's calllib
+%   cntc_library('mex')           is it called by the gateway cntc_mex? Otherwise by Matlab's calllib
 %   cntc_library('name')          its name for calllib
 %   cntc_library('idebug', value) set or get: 0 silent, 1 report error codes, 2 also remarks
 %
 % The library is searched for as CONTACT_LIBRARY of the environment, then in bin, lib and build/release/bin beside
-% this folder, and in bin of an installation that has it in share/contact.
+% this folder, and in bin of an installation that has these scripts in share/contact.
 
    persistent state;
    if (isempty(state))
@@ -52,7 +52,7 @@ end % function cntc_library
 %------------------------------------------------------------------------------------------------------
 
 function [ file, name ] = find_library( )
-% Full path, and the name that the global variable libname of older scripts holds
+% Full path, and the name that older scripts have in the global variable libname
 
    global libname;
    if (isempty(libname))
@@ -79,7 +79,7 @@ function [ file, name ] = find_library( )
          end
       end
    end
-   error('contact: the library %s is neither in bin or build/release/bin of %s nor named by CONTACT_LIBRARY.', ...
+   error('contact: the library %s was not found in bin or build/release/bin of %s; set the environment variable CONTACT_LIBRARY to its path.', ...
          name, top);
 
 end % function find_library
@@ -105,7 +105,7 @@ function [ yes ] = use_gateway( )
    here = fileparts(mfilename('fullpath'));
    yes  = (exist('cntc_mex')==3 || exist(fullfile(here,['cntc_mex.' mexext()]),'file')>0);
    if (~yes && exist('OCTAVE_VERSION','builtin'))
-      error('contact: Octave reaches the library by a gateway; build it once with cntc_buildmex (needs mkoctfile).');
+      error('contact: Octave calls the library by a gateway; build it once with cntc_buildmex (needs mkoctfile).');
    end
 
 end % function use_gateway

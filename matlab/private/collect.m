@@ -1,8 +1,8 @@
 function [ s ] = collect( s, i, j, names, v, from )
-% COLLECT  Put numbers of a struct of HEADING_VALUES into arrays of a struct, at row i and column j.
+% COLLECT  Store values of a struct of HEADING_VALUES in arrays of a struct, at row i and column j.
 %
 %   names   fields of s
-%   from    names in v, one for each field; a cell array holds alternatives, the first that exists is taken
+%   from    names in v, one for each field; a cell array has alternatives, of which the first that exists is used
 
    for k = 1 : numel(names)
       alternatives = from{k};

@@ -1,12 +1,12 @@
 function [ subs ] = collect_subs( out, npatch )
-% COLLECT_SUBS  Largest stresses below the surface that an .out file tells, and where they are.
+% COLLECT_SUBS  Largest stresses below the surface in an .out file, and their positions.
 %
 %   out      struct of READ_OUT
 %   npatch   rows of the results: 1, or the largest number of contact patches
 %
-%   subs     [] when there are none, else a struct of arrays (npatch, ncase, nblock):
-%            sighyd, sigvm, sigtr, sigma1, sigma3, sigxx, sigyy, sigzz [N/mm2]; each is again a struct
-%            with val and the place x, y, z [mm]
+%   subs     [] if there are none, else a struct of arrays (npatch, ncase, nblock):
+%            sighyd, sigvm, sigtr, sigma1, sigma3, sigxx, sigyy, sigzz [N/mm2]; each is a struct
+%            with val and the position x, y, z [mm]
 
    subs = [];
    found = find_text(out.lines, ' AT (X,Y,Z) = (');
@@ -19,7 +19,7 @@ function [ subs ] = collect_subs( out, npatch )
    for k = blocks
       nblock = max(nblock, sscanf(out.lines{k}, ' SUBSURFACE STRESSES BLOCK %d', 1));
       if (nblock>1000)
-         error('line %d has no number of a block', k);
+         error('line %d has no block number', k);
       end
    end
    for n = 1 : numel(names)

@@ -53,7 +53,7 @@ function draw_flat( sol, opt )
    end
    range = [xc(1) xc(end) yc(1) yc(end)];
    if (~isempty(before))
-      % beside what is there already: other patches, other cases
+      % added to what has been drawn: other patches, other cases
       range([1 3]) = min(range([1 3]), before([1 3]));
       range([2 4]) = max(range([2 4]), before([2 4]));
    end
@@ -66,7 +66,7 @@ function draw_flat( sol, opt )
    if (opt.xstretch~=1 || (numel(xm)>1 && numel(ym)>1))
       lengths = diff(range([1 2; 3 4]), 1, 2)' .* [1 1/opt.xstretch];
       heights = get(gca, 'zlim');
-      % heights take half of what the longer side takes
+      % heights take half the length of the longer side
       set(gca, 'dataaspectratio',[1 opt.xstretch 2*diff(heights)/max(lengths)]);
    end
    xlabel('x [mm]');
@@ -82,7 +82,7 @@ end % function draw_flat
 %------------------------------------------------------------------------------------------------------
 
 function [ azel, above, y_reversed ] = view_angles( view, flat_field )
-% Azimuth and elevation; is it a picture from above? With z pointing down a rail is seen from below, which is the
+% Azimuth and elevation; is it a picture from above? As z points down, the view is from below, which is the
 % same as from above with the y-axis reversed
 
    y_reversed = false;
@@ -122,10 +122,10 @@ end % function paint
 %------------------------------------------------------------------------------------------------------
 
 function draw_contours( xm, ym, xc, yc, val, azel )
-% Filled contours. Elements without a value get the lowest one for that, and are covered by white afterwards
+% Filled contours. Elements without a value get the lowest one, and are covered by white afterwards
 
    if (numel(xm)<2 || numel(ym)<2)
-      error('plot3d: typplot = ''contourf'' needs at least 2 x 2 elements, shown are %d x %d.', numel(xm), numel(ym));
+      error('plot3d: typplot = ''contourf'' needs at least 2 x 2 elements; %d x %d are shown.', numel(xm), numel(ym));
    end
    missing = isnan(val);
    if (all(missing(:)))
@@ -188,7 +188,7 @@ function draw_arrows( f, sol, opt, ix, iy, xm, ym )
       end
    end
    args = line_options(color, opt.vecwidth);
-   % quiver fails without any
+   % quiver fails without arrows
    if (any(there(:)))
       quiver(x(there), y(there), vx(there), vy(there), 0, args{:});
    end

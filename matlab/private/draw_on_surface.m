@@ -69,7 +69,7 @@ function draw_body( sol, opt, body, p, xrange, lift )
    [dx, dy] = line_steps(opt.xysteps, xrange, Y);
    xl = unique([xrange(1), ceil(xrange(1)/dx)*dx : dx : xrange(2), xrange(2)]);
    [yl, zl] = surface_points(sol, body, p, xl);
-   % between surface and contact: the soft rims of lines hide what is as far away as they are
+   % between surface and contact: the antialiased edges of lines hide objects at the same distance
    zl = zl + 0.8*inward*lift;
    for i = 1 : numel(xl)
       plot3(xl(i)+0*yl(:,i), yl(:,i), zl(:,i), '-', 'color',[0.6 0.6 0.6]);
@@ -122,7 +122,7 @@ function [ Y, Z ] = surface_points( sol, body, p, x )
       Y = y * ones(size(x));
       Z = z * ones(size(x));
    else
-      % slices can lack parts, so all of their points are kept here
+      % parts of slices may be missing, so all points are kept here
       Y = zeros(size(p.vy,2), numel(x));
       Z = Y;
       for i = 1 : numel(x)
@@ -204,7 +204,7 @@ end % function draw_patch
 %------------------------------------------------------------------------------------------------------
 
 function [ X, Y, Z, ty, tz ] = on_body( c, x, s )
-% Places on the surface for all x and s, one row per s, and the lateral direction there
+% Positions on the surface for all x and s, one row per s, and the lateral direction there
 
    [y, z, ny, nz] = points_on_surface(c, s);
    X  = ones(numel(s),1) * (c.x + x(:)');

@@ -1,9 +1,9 @@
 function draw_section( sol, opt, prr, prw, which, subs )
 % DRAW_SECTION  Rear view (y,z) or side view (x,z) of PLOT3D: outlines of rail and wheel, with bars for the values.
 %
-% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. Each row of elements (side view: column) gives
-% the value of largest magnitude, drawn from the surface along the normal of the contact into the body. Stresses of the blocks
-% subs stand behind that.
+% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. For each row of elements (side view: column)
+% the value of largest magnitude is drawn from the surface along the normal of the contact into the body, over the stresses of
+% the blocks subs.
 
    body = 'r';
    if (strcmp(opt.rw_surf, 'prw'))
@@ -83,7 +83,7 @@ end % function draw_section
 %------------------------------------------------------------------------------------------------------
 
 function to_track( lines, m, rear, y )
-% Moves what was drawn in rail coordinates to those of the track; in a side view at the lateral position of the contact
+% Move what was drawn in rail coordinates to those of the track; in a side view at the lateral position of the contact
 
    for h = lines(:)'
       [a, b] = rail_to_track(m, rear, y, get(h, 'xdata'), get(h, 'ydata'));
@@ -158,7 +158,7 @@ end % function draw_bars
 %------------------------------------------------------------------------------------------------------
 
 function [ v ] = largest( v )
-% In each column the value of largest magnitude, with its sign
+% The value of largest magnitude in each column, with its sign
 
    [~, k] = max(abs(v), [], 1);
    v = v(sub2ind(size(v), k, 1:size(v,2)));

@@ -2,7 +2,7 @@ function draw_subsurface( b, sol, opt, c, rear )
 % DRAW_SUBSURFACE  Stresses below the surface of one patch in the rear or side view of PLOT3D, as filled contours.
 %
 %   b       block of points of LOADSTRS; the largest von Mises stress along the line of sight is shown
-%   c       struct of CONTACT_FRAME: the depth counts from the surface, along the normal of the contact there
+%   c       struct of CONTACT_FRAME: depth is measured from the surface, along the normal of the contact
 %   rear    rear view (y,z), else side view (x,z)
 
    b = whole_block(b);
@@ -23,7 +23,7 @@ function draw_subsurface( b, sol, opt, c, rear )
    % no contours where the profile ends
    there = ~any(isnan(v), 2);
    if (sum(there)<2 || b.nz<2)
-      error('plot3d: a picture of stresses below the surface needs at least 2 x 2 points of a block.');
+      error('plot3d: to plot stresses below the surface a block needs at least 2 x 2 points.');
    end
    contourf(h(there,:), v(there,:), val(there,:), 'linestyle','none');
    if (~is_black(opt.colormap))
@@ -38,7 +38,7 @@ end % function draw_subsurface
 function [ b ] = whole_block( b )
 
    if (~isstruct(b) || numel(b)~=1 || ~all(isfield(b, {'x','y','z','sigvm'})))
-      error('plot3d: subs must hold a block of loadstrs for each patch.');
+      error('plot3d: subs must have a block of loadstrs for each patch.');
    end
    b.x = b.x(:);
    b.y = b.y(:);

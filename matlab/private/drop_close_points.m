@@ -1,7 +1,7 @@
 function [ keep ] = drop_close_points( y, z, min_dist )
-% DROP_CLOSE_POINTS  Numbers of the points that are no closer than min_dist to the last one kept.
+% DROP_CLOSE_POINTS  Indices of the points that are at least min_dist from the last one kept.
 
-   % usually there are none
+   % usually no points are too close
    if (all(hypot(diff(y(:)), diff(z(:))) >= min_dist))
       keep = 1 : numel(y);
       return

@@ -1,5 +1,5 @@
 function [ s ] = empty_arrays( names, nrow, ncol )
-% EMPTY_ARRAYS  Struct of arrays filled with NaN, for what a file does not tell.
+% EMPTY_ARRAYS  Struct of arrays filled with NaN, for values that a file does not have.
 
    s = struct();
    for k = 1 : numel(names)

@@ -1,9 +1,9 @@
 function [ f ] = field_values( sol, field )
-% FIELD_VALUES  Values of one of the quantities that PLOT3D knows.
+% FIELD_VALUES  Values of one of the quantities of PLOT3D.
 %
 %   f.val      (my,mx) array, with exterior elements as stored
-%   f.vx, vy   arrows, [] where there are none
-%   f.colors   are the values shown in colours? Not for 'ptvec'
+%   f.vx, vy   arrows, [] if there are none
+%   f.colors   are the values shown by colours? Not for 'ptvec'
 %   f.title, f.unit   texts for the picture
 %   f.name     the quantity after 'default' has been replaced
 

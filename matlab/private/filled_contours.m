@@ -1,10 +1,10 @@
 function [ c, h ] = filled_contours( x, y, val, levels )
-% FILLED_CONTOURS  CONTOURF, and one colour where there is no contour to draw: of a field that is the same everywhere, or whose values
-% are all below, or all above, the levels that are asked for. Then c is empty.
+% FILLED_CONTOURS  CONTOURF, and one colour if there is no contour to draw: for a constant field, or if all values are below, or
+% all above, the requested levels. Then c is empty.
 %
 %   x, y     positions of the values
 %   val      values, one row for each y
-%   levels   as CONTOURF takes them; may be absent
+%   levels   as in CONTOURF; optional
 
    low  = min(val(:));
    high = max(val(:));

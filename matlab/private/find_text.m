@@ -1,5 +1,5 @@
 function [ index ] = find_text( lines, text )
-% FIND_TEXT  Numbers of the lines that hold a text.
+% FIND_TEXT  Indices of the lines that contain a text.
 
    index = find(~cellfun('isempty', strfind(lines, text)));
 

@@ -1,5 +1,5 @@
 function finish_colors( val, opt )
-% FINISH_COLORS  Colormap, range and colour bar after the options colormap and zrange of PLOT3D.
+% FINISH_COLORS  Colormap, range and colour bar by the options colormap and zrange of PLOT3D.
 
    if (is_black(opt.colormap))
       return

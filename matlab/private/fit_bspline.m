@@ -1,10 +1,10 @@
 function [ spl ] = fit_bspline( s, y, z, lambda, wgt, ikinks, iaccel, ds, order, repeat )
-% FIT_BSPLINE  Smoothing spline of B-splines, as MAKE_SPLINE gives it.
+% FIT_BSPLINE  Smoothing spline made of B-splines, with the result of MAKE_SPLINE.
 %
 %   s, y, z, lambda, wgt, ikinks, iaccel   as for MAKE_SPLINE, checked, columns
 %   ds       distance of the knots, or []: at the points
 %   order    of the derivative that is smoothed, 2 or 3
-%   repeat   are outer knots those at the ends?
+%   repeat   are the end knots repeated, instead of additional outer knots?
 
    fixed = unique([1; ikinks; iaccel; numel(s)]);
    at = s;
@@ -24,7 +24,7 @@ function [ spl ] = fit_bspline( s, y, z, lambda, wgt, ikinks, iaccel, ds, order,
    b = values(t, s);
    root = sparse(1:numel(s), 1:numel(s), sqrt(wgt));
    g = smoothness(t, at, order);
-   % least weight of smoothness, for knots that no points determine
+   % minimum weight of smoothness, for coefficients that are not determined by points
    least = 1e-12 * full(sum(sum((root*b).^2)) / max(sum(sum(g.^2)), realmin));
    rows  = [root*b; sqrt(max(lambda, least))*g];
    spl = struct('s',at, 'tj',t, 'y',[], 'z',[], 'cy',rows \ [root*y; zeros(size(g,1),1)], 'cz',[]);
@@ -50,8 +50,8 @@ end % function values
 %------------------------------------------------------------------------------------------------------
 
 function [ g ] = smoothness( t, at, order )
-% Rows whose squares sum to the integral of the squared derivative: of the second one, which is linear in each piece, by Gauss's rule
-% of two points; the third one is constant
+% Rows whose squares sum to the integral of the squared derivative. The second derivative is linear in each piece and integrated by
+% the two-point Gauss rule; the third one is constant
 
    h = diff(at);
    middle = (at(1:end-1)+at(2:end))/2;

@@ -1,5 +1,5 @@
 function [ varargout ] = guarded( fname, caller, work )
-% GUARDED  Results of a function that reads a file; what goes wrong in it becomes one sentence that names the file.
+% GUARDED  Results of a function that reads a file; its errors become one sentence that names the file.
 %
 %   fname    name of the file
 %   caller   name of the script that was called
@@ -10,7 +10,7 @@ function [ varargout ] = guarded( fname, caller, work )
    catch reason
       text = reason.message;
       if (isempty(strfind(text, '"')))
-         text = sprintf('%s: "%s" is damaged or of another kind: %s', caller, fname, strtrim(regexprep(text, '\s+', ' ')));
+         text = sprintf('%s: "%s" is damaged or has another format: %s', caller, fname, strtrim(regexprep(text, '\s+', ' ')));
       end
       error('%s', text);
    end

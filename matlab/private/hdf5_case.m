@@ -1,12 +1,12 @@
 function [ g, fname ] = hdf5_case( expnam, icase, wanted )
-% HDF5_CASE  Group of a case in the HDF5 file of an experiment, see HDF5_GROUP; [] when there is no file or no such case.
+% HDF5_CASE  Group of a case in the HDF5 file of an experiment, see HDF5_GROUP; [] if there is no file or no such case.
 %
-%   expnam   experiment name with folder; with the ending .h5 or without. _re001 behind it stands for a result
-%            element, as in the names of .mat files; the HDF5 file holds all of them
+%   expnam   experiment name with folder, with or without the extension .h5. A suffix such as _re001 selects a result
+%            element, as in the names of .mat files; the HDF5 file contains all result elements
 %   icase    number of the case
-%   wanted   cell array of the groups that are needed
+%   wanted   cell array of the required groups
 %
-%   fname    name of the HDF5 file, '' when there is none
+%   fname    name of the HDF5 file, '' if there is none
 
    g = [];
    [folder, name, ending] = fileparts(expnam);
@@ -24,7 +24,7 @@ function [ g, fname ] = hdf5_case( expnam, icase, wanted )
       fname = '';
       return
    end
-   % a byte, HDF and line ends begin each of them
+   % signature of HDF5 files
    f = fopen(fname, 'r');
    signature = fread(f, [1 8], 'uint8');
    fclose(f);

@@ -1,9 +1,9 @@
 function [ g ] = hdf5_group( fname, group, wanted )
-% HDF5_GROUP  A group at the top of an HDF5 file as nested structs; [] when there is none of that name.
+% HDF5_GROUP  A top-level group of an HDF5 file as nested structs; [] if there is none of that name.
 %
 %   fname    name of the file
 %   group    name of the group, without /
-%   wanted   optional: cell array of the groups and datasets inside that are needed; Octave reads all
+%   wanted   optional: cell array of the required groups and datasets in it; Octave reads all
 
    g = [];
    if (exist('h5info','file')==0)
@@ -56,7 +56,7 @@ end % function read_group
 %------------------------------------------------------------------------------------------------------
 
 function [ name ] = last_name( path )
-% Name of a group without those around it
+% Name of a group without its parent groups
 
    name = path(find(path=='/', 1, 'last')+1 : end);
 

@@ -1,7 +1,7 @@
 function [ patches ] = hdf5_patches( expnam, icase )
 % HDF5_PATCHES  Contact patches of a case in the HDF5 file of an experiment, as structs described in LOADCASE.
 %
-%   patches   cell array, empty when there is no file or no such case
+%   patches   cell array, empty if there is no file or no such case
 
    patches = {};
    parts = [{'inputs','markers','totals','status'}, patch_names(1:99)];
@@ -25,7 +25,7 @@ end % function hdf5_patches
 %------------------------------------------------------------------------------------------------------
 
 function [ status, reason ] = case_status( c )
-% How a case ended; the group of a case that did tells nothing
+% Status of a case and the reason; solved cases have no group 'status'
 
    status = 'solved';
    reason = '';
@@ -89,7 +89,7 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
    s.x = s.xl + ((1:s.mx)-0.5) * s.dx;
    s.y = s.yl + ((1:s.my)-0.5) * s.dy;
 
-   % arrays of elements have the shape (mx,my) in the file; what a frictionless case does not have is zero
+   % arrays of elements have the shape (mx,my) in the file; fields that a frictionless case does not have are zero
    names = {'eldiv','h','mu','pn','px','py','un','ux','uy'};
    for i = 1 : numel(names)
       s.(names{i}) = zeros(s.my, s.mx);
@@ -179,7 +179,7 @@ end % function materials
 %------------------------------------------------------------------------------------------------------
 
 function [ fric ] = friction( f, digit )
-% Friction law, by the digit of the case where its word is none of these, and the first set of parameters
+% Friction law, by the digit of the case if its name is not in this list, and the first set of parameters
 
    names = {'coulomb','','linear','rational','exponential','','temperature'};
    order = {'fstat','fkin','flin1','frat1','fexp1','sabsh1','flin2','frat2','fexp2','sabsh2','fref','tref','dfheat','dtheat', ...
@@ -188,7 +188,7 @@ function [ fric ] = friction( f, digit )
    if (isempty(law))
       law = digit;
    end
-   % known ones in the order of the input, what a new law has behind them
+   % known parameters in the order of the input, followed by those of a new law
    there = setdiff(fieldnames(f)', {'law','variation','alpha','svf'});
    known = order(ismember(order, there));
    fric = chosen(f, [known, setdiff(there, order)], struct('frclaw',law));

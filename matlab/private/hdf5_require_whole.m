@@ -1,5 +1,5 @@
 function hdf5_require_whole( fname, place, value )
-% HDF5_REQUIRE_WHOLE  An error when HDF5 did not find a piece of an array, see src/hdf5/file.f90.
+% HDF5_REQUIRE_WHOLE  Stop if HDF5 did not find a chunk of an array, see src/hdf5/file.f90.
 %
 %   fname   name of the file, for the message
 %   place   group or dataset
@@ -20,7 +20,7 @@ function hdf5_require_whole( fname, place, value )
       lost    = any(value(:) == -128);
    end
    if (lost)
-      error('"%s" is damaged: a piece of %s is not found.', fname, place);
+      error('"%s" is damaged: a chunk of %s was not found.', fname, place);
    end
 
 end % function hdf5_require_whole

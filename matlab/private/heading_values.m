@@ -1,7 +1,7 @@
 function [ v ] = heading_values( lines, i )
 % HEADING_VALUES  Numbers of line i+1 as a struct, named by the column headings in line i.
 %
-% Names are lower case and have _ for whatever is neither letter nor digit: FX/FSTAT/FN is fx_fstat_fn.
+% Names are in lower case, with _ for characters other than letters and digits: FX/FSTAT/FN becomes fx_fstat_fn.
 
    heading = regexprep(lines{i}, '(CREEP|SHIFT) ([XY])', '$1_$2');
    names   = regexp(strtrim(heading), '\s+', 'split');

@@ -1,5 +1,5 @@
 function [ col ] = line_color( col )
-% LINE_COLOR  Colour as plot takes it: a name or red, green, blue as they are, a number by MATLAB_COLOR, [] is blue.
+% LINE_COLOR  Colour for plot: a name or [red green blue] unchanged, a number by MATLAB_COLOR, [] is blue.
 
    if (isempty(col))
       col = 'b';

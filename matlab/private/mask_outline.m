@@ -7,7 +7,7 @@ function [ x, y ] = mask_outline( mask, xc, yc )
    x = [];
    y = [];
    [my, mx] = size(mask);
-   % edges across x, then edges across y: wherever a neighbour is different
+   % edges normal to x, then edges normal to y: between elements that differ
    d = diff([false(my,1), mask, false(my,1)], 1, 2) ~= 0;
    [iy, ix] = find(d);
    if (~isempty(ix))

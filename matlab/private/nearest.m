@@ -1,5 +1,5 @@
 function [ index ] = nearest( list, values )
-% NEAREST  Positions in the list of the numbers closest to the values, without repetition.
+% NEAREST  Indices of the list entries closest to the values, without repetition.
 
    index = zeros(1, numel(values));
    for i = 1 : numel(values)

@@ -1,19 +1,19 @@
 function [ values, skipped ] = number_rows( lines, ncol, allowed )
-% NUMBER_ROWS  Numbers of text lines as rows of an array.
+% NUMBER_ROWS  Numbers in lines of text as rows of an array.
 %
 %   lines     cell array
-%   ncol      numbers to be taken from each line
-%   allowed   longest line to be accepted, in numbers; shorter than ncol is not accepted either
+%   ncol      number of values read from each line
+%   allowed   largest number of values of an accepted line; lines with fewer than ncol are not accepted
 %
 %   values    n x ncol array
-%   skipped   count of lines that were not accepted
+%   skipped   number of lines that were not accepted
 
    [v, count] = sscanf(sprintf('%s\n', lines{:}), '%f');
    first = 0;
    if (~isempty(lines))
       first = numel(sscanf(lines{1}, '%f'));
    end
-   % all lines alike: the usual case, and fast
+   % all lines have the same number of values: the usual and fast case
    if (first>=ncol && first<=allowed && count==first*numel(lines) && all_alike(lines, first))
       values = reshape(v, first, numel(lines))';
       values = values(:,1:ncol);

@@ -1,8 +1,8 @@
 function [ jx, jy, scale ] = pick_arrows( f, sol, opt, ix, iy )
-% PICK_ARROWS  Columns and rows that get an arrow, and the length in mm of an arrow for the value 1.
+% PICK_ARROWS  Columns and rows with an arrow, and the length in mm of an arrow for the value 1.
 %
-% Every 2nd, 3rd, ... element is left out so that numvecx and numvecy are kept. Without vecscale the longest
-% arrow spans one and a half distances of arrows.
+% Only every 2nd, 3rd, ... element has an arrow, such that numvecx and numvecy are not exceeded. Without vecscale the length of
+% the longest arrow is 1.5 times the distance of arrows.
 
    stepx = max(1, ceil(numel(ix)/opt.numvecx));
    stepy = max(1, ceil(numel(iy)/opt.numvecy));

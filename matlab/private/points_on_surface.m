@@ -1,13 +1,13 @@
 function [ y, z, ny, nz ] = points_on_surface( c, s )
-% POINTS_ON_SURFACE  Places on the profile for lateral contact coordinates s [mm].
+% POINTS_ON_SURFACE  Points on the profile for lateral contact coordinates s [mm].
 %
 %   c        struct of CONTACT_FRAME
 %   s        lateral coordinates
-%   y, z     places on the profile, NaN beyond its ends [mm]
+%   y, z     points on the profile, NaN beyond its ends [mm]
 %   ny, nz   direction normal to the contact there, pointing from the wheel into the rail
 %
-% In a planar contact a place is sought along the normal of the contact plane; in a conformal contact s is the
-% length along the profile from the contact reference.
+% In a planar contact points are projected along the normal of the contact plane; in a conformal contact s is the
+% arc length along the profile from the contact reference.
 
    s  = s(:)';
    t  = [cos(c.delta), sin(c.delta)];

@@ -9,7 +9,7 @@ function [ yz ] = profile_points( p, caller )
       error('%s: the profile must be a struct of read_profile or an n x 2 array.', caller);
    end
    if (size(yz,1)<2)
-      error('%s: a profile needs at least two points, there are %d.', caller, size(yz,1));
+      error('%s: a profile needs at least two points; this one has %d.', caller, size(yz,1));
    end
 
 end % function profile_points

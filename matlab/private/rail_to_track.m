@@ -1,5 +1,5 @@
 function [ a, b ] = rail_to_track( m, rear, y_contact, a, b )
-% RAIL_TO_TRACK  Places of a rear or side view of the rail in track coordinates.
+% RAIL_TO_TRACK  Points of a rear or side view of the rail in track coordinates.
 %
 %   m      meta of the patch
 %   rear   (a,b) are (y,z); else (x,z), at the lateral position y_contact of the contact

@@ -14,7 +14,7 @@ function [ s ] = read_mat_file( fname, icase )
    elements = rows(7:end,:);
    if (size(rows,2)<11 || any(~isfinite(rows(4,1:6))) || any(rows(4,1:2)<1) || any(rows(4,1:2)~=fix(rows(4,1:2))) ...
          || prod(rows(4,1:2))>1e8 || any(rows(4,5:6)<=0))
-      error('loadcase: "%s" is damaged: line 8 has no sensible MX, MY, XL, YL, DX, DY.', fname);
+      error('loadcase: "%s" is damaged: line 8 has invalid values of MX, MY, XL, YL, DX, DY.', fname);
    end
 
    s = struct('config',rows(4,9), 'h_digit',rows(6,2));
@@ -53,7 +53,7 @@ end % function read_meta
 %------------------------------------------------------------------------------------------------------
 
 function [ status, reason ] = read_status( line )
-% How the case ended, behind the names of the first line; '' in files of other programs
+% Status of the case, after the names in the first line; '' in files of other programs
 
    status = '';
    reason = '';
@@ -124,7 +124,7 @@ function [ s ] = read_elements( s, table, heading, fname )
    if (heat)
       names = [names, {'temp1','temp2'}];
    end
-   % with columns that this script does not know, the heading tells the names
+   % if there are columns that this script does not know, names are read from the heading
    heading = lower(regexp(heading, '\S+', 'match'));
    if (~isempty(table) && size(table,2)>numel(names)+2 && numel(heading)>=size(table,2))
       names = regexprep(heading(end-size(table,2)+3:end), '^(srel|shft)$', 'slip');
@@ -137,11 +137,11 @@ function [ s ] = read_elements( s, table, heading, fname )
       number = table(:,1);
    end
    if (any(number~=fix(number)) || numel(unique(number))~=numel(number) || ~all(isfinite(table(:))))
-      error('loadcase: "%s" is damaged: numbers of elements that are no integers or come twice, or values that are not finite.', ...
+      error('loadcase: "%s" is damaged: element numbers that are not integers or are repeated, or values that are not finite.', ...
             fname);
    end
    if (~isempty(table) && any(table(:,2)~=fix(table(:,2)) | table(:,2)<0 | table(:,2)>3))
-      error('loadcase: "%s" is damaged: an element state is none of 0, 1, 2, 3.', fname);
+      error('loadcase: "%s" is damaged: an element state is not 0, 1, 2 or 3.', fname);
    end
    if (any(number<1 | number>s.mx*s.my))
       error('loadcase: "%s" has an element that is not in the grid of %d x %d.', fname, s.mx, s.my);

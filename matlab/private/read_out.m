@@ -2,15 +2,15 @@ function [ out ] = read_out( fname, caller )
 % READ_OUT  Lines of an .out file, with the case (and contact patch) that each of them belongs to.
 %
 %   out.lines    the lines, a cell array
-%   out.complete false when the file says that cases are missing; when it is of this program also when its end is missing
+%   out.complete false if the file reports missing cases or, for files of this program, if its end is missing
 %   out.ncase    number of cases
 %   out.icase    numbers of the cases as printed
-%   out.case_of  for each line: position in the list of cases, 0 ahead of the first
-%   out.patch_of for each line: number of the contact patch, 0 ahead of the first patch of a case
+%   out.case_of  for each line: position in the list of cases, 0 before the first
+%   out.patch_of for each line: number of the contact patch, 0 before the first patch of a case
 
    lines = read_lines(fname, caller);
    if (numel(lines)<2 || isempty(strfind(lines{2}, 'detailed investigation of 3D')))
-      error('%s: "%s" is no .out file of CONTACT.', caller, fname);
+      error('%s: "%s" is not an .out file of CONTACT.', caller, fname);
    end
 
    out.lines   = lines;
@@ -22,7 +22,7 @@ function [ out ] = read_out( fname, caller )
       if (~isempty(told))
          what = strtrim(lines{told(end)});
       end
-      warning('%s: "%s" does not hold all cases: %s.', caller, fname, what);
+      warning('%s: "%s" does not have all cases: %s.', caller, fname, what);
    end
    starts      = find(~cellfun('isempty', regexp(lines, '^ Case +\d+', 'once')));
    out.ncase   = numel(starts);
@@ -42,7 +42,7 @@ function [ out ] = read_out( fname, caller )
       k = k(out.case_of(k)==out.case_of(patches(i)));
       number = sscanf(lines{patches(i)}, ' ----- DATA FOR CONTACT PATCH %d', 1);
       if (isempty(number) || number<1 || number>1000)
-         error('%s: "%s" is damaged: line %d has no number of a contact patch.', caller, fname, patches(i));
+         error('%s: "%s" is damaged: line %d has no contact patch number.', caller, fname, patches(i));
       end
       out.patch_of(k) = number;
    end

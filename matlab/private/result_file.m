@@ -1,12 +1,12 @@
 function [ fname ] = result_file( expnam, icase, ipatch, ext )
-% RESULT_FILE  Name of the file with results of a case, empty when there is none.
+% RESULT_FILE  Name of the file with results of a case, empty if there is none.
 %
 %   expnam   experiment name with folder
 %   icase    number of the case
 %   ipatch   0: no letter; 1, 2, ...: letter a, b, ...
 %   ext      '.mat' or '.subs'
 %
-% Cases have at least 4 digits; older files had 6.
+% Case numbers have at least 4 digits; in older file names they have 6.
 
    letter = '';
    if (ipatch>0)

@@ -1,7 +1,7 @@
 function [ y, z ] = section_at( p, u )
 % SECTION_AT  Points of a profile, for slices interpolated at the position u [mm, for wheels rad].
 %
-% Positions beyond the first or last slice take that slice.
+% Beyond the first or last slice that slice is used.
 
    if (~isfield(p, 'vy'))
       y = p.ProfileY(:);

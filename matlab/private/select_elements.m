@@ -1,5 +1,5 @@
 function [ ix, iy ] = select_elements( sol, opt )
-% SELECT_ELEMENTS  Numbers of the columns and rows that are shown, after ixrange and iyrange of PLOT3D.
+% SELECT_ELEMENTS  Indices of the columns and rows that are shown, by ixrange and iyrange of PLOT3D.
 
    inside = (sol.eldiv>0);
    ix = one_range(opt.ixrange, any(inside,1), 'ixrange');

@@ -1,7 +1,7 @@
 function set_colors( name )
 % SET_COLORS  Select a colormap of the current figure by its name, 'default' too, or as an n x 3 array.
 %
-% Where 'parula' does not exist (Octave) its nearest relative viridis is used.
+% If 'parula' does not exist (Octave), the similar viridis is used.
 
    if (~ischar(name) || strcmp(name, 'default'))
       colormap(name);

@@ -1,5 +1,5 @@
 function [ range ] = shown_range( sol, given, corner_index, margin )
-% SHOWN_RANGE  The given range, or that of the elements in contact of all patches and a margin on both sides.
+% SHOWN_RANGE  The given range, or that of the elements in contact of all patches with a margin on both sides.
 %
 %   corner_index   1: x of the body, from meta and grid; 2: lateral
 

@@ -1,5 +1,5 @@
 function [ val ] = shown_values( f, sol, opt )
-% SHOWN_VALUES  Values of a field with exterior elements as the option exterval of PLOT3D wants them.
+% SHOWN_VALUES  Values of a field with exterior elements according to the option exterval of PLOT3D.
 
    val = f.val;
    if (~isempty(opt.exterval))

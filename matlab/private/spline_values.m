@@ -2,8 +2,8 @@ function [ v ] = spline_values( spl, name, s, order )
 % SPLINE_VALUES  Values of one coordinate of a spline of MAKE_SPLINE, or of its derivative.
 %
 %   name     'y' or 'z'
-%   s        positions; the ends are taken before and behind them, NaN stays
-%   order    0, 1 or 2, of the derivative to s
+%   s        positions; beyond the ends the end points are used; NaN gives NaN
+%   order    order of the derivative with respect to s: 0, 1 or 2
 
    n = numel(spl.s) - 1;
    a = zeros(n, 4);
@@ -31,7 +31,7 @@ end % function spline_values
 %------------------------------------------------------------------------------------------------------
 
 function [ i ] = lookup_piece( s, x )
-% Number of the piece that holds each x
+% Index of the piece that contains each x
 
    i = min(floor(interp1(s, (1:numel(s))', x)), numel(s)-1);
 

@@ -1,5 +1,5 @@
 function [ spl2d ] = surface_spline( spl2d, caller )
-% SURFACE_SPLINE  The spline of a surface: as MAKE_2DSPLINE gives it, or made of a struct of READ_SLICES.
+% SURFACE_SPLINE  The spline of a surface: a struct of MAKE_2DSPLINE unchanged, or computed from a struct of READ_SLICES.
 
    if (isstruct(spl2d) && isfield(spl2d, 'tui'))
       return

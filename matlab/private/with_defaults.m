@@ -1,7 +1,7 @@
 function [ opt ] = with_defaults( opt, defaults, caller )
 % WITH_DEFAULTS  Options of the user, completed by default values.
 %
-% A name that is no option is told by a warning: it would have no effect.
+% An unknown option causes a warning, because it has no effect.
 
    if (isempty(opt))
       opt = struct();

@@ -1,5 +1,5 @@
 function [ fname ] = with_extension( fname, ext )
-% WITH_EXTENSION  Add an extension to a file name that has none, unless a file has just this name.
+% WITH_EXTENSION  Add an extension to a file name that has none, unless a file of exactly this name exists.
 
    [~, ~, e] = fileparts(fname);
    if (~strcmp(e, ext) && exist(fname,'file')~=2)

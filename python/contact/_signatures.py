@@ -1,11 +1,11 @@
-"""Arguments of the routines of the library, its named numbers, and what its results are.
+"""Arguments of the routines of the library, its named numbers, units and meanings of its results.
 
 Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 """
 
 VERSION = "0.1.0"
 
-#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text
+#: Arguments of each routine: name, > for a result, type: i int, I ints, d double, D doubles, s text
 SIGNATURES = {
     "cntc_setfileunits": "nunits:i iunits:I",
     "cntc_initializefirst": (
@@ -203,7 +203,7 @@ MAGIC_NUMBERS = {
     "err_other": -99,  # anything else
 }
 
-#: Unit and meaning of element fields: in rolling, and in shifts where these differ
+#: Unit and meaning of element fields: in rolling, and in shifts if these differ
 FIELDS = {
     "h": (("mm", "undeformed distance, approach not subtracted"),),
     "mu": (("-", "coefficient of friction"),),

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Write the header, the doors, the Fortran interfaces, the Python tables, the functions for Matlab and the page of the library.
+"""Generate the headers, doors.c, the Fortran interfaces, the Python tables, the functions for Matlab and the page of the library.
 
-All comes from interface.txt; make_matlab.py writes the part for Matlab.
+The source is interface.txt; make_matlab.py generates the files for Matlab.
 
-    python3 src/capi/make_interface.py            writes the files, run it after a change of the table
-    python3 src/capi/make_interface.py --check    exit status 1 when a file is not what would be written
+    python3 src/capi/make_interface.py            write the files; to be run after a change of interface.txt
+    python3 src/capi/make_interface.py --check    exit status 1 if a file is not up to date
 """
 import os
 import re
@@ -16,7 +16,7 @@ import make_matlab
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 WIDTH = 100
-#: Problems to which a routine applies; the first two are ends of titles of sections, too
+#: Letters for the problems to which a routine applies; the first two names are also ends of section titles
 SCOPES = {"basic contact": "c", "wheel and rail": "w", "any": "a", "patch of wheel and rail": "l",
           "patch or whole of wheel and rail": "g", "one patch": "p", "solved": "v"}
 ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change those."
@@ -25,8 +25,8 @@ ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change
 class Argument:
     """One argument: direction in, out or inout, kind int, real or text, and whether it is an array
 
-    lengths has the arguments that contain its length; size is the length if it is fixed, "grid" for one value per element, else
-    None; is_table: is it a result with two lengths, which the routine handles itself?
+    lengths: names of the arguments that contain its length. size: the length if it is fixed, "grid" for one value per element,
+    otherwise None. is_table: it is a result with two lengths, which the routine handles itself.
     """
 
     def __init__(self, text):
@@ -43,7 +43,7 @@ class Argument:
 class Routine:
     """One routine with its arguments, its summary, lines about arguments, and words for the functions of other languages
 
-    about has pairs of names and text; a line of a table has no names.
+    about: pairs of argument names and text; lines of a table have no names.
     """
 
     def __init__(self, name, arguments):
@@ -57,9 +57,12 @@ class Routine:
         return next((word for word in self.words if word.lower() == self.name), "")
 
     def kinds(self, title):
-        """A letter for the problems of the section of a routine, see SCOPES, then one for each argument: e, p result element and
-        patch, i, r integer and number, n length of an array; I, R, P, T and the position of their length: arrays of integers,
-        numbers and pairs, a text; x a result, X with the position of its length: an array with one length"""
+        """Letter for the problems of the routine, see SCOPES, then one letter for each argument.
+
+        e, p: result element, patch; i, r: integer, real number; n: length of an array; I, R, P, T with the position of their
+        length: arrays of integers, of real numbers and of pairs, a text; x: a result; X with the position of its length: an array
+        with one length.
+        """
         names = [item.name for item in self.arguments]
         lengths = {item.lengths[-1] for item in self.arguments if item.lengths and not item.is_table}
         kinds = next((SCOPES[word] for word in (*self.words, title.split(" of ")[-1]) if word in SCOPES), "s")
@@ -95,7 +98,7 @@ class Constant:
 
 
 def element_fields():
-    """Constants of the element fields, from the list of them in the sources"""
+    """Constants of the element fields, from their list in the sources"""
     with open(os.path.join(TOP, "src/patch/result.f90"), encoding="utf-8") as file:
         text = file.read()
     fields, letters = {}, {"mm": "L", "N/mm2": "F/L2"}
@@ -107,7 +110,7 @@ def element_fields():
 
 
 def quantities():
-    """Unit and meaning of element fields and of totals, from the lists of them in the sources: one pair for each kind of motion"""
+    """Unit and meaning of element fields and of totals, from their lists in the sources; fields have one pair for each kind of motion"""
     fields, totals = {}, {}
     for name in ("src/patch/result.f90", "src/wheelrail/result.f90"):
         with open(os.path.join(TOP, name), encoding="utf-8") as file:
@@ -147,12 +150,12 @@ def read_table():
             elif line.startswith("   "):
                 items[-1].describe(line.strip())
             else:
-                raise SystemExit(f"interface.txt:{number}: '{line}' is not understood")
+                raise SystemExit(f"interface.txt:{number}: '{line}' is not valid")
     return constants, routines, undocumented
 
 
 def wrapped(words, first, indent, ending=""):
-    """The words, separated by blanks, on lines no longer than WIDTH; ending closes each line but the last"""
+    """The words, separated by blanks, in lines of at most WIDTH characters; all lines but the last end with ending"""
     lines = textwrap.wrap(" ".join(words), WIDTH - len(ending), initial_indent=first, subsequent_indent=indent,
                           break_long_words=False, break_on_hyphens=False)
     return [line + ending for line in lines[:-1]] + lines[-1:]
@@ -178,8 +181,8 @@ def c_header(routines):
              " *",
              " * Each argument is passed by its address, single numbers included. Arrays are preceded by their",
              " * length; texts need no terminating null. No address is kept after a call.",
-             " * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between",
-             " * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md describes all. */",
+             " * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units selects mm or",
+             " * m. The named numbers are in caddon_flags.h; the library is described in doc/user/library.md. */",
              "#ifndef CONTACT_ADDON_H", "#define CONTACT_ADDON_H", "",
              "#ifdef __cplusplus", 'extern "C" {', "#endif"]
     for title, items in routines:
@@ -187,7 +190,7 @@ def c_header(routines):
         for routine in items:
             about = description(routine, WIDTH - 6)
             lines += [""] + [("/* " if line is about[0] else " * ") + line + (" */" if line is about[-1] else "") for line in about]
-            # No-break spaces keep the words of an argument on one line
+            # no-break spaces keep the words of an argument on one line
             words = [("const " if argument.direction == "in" else "") + kinds[argument.kind] + " *" + argument.name
                      for argument in routine.arguments] or ["void"]
             start = f"void {routine.name}("
@@ -235,7 +238,7 @@ def fortran_interfaces(routines):
     kinds = {"int": "c_int", "real": "c_double", "text": "c_char"}
     lines = ["! Interfaces of the routines of the CONTACT library, to be included among declarations.",
              f"! {ORIGIN}",
-             "! Results are intent(inout): a call that is refused leaves them as they were.",
+             "! Results are intent(inout): a call that is refused does not change them.",
              "! Units: L length, F force, V velocity, A angle [rad], T time [s]; see doc/user/library.md.",
              "interface"]
     for title, items in routines:
@@ -254,7 +257,7 @@ def fortran_interfaces(routines):
 
 
 def version():
-    """Version of the project; the one place is src/cli/versions.f90"""
+    """Version of the project, defined in src/cli/versions.f90"""
     with open(os.path.join(TOP, "src/cli/versions.f90"), encoding="utf-8") as file:
         return re.search(r'contact_version = "([0-9.]+)"', file.read()).group(1)
 
@@ -262,9 +265,9 @@ def version():
 def python_tables(constants, routines, undocumented):
     """Text of _signatures.py: the declarations for ctypes"""
     codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
-    lines = ['"""Arguments of the routines of the library, its named numbers, and what its results are.', "", ORIGIN, '"""', "",
+    lines = ['"""Arguments of the routines of the library, its named numbers, units and meanings of its results.', "", ORIGIN, '"""', "",
              f'VERSION = "{version()}"', "",
-             "#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text",
+             "#: Arguments of each routine: name, > for a result, type: i int, I ints, d double, D doubles, s text",
              "SIGNATURES = {"]
     for _, items in routines + [("", undocumented)]:
         for routine in items:
@@ -278,7 +281,7 @@ def python_tables(constants, routines, undocumented):
         lines += [f"    # {title}"]
         lines += [f'    "{item.name[5:]}": {item.value},  # {item.text}' for item in items]
     fields, totals = quantities()
-    lines += ["}", "", "#: Unit and meaning of element fields: in rolling, and in shifts where these differ",
+    lines += ["}", "", "#: Unit and meaning of element fields: in rolling, and in shifts if these differ",
               "FIELDS = {"]
     lines += [f'    "{name}": (' + " ".join(f'("{unit}", "{meaning}"),' for unit, meaning in rows) + "),"
               for name, rows in sorted(fields.items())]
@@ -288,7 +291,7 @@ def python_tables(constants, routines, undocumented):
 
 
 def c_doors(routines, undocumented):
-    """Text of doors.c: names, numbers of arguments, and their kinds"""
+    """Text of doors.c: names of routines, numbers of arguments, kinds of arguments"""
     lines = ["/* The routines that the library exports, see door.h: their number of arguments, positions of ire, icp and ierror,",
              f" * and kinds of arguments. {ORIGIN} */", '#include "door.h"', ""]
     for title, routine in [(title, item) for title, items in routines + [("", undocumented)] for item in items]:
@@ -307,7 +310,7 @@ def page(constants, routines):
         "# Routines and named numbers of the library", "",
         "All routines of [the library](library.md) with their arguments as in C and Fortran, and the named numbers of flags,",
         "fields and codes. Matlab and Python have functions of the same names without the lengths of arrays. Units: L length,",
-        "F force, V velocity, A angle [rad], T time [s]; the flag `CNTC_if_units` chooses between mm and m. An array has its",
+        "F force, V velocity, A angle [rad], T time [s]; the flag `CNTC_if_units` selects mm or m. An array has its",
         "length in brackets; fields have one value per element, x running fastest.", "", f"<!-- {ORIGIN} -->"]
     for title, items in routines:
         lines += ["", f"## {title}"]
@@ -340,13 +343,13 @@ def page(constants, routines):
 
 
 def split_text(words):
-    """The words in pieces of at most 80 characters; all but the last end with a blank"""
+    """The words in lines of at most 80 characters; all but the last end with a blank"""
     pieces = textwrap.wrap(" ".join(words), 80, break_on_hyphens=False)
     return [piece + " " for piece in pieces[:-1]] + pieces[-1:]
 
 
 def main():
-    """Write or compare"""
+    """Write the files, or compare them with those present"""
     if len(sys.argv) > 2 or sys.argv[1:] not in ([], ["--check"]):
         raise SystemExit(__doc__)
     constants, routines, undocumented = read_table()
@@ -373,7 +376,7 @@ def main():
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
     for name in stale:
-        print(f"{name} is not what make_interface.py writes from interface.txt")
+        print(f"{name} is not up to date: run src/capi/make_interface.py")
     return 1 if stale else 0
 
 

@@ -1,4 +1,4 @@
-"""The functions for Matlab and GNU Octave of the routines of the library, made by make_interface.py from interface.txt."""
+"""Generate the functions for Matlab and GNU Octave that call the routines of the library; used by make_interface.py."""
 import os
 import re
 import textwrap
@@ -11,7 +11,7 @@ IDS = {"patch": "result element and contact patch or problem (default 1, 1)",
        "whole": "result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole",
        "pair": "result element of a wheel-rail problem (default 1)"}
 IDEBUG = ("idebug", "1: report error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)")
-#: Functions of matlab/ without a routine, by the title of the section of Contents.m in which they are listed first
+#: Functions of matlab/ without a routine, by the section of Contents.m at the beginning of which they are listed
 FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers",
                              "cntc_closelibrary"], "Settings of both modules": ["cntc_setmaterialproperties"],
            "Settings of basic contact": ["cntc_setinterfaciallayer"],
@@ -20,7 +20,7 @@ FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_manageli
 
 
 class Function:
-    """A function: the arguments of the routine that callers pass, and the values of the others"""
+    """A function: the arguments of the routine that callers pass, and the values of the other arguments"""
 
     def __init__(self, routine, constants, origin):
         self.routine, self.origin = routine, origin
@@ -69,7 +69,7 @@ class Function:
         if rest:
             lines.append(f"  Default: {', '.join(rest)}.")
         if self.is_grid or any(item.size == "grid" for item in self.inputs):
-            lines.append("  Values of elements are (my,mx) arrays" + ("; 0 when there is no grid yet." if self.is_grid else "."))
+            lines.append("  Values of elements are (my,mx) arrays" + ("; 0 if there is no grid yet." if self.is_grid else "."))
         if self.see:
             lines += ["", f"See also: {', '.join(self.see)}."]
         return [("% " + re.sub(r"\bCNTC_(?=[a-z])", "CNTC.", line)).rstrip() for line in lines + ["", self.origin]]
@@ -115,7 +115,7 @@ class Function:
         if self.kind and not self.silent:
             problem = "icp" if "icp" in places else "-1"
             code = ", ierror" if "ierror" in results else ""
-            lines.append(f"   cntc_tell('{name}', ire, {problem}{code}{', idebug' if self.idebug else ''});")
+            lines.append(f"   cntc_report_errors('{name}', ire, {problem}{code}{', idebug' if self.idebug else ''});")
         if self.is_grid:
             lines += [f"   {item} = {item}';" for item in results]
         return lines
@@ -125,7 +125,7 @@ class Function:
         return [other for other in self.inputs if other.lengths == item.lengths]
 
     def passed(self, item, fields):
-        """Value passed to the routine for one of its arguments"""
+        """Expression passed to the routine for one of its arguments"""
         if item.name in self.texts:
             return f"numel({outer(self.texts[item.name].name)})"
         if item.name in self.lengths:
@@ -193,7 +193,7 @@ def signatures(routines, origin):
 
 
 def contents(folder, routines, functions):
-    """Text of Contents.m: the part above the library is written by hand"""
+    """Text of Contents.m: the part before the library is written by hand"""
     with open(os.path.join(folder, "Contents.m"), encoding="utf-8") as file:
         lines = file.read().split("% The library: ")[0].rstrip("\n").split("\n")
     for title, items in routines:
@@ -205,7 +205,7 @@ def contents(folder, routines, functions):
 
 
 def first_line(folder, functions, name):
-    """Purpose of a function, in one line"""
+    """Purpose of a function in one line"""
     if name in functions:
         text = " ".join(functions[name].routine.text)
     else:
@@ -215,7 +215,7 @@ def first_line(folder, functions, name):
 
 
 def files(constants, routines, top, origin):
-    """All files by their path"""
+    """Lines of all files by path"""
     folder = os.path.join(top, "matlab")
     functions = {item.name: Function(item, constants, origin) for _, items in routines for item in items}
     made = {f"matlab/{name}.m": function.lines() for name, function in functions.items()

@@ -3,26 +3,26 @@
 #
 #   text    no graphics
 #   plots   pictures, drawn by Octave's own OpenGL toolkit on a virtual X server (Xvfb)
-#   library calls of the shared library, by a gateway that is built by mkoctfile; and pictures
+#   library calls of the shared library, by a gateway that is built by mkoctfile, and pictures
 # Exit status 77: Octave, the virtual server, or mkoctfile is not installed.
 set -u
 mode=$1
 script=$2
 
 skip() { echo "SKIPPED: $1"; exit 77; }
-command -v octave-cli >/dev/null 2>&1 || skip "there is no octave (Debian: apt-get install octave)"
+command -v octave-cli >/dev/null 2>&1 || skip "octave is not installed (Debian: apt-get install octave)"
 
 here=$(cd "$(dirname "$0")" && pwd)
 run="addpath('$here/support', '${CONTACT_SOURCE}/matlab'); run_test('$script')"
-# Octave 7 reports an exception while it closes its graphics; the exit status is not affected
+# Octave 7 reports an exception when it closes its graphics; the exit status is not affected
 if [ "$mode" = text ]; then
   exec octave-cli --quiet --norc --eval "$run"
 fi
 
 if [ "$mode" = library ]; then
-  command -v mkoctfile >/dev/null 2>&1 || skip "there is no mkoctfile (Debian: apt-get install octave-dev)"
+  command -v mkoctfile >/dev/null 2>&1 || skip "mkoctfile is not installed (Debian: apt-get install octave-dev)"
 fi
-command -v Xvfb >/dev/null 2>&1 || skip "there is no Xvfb for plots (Debian: apt-get install xvfb)"
+command -v Xvfb >/dev/null 2>&1 || skip "Xvfb, required for plots, is not installed (Debian: apt-get install xvfb)"
 number=$(mktemp)
 Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3>"$number" 2>/dev/null &
 server=$!

@@ -1,4 +1,4 @@
-% Damaged files of results: correct numbers, or one sentence that names the file; never an endless loop
+% Damaged result files: correct numbers, or an error message of one sentence with the file name; never an endless loop
 
 rand('twister', 16);
 run_example('cattaneo');
@@ -51,7 +51,7 @@ end
 fprintf('%d damaged files, %d were reported\n', total, reported);
 check(reported>25, 'damage is reported');
 
-% --- the HDF5 file, whose checksums let no changed digit pass
+% --- the HDF5 file, whose checksums detect every changed digit
 run_input('sheet', fileread('wheel_on_rail.inp'), '--hdf5', 'profiles/60E1.prr', 'profiles/S1002.prw');
 f = fopen('sheet.h5', 'r');
 whole = fread(f, Inf, 'uint8')';

@@ -70,7 +70,7 @@ check(isequaln(cp_pos.delt_tr, cp_pos.delttr) && isequaln(cp_pos.ncon, sol.cp_st
 check(isequal(size(cp_pos.prev_icp), [1 2 2]) && isequaln(cp_force.fric, cp_force.fricw), 'patches before, frictional power');
 check(all(isfield(tot_forc, {'mx_tr','my_tr','mz_tr','mx_ws','my_ws','mz_ws'})), 'moments');
 check(isequaln(parse_out1('manchester', -1), sol), 'all result elements');
-check_error(@() parse_out1('manchester', 2), 'tells no result elements');
+check_error(@() parse_out1('manchester', 2), 'no numbers of result elements');
 text = regexprep(fileread('manchester.out'), ' Case +(\d)', ' Case     $1 for w/r contact on result element  $1, t=   0.25');
 f = fopen('elements.out', 'w');   fwrite(f, text);   fclose(f);
 s = parse_out1('elements');
@@ -240,7 +240,7 @@ check_near(arc.ay1, arc.a1y, 0, 'coefficients by both names');
 check_near(make_arclength([-3;0;3], [4;0;4]), [-5;0;5], 1e-12, 'zero where y is zero');
 check_error(@() eval_spline(arc), 'either positions');
 
-% --- names of contact positions that other scripts read
+% --- names of contact positions used by other scripts
 sol = parse_out1('manchester');
 check(isequaln([sol.cp_pos.xtr sol.cp_pos.ytr sol.cp_pos.ztr sol.cp_pos.yr sol.cp_pos.zr sol.cp_pos.xw sol.cp_pos.yw sol.cp_pos.zw], ...
                [sol.cp_pos.xcp_tr sol.cp_pos.ycp_tr sol.cp_pos.zcp_tr sol.cp_pos.ycp_r sol.cp_pos.zcp_r sol.cp_pos.xcp_w ...
@@ -273,7 +273,7 @@ t = make_2dspline((0:5)', v, ones(6,1)*v, ((0:5)==2)'*ones(1,9));
 check_near(z, [1 4 1 0]/6, 1e-12, 'control points: one sixth, four sixths');
 [~, ~, ~, z] = eval_2dspline(t, 9, 0.2);
 check(isnan(z), 'outside of the surface');
-% mirrored light: a plane, and a cylinder whose normal turns
+% reflected light: a plane, and a cylinder
 plane = make_2dspline(u, v, uu, vv, 0*uu, [], 0);
 [x, y, z, theta] = make_reflec(plane, [0 0 1], [0 90], u, v);
 check_near([x y z], [uu vv 0*uu], 1e-12, 'points of the surface');
@@ -285,7 +285,7 @@ tube = make_2dspline(u, angles, u*ones(1,60), ones(6,1)*sin(angles), ones(6,1)*c
 [~, ~, ~, theta] = make_reflec(tube, [0 0 1], [0 0 1], 3, angles);
 check_near(theta, 2*angles*180/pi, 1e-3, 'twice the angle of the normal');
 check_error(@() make_2dspline(u(1:3), v, vv(1:3,:), vv(1:3,:)), '4 values');
-% missing points, by a mask and by NaN: the surface ends at them, and is the same polynomial up to there
+% missing points, by a mask and by NaN: the surface ends there, and is the same polynomial up to there
 height = @(a, b) 1 + a.^2.*b - 0.1*a.^2 + b.^3;
 mask = ones(6,9);
 mask(1:3,7:9) = 0;

@@ -87,7 +87,7 @@ opt.typplot = 'refl';   opt.refl_avec = [105 30];   opt.refl_dth = 5;
 plot_2dspline([], slcs, opt);
 h = findobj(gca, 'type','surface');
 check(isempty(setdiff(unique(get(h(1), 'cdata')), [0 1])), 'stripes');
-check_error(@() plot_2dspline(slcs, struct('typplot','sphere')), 'is none of');
+check_error(@() plot_2dspline(slcs, struct('typplot','sphere')), 'must be ''surf''');
 
 % rear view of both profiles: track coordinates, as scripts set their axes there
 opt = plot3d;
@@ -203,7 +203,7 @@ z = get(l(3), 'ydata');
 width = max(worn.ProfileY) - min(worn.ProfileY);
 check(max(abs(z(:)-prr.ProfileZ))<=0.1*width && max(abs(z(:)-prr.ProfileZ))>0.03*width, 'a suitable magnification');
 
-% a flat: pressures in rail coordinates and the outline of another case over them, from which scripts delete the lines of slip
+% a wheel flat: pressures in rail coordinates, with the outline of another case, of which scripts delete the lines of slip
 run_example('cattaneo');
 slips = loadcase('cattaneo', 2);
 slips.x_offset = 1;   slips.y_offset = -1;

@@ -119,7 +119,7 @@ check(all(d.pn(:)==0), 'difference of cases of an HDF5 file');
 check_error(@() loadcase('cattaneo.h5', 99), 'there are no results of case 99');
 check_error(@() loadcase('cattaneo', 99), 'there are no results of case 99');
 lastwarn('');
-check(isempty(loadcase('sides.h5', 1, 3)) && ~isempty(strfind(lastwarn(), 'there is no number 3')), 'a patch that the case does not have');
+check(isempty(loadcase('sides.h5', 1, 3)) && ~isempty(strfind(lastwarn(), 'number 3 does not exist')), 'a patch that the case does not have');
 check_error(@() loadcase('sides.h5', 99, 3), 'there are no results of case 99');
 check_error(@() loadstrs('cattaneo.h5', 2), 'there are no results of case 2');
 f = fopen('text.h5', 'w');   fprintf(f, 'no HDF5 file\n');   fclose(f);

@@ -146,7 +146,7 @@ cntc_calculate(2, 3);
 check_near(cntc_getfielddata(2, 3, CNTC.fld_h), 1e-3*x.^2 + 2e-3*y.^2, 1e-12, 'distance per element');
 cntc_setextrarigidslip(2, 3, zeros(5,7), zeros(5,7));
 cntc_settimestep(2, 3, 0.1);
-check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no complaint so far: ' lastwarn()]);
+check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no warning so far: ' lastwarn()]);
 
 % older names
 cntc_setmaterialproperties(2, 3, 82000, 0.28, 70000, 0.3);
@@ -175,7 +175,7 @@ end
 check_near(places(2:3,:), places([1 1],:), 1e-12, 'one track by three names');
 check_error(@() cntc_settrackdimensions_old(4, 1, [14 0 1435 0.025 0]), 'ztrack = 1 with 5 values');
 cntc_finalize(4);
-check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no complaint of older names: ' lastwarn()]);
+check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no warning for older names: ' lastwarn()]);
 
 % --- errors are reported
 check_error(@() cntc_getpenetration(2, -1), 'icp must be the number');
@@ -274,7 +274,7 @@ check(isequal(size(cntc_getprofilevalues(1, 3, [0 0])), [6 1]), 'gauge');
 s = cntc_getprofilevalues(1, 4, [0 1], 5);
 check_near(diff(s), 5*ones(numel(s)-1,1), 1e-9, 'equal distances');
 check(numel(cntc_getprofilevalues(1, 5, [0 1], 5))==numel(s), 'inclinations');
-check_error(@() cntc_getcpresults(1, 2), 'number 2 was asked for');
+check_error(@() cntc_getcpresults(1, 2), 'number 2 was requested');
 cntc_closelibrary();
 
 % --- below the surface

@@ -116,7 +116,7 @@ put('other.ban', {'ColumnDef=*,Y,*,X','','7 2 9 -10','8 1 9 0','9 2 9 10'});
 q = read_profile('other.ban', 0, 0, -1);
 check_near([q.ProfileY q.ProfileZ], [-10 2; 0 1; 10 2], 1e-12, 'columns without meaning');
 put('bad.ban', {'XOffset=2','','1 2','Key=3','2 3'});
-check_error(@() read_profile('bad.ban'), 'keyword stands among the numbers');
+check_error(@() read_profile('bad.ban'), 'keyword among the numbers');
 
 % a mirrored rail is still a rail, also in metres; the order follows from the shape, independent of the file
 files = {rail, struct('ProfileY',flipud(rail.ProfileY), 'ProfileZ',flipud(rail.ProfileZ))};
@@ -177,5 +177,5 @@ if (exist(fullfile(folder,'MBench_UIC60_v3.prr'),'file')==2)
    c = resample_slices(c, 1);
    check(size(c.vy,1)==c.nslc && any(isnan(c.vy(:))), 'crossing with interrupted parts');
 else
-   disp('published profiles are not at hand; not compared');
+   disp('published profiles are not available; not compared');
 end

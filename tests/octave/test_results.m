@@ -4,7 +4,7 @@
 run_example('cattaneo');
 s = loadcase('cattaneo', 2);
 check(isequal([s.mx s.my], [19 19]) && s.kincns.t_digit==1 && s.config==0, 'grid and kinematics of cattaneo');
-check_near([s.xl s.dx s.dy], [-1.26667 0.13333 0.13333], 1e-9, 'place of the grid');
+check_near([s.xl s.dx s.dy], [-1.26667 0.13333 0.13333], 1e-9, 'position of the grid');
 check_near([s.x(1) s.x(end) s.y(10)], -1.26667+[0.5 18.5 9.5]*0.13333, 1e-9, 'centres of elements');
 check_near([s.fric.fstat s.fric.fkin s.mater.gg s.mater.poiss], [0.4 0.4 200 200 0.42 0.42], 1e-9, 'friction and materials');
 area = s.dx*s.dy;
@@ -48,7 +48,7 @@ for name = {'xl','yl','dx','dy'}
       t.(name{1}) = s.(name{1}) + part*s.dx/(1 + 18*(name{1}(1)=='d'));
       lastwarn('');
       diffcase(s, t);
-      check(~isempty(strfind(lastwarn(), 'different places'))==(part>1e-3), ['grids that differ in ' name{1}]);
+      check(~isempty(strfind(lastwarn(), 'different positions'))==(part>1e-3), ['grids that differ in ' name{1}]);
    end
 end
 check_error(@() loadcase('cattaneo', 7), 'there are no results of case 7');
@@ -147,5 +147,5 @@ if (exist(fullfile(reference,'subsurf.ref_subs'),'file')==2)
       check(isequal(isnan(s1.config), isnan(s1.tot_forc.fx_tr)), ['total forces of ' files{i}]);
    end
 else
-   disp('published results are not at hand; not compared');
+   disp('published results are not available; not compared');
 end

@@ -1,5 +1,5 @@
 function check_error( fun, part )
-% CHECK_ERROR  Stop unless a call fails with a message that has a certain part.
+% CHECK_ERROR  Stop unless a call fails with a message that contains a text.
 
    check_count(1);
    try

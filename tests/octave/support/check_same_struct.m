@@ -1,6 +1,6 @@
 function check_same_struct( value, expected, digits, what )
 % CHECK_SAME_STRUCT  Stop unless two structs have the same fields in the same order, of the same class and shape, and
-% the same values to a number of digits; where NaN is expected anything goes.
+% the same values to a number of digits; where NaN is expected every value is accepted.
 
    check(numel(value)==numel(expected), ['number of ' what]);
    if (numel(expected)>1)

@@ -1,5 +1,5 @@
 function [ info ] = h5info( fname, path )
-% H5INFO  Result of Matlab's function of this name for a group at the top of a file.
+% H5INFO  Result of Matlab's function of this name for a top-level group of a file.
 
    found = load(fname, path(2:end));
    info  = describe(path, found.(path(2:end)));

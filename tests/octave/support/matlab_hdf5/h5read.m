@@ -1,5 +1,5 @@
 function [ value ] = h5read( fname, path )
-% H5READ  What Matlab's function of this name gives: vectors are columns, texts stand in cells.
+% H5READ  Result of Matlab's function of this name: vectors are columns, texts are in cells.
 
    persistent from group content
    names = strsplit(path(2:end), '/');

@@ -1,7 +1,7 @@
-function cntc_tell( name, ire, icp, ierror, idebug )
-% CNTC_TELL  Tell what went wrong in a call of the library, by a warning with the reason it gives.
+function cntc_report_errors( name, ire, icp, ierror, idebug )
+% CNTC_REPORT_ERRORS  Report an error of a call of the library by a warning with its reason.
 %
-%   ierror   error code of the routine; routines without one leave it out
+%   ierror   error code of the routine, if it has one
 %   idebug   0: silent; 1: errors; 2: also positive codes (default: that of cntc_initlibrary)
 
    if (nargin<4)
@@ -15,7 +15,7 @@ function cntc_tell( name, ire, icp, ierror, idebug )
    if (cntc_library('mex'))
       [code, text] = cntc_mex('error', ire, icp);
       if (code==0)
-         % what belongs to no problem
+         % errors that do not belong to a problem
          [code, text] = cntc_mex('error', 0, -1);
       end
    end
@@ -30,4 +30,4 @@ function cntc_tell( name, ire, icp, ierror, idebug )
       warning('contact:remark', '%s: remark %d. %s', name, ierror, text);
    end
 
-end % function cntc_tell
+end % function cntc_report_errors
