@@ -1,7 +1,7 @@
 #!/bin/sh
-# Makes the site of the manual in build/site: all pages of doc with a menu and a search, to be read without a network. A warning, such as a
-# link to nothing, is an error. The tools of Python come into build/site-tools once. Where the program is built, the tutorials are
-# executed as notebooks beside it, and their pictures stand in the pages. Usage: build.sh [FOLDER]
+# Build the site of the manual in build/site: all pages of doc with a menu and a search, readable offline. Warnings, such as broken
+# links, are errors. Python tools are installed into build/site-tools once. If the program has been built, the tutorials are executed
+# as notebooks and their plots are included in the pages. Usage: build.sh [FOLDER]
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/build/site}
@@ -22,7 +22,7 @@ else
   echo "No notebooks: build/release has no program" >&2
 fi
 "$python" -m sphinx -q -W --keep-going -b html -d "$(mktemp -d)" "$top/doc" "$out"
-# Nothing is fetched by a reader's browser
+# A reader's browser must not load anything from the network
 if grep -rlE '<(script|link|img)[^>]*(src|href)="https?://' "$out" --include='*.html'; then
   echo "The pages above load something from the network" >&2
   exit 1

@@ -24,7 +24,7 @@ results=$top/build/examples/$name
 mkdir -p "$results" || exit 1
 say "Running $name"
 "$top/build/release/bin/contact" --output-dir "$results" 2 "$top/examples/$name" ||
-  fail "The program ended with an error; its messages stand above."
+  fail "The program ended with an error; see its messages above."
 
 # From the heading of the last results to the table of elements, or to the end of the run
 say "Results of the last case, from $results/$name.out"

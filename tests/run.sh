@@ -1,10 +1,10 @@
 #!/bin/sh
 # Install what is missing, build, run all tests: sh tests/run.sh [--long] [--debug] [--werror], or --sanitize alone
 #
-#   --long     also the long studies (label long)
+#   --long     include the long studies (label long)
 #   --debug    with all run-time checks (preset debug) instead of optimised
 #   --werror   compiler warnings are errors, as in CI
-#   --sanitize all suites that can, under the address, undefined-behaviour and thread sanitizers and valgrind; takes an hour
+#   --sanitize all suitable tests under the address, undefined-behaviour and thread sanitizers and valgrind; takes an hour
 # The exit status is that of ctest.
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
@@ -33,7 +33,7 @@ install_for_tests() {
   install_linters
 }
 
-# Wait for it, and use the Python that it has found or made
+# Wait for the installation, and use the Python that it has found or created
 finish_installation() {
   wait "$installation"
   trap - EXIT INT TERM
@@ -42,7 +42,7 @@ finish_installation() {
 }
 
 install_missing
-# The build needs none of what only tests use: it is installed meanwhile, and its messages are shown afterwards
+# Packages that only tests use are installed during the build; their messages are shown afterwards
 mkdir -p "$top/build"
 messages=$top/build/installation.txt
 install_for_tests >"$messages" 2>&1 </dev/null &
@@ -57,6 +57,6 @@ build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
 finish_installation
 say "Testing"
 cd "$top/build/$preset" || exit 1
-# One test more than there are processors: some wait, for a browser, a worker or a server
+# One test more than there are processors, because some wait for a browser, a worker or a server
 # shellcheck disable=SC2086
 exec ctest --output-on-failure -j$(($(nproc) + 1)) $exclude

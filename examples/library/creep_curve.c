@@ -6,7 +6,7 @@
 #include <contact_addon.h>
 #include <stdio.h>
 
-/* All arguments go by their address; these give one to a number */
+/* All arguments are passed by address; these macros provide one for a number */
 #define INT(value) (&(const int){value})
 #define REAL(value) (&(const double){value})
 #define INTS(...) ((const int[]){__VA_ARGS__})
@@ -14,7 +14,7 @@
 
 static const int element = 1;
 
-/* What both problems share: mm, N; steady rolling of second order in the size of elements */
+/* Common to both problems: mm, N; steady rolling of second order in the size of elements */
 static void set_up(const int *icp) {
   cntc_setflags(&element, icp, INT(5), INTS(CNTC_if_units, CNTC_ic_tang, CNTC_own_order, CNTC_ic_output, CNTC_ic_flow),
                 INTS(CNTC_un_cntc, 3, 2, 0, 0));

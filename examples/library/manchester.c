@@ -1,5 +1,5 @@
-/* The Manchester benchmark with a wheel S1002 on a rail 60E1: a wheelset is moved sideways, and forces and
- * contact points of its right wheel are asked for.
+/* The Manchester benchmark with a wheel S1002 on a rail 60E1: a wheelset is moved sideways; forces and
+ * contact points of its right wheel are printed.
  *
  * usage: manchester FOLDER_OF_PROFILES */
 #include <caddon_flags.h>
@@ -41,7 +41,7 @@ int main(int argc, char **argv) {
   cntc_setmaterialparameters(&element, &whole, INT(0), INT(4), REALS(0.28, 0.28, 82000.0, 82000.0));
   cntc_setfrictionmethod(&element, &whole, INT(0), INT(2), REALS(0.3, 0.3));
   cntc_setsolverflags(&element, &whole, INT(0), INT(4), INTS(999, 100, 30, 1), INT(1), REAL(1e-5));
-  /* Elements of 0.2 mm; patches are apart by 90 degrees or 8 mm, together below 4 mm */
+  /* Elements of 0.2 mm; patches are separate from 90 degrees or 8 mm, and joined below 4 mm */
   cntc_setpotcontact(&element, &whole, INT(-1), INT(5), REALS(0.2, 0.2, 1.5707963, 8.0, 4.0));
   cntc_setrollingstepsize(&element, &whole, REAL(0.0), REAL(1.0));
   /* Gauge 1435 mm at 14 mm below the top of the rail, cant 1:40 */

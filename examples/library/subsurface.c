@@ -1,4 +1,4 @@
-/* Stresses below a ball that slides over a plane: their largest value moves towards the surface with friction. */
+/* Stresses below a ball sliding on a plane: with increasing friction their maximum moves towards the surface. */
 #include <caddon_flags.h>
 #include <contact_addon.h>
 #include <stdio.h>
@@ -27,14 +27,14 @@ int main(void) {
   cntc_setmaterialparameters(&element, &problem, INT(0), INT(4), REALS(0.3, 0.3, 80000.0, 80000.0));
   cntc_sethertzcontact(&element, &problem, INT(-3), INT(5), REALS(40.0, 40.0, 1.0, 1.0, 1.1));
   cntc_setnormalforce(&element, &problem, REAL(2000.0));
-  /* So much creepage that all of the contact slips; the force on the ball points to -x */
+  /* Creepage that is large enough for full sliding; the force on the ball points to -x */
   cntc_setcreepages(&element, &problem, REAL(1.0), REAL(0.0), REAL(0.0));
   /* Plane below the middle of the contact, in steps of 0.1 and 0.05 mm */
   for (k = 0; k < nx; k++) x[k] = 0.1 * (k - nx / 2);
   for (k = 0; k < nz; k++) z[k] = 0.05 * k;
   subs_addblock(&element, &problem, INT(1), INT(9), INT(nx), INT(1), INT(nz), x, REAL(0.0), z);
 
-  printf("# friction, largest von Mises stress [N/mm2], its place x, z [mm]\n");
+  printf("# friction, largest von Mises stress [N/mm2], its position x, z [mm]\n");
   for (case_number = 0; case_number < sizeof frictions / sizeof frictions[0]; case_number++) {
     int largest = 0;
     cntc_setfrictionmethod(&element, &problem, INT(0), INT(2), REALS(frictions[case_number], frictions[case_number]));

@@ -287,7 +287,7 @@ def warn_of_border(patch: Patch, what: str) -> None:
 def warn_of_few_elements(patch: Patch, what: str) -> None:
     """Warn of contact that is only a few elements wide, at the line of the caller's caller"""
     if 0 < patch.elements_across < 5:
-        warnings.warn(f"{what} is only {patch.elements_across} elements wide: its area, forces and pressures are rough; take "
+        warnings.warn(f"{what} is only {patch.elements_across} elements wide: its area, forces and pressures are inaccurate; take "
                       "smaller elements", ContactWarning, stacklevel=3)
 
 

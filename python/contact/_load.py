@@ -295,7 +295,7 @@ def _load_hdf5(path: str) -> Experiment:
     try:
         with h5py.File(path, "r") as file:
             if int(file.attrs.get("layout", 0)) != 1:
-                raise ContactError("it is no result of contact --hdf5, or of another version of it")
+                raise ContactError("it is not a result of contact --hdf5, or is one of another version")
             columns = _values(file["cases"])
             cases = []
             for row, number in enumerate(columns.get("case", ())):
@@ -316,7 +316,7 @@ def _load_hdf5(path: str) -> Experiment:
         raise ContactError(f"{path}: {reason}") from None
     except Exception as reason:  # h5py raises many kinds of errors for a damaged file
         what = " ".join(str(reason).split()) or type(reason).__name__
-        raise ContactError(f"{path} cannot be read, it is damaged or no HDF5 file: {what}") from None
+        raise ContactError(f"{path} cannot be read, it is damaged or not an HDF5 file: {what}") from None
 
 
 def _load_mat(path: str) -> Experiment:

@@ -89,9 +89,9 @@ enum { max_criticals = 8 };
 
 static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
   struct guard *guard;
-  /* To whom blocks belong; does the code look at refusals itself? */
+  /* Owner of the blocks; does the code handle refusals itself? */
   int owner, expects;
-  /* Where it takes blocks from and gives them back to; NULL: the heap */
+  /* Store that its blocks come from and return to; NULL: the heap */
   struct kept_blocks *blocks;
   /* Critical sections that the thread is in */
   int criticals;
@@ -244,7 +244,7 @@ void contact_guard_set_owner(int owner) { me.owner = owner; }
 /* Does the code that follows check the result of its own allocations (1) or not (0)? */
 void contact_guard_expect(int refusals) { me.expects = refusals; }
 
-/* From now on this thread takes blocks from those that an owner keeps, and gives them back there; NULL: no longer */
+/* From now on this thread takes its blocks from a store and returns them to it; NULL: from the heap */
 void contact_guard_use_blocks(struct kept_blocks *blocks) {
   if (blocks != NULL) contact_kept_begin(blocks);
   me.blocks = blocks;

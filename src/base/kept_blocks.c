@@ -13,10 +13,10 @@
 
 enum { sizes = 15, smallest = 64, largest = smallest << (sizes - 1), most_bytes = 16 << 20 };
 
-/* A block of the system is larger than requested by less than this: a page and its head */
+/* Upper bound of the extra size of a block of the system: a page and its head */
 enum { most_rounding = 8192 };
 
-/* A stock consists of so many bytes, but of at most `most_stocked` blocks */
+/* Size of a stock in bytes; it has at most `most_stocked` blocks */
 enum { stock_bytes = 2 << 20, most_stocked = 128 };
 
 /* A kept block: its first bytes contain the address of the next one */

@@ -39,7 +39,7 @@ static const char *part_of(const char **place, char *part, size_t size) {
   return part;
 }
 
-/* Does a path relative to some folder leave it, judging by its names alone? */
+/* Does a path relative to a folder lead out of it, by its names alone? */
 static int leads_out(const char *name) {
   char part[256];
   if (name[0] == '/') return 1;
@@ -182,8 +182,8 @@ void contact_explain(int cause, char *text, int length) {
   memcpy(text, sentence, used < (size_t)length ? used : (size_t)length);
 }
 
-/* Take the lock of an experiment: a file that the system keeps locked until it is closed or this process ends for whatever
- * reason. A leftover file locks nobody out. Returns the holder if the lock is taken. */
+/* Take the lock of an experiment: a file that the system keeps locked until it is closed or this process ends in any
+ * way. A leftover file does not lock. Returns the holder if the lock is taken. */
 int contact_lock(const char *name, char *holder, int length, int *cause) {
   char text[256] = "", host[128] = "", since[32] = "";
   memset(holder, ' ', (size_t)length);

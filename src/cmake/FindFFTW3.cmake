@@ -1,6 +1,6 @@
 # FFTW 3 in double precision: the imported target FFTW3::fftw3
 #
-# FFTW3_ROOT, or CMAKE_PREFIX_PATH, points to an installation in an unusual place.
+# FFTW3_ROOT or CMAKE_PREFIX_PATH is the folder of an installation outside the usual folders.
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
   pkg_check_modules(PC_FFTW3 QUIET fftw3)
@@ -16,8 +16,8 @@ mark_as_advanced(FFTW3_LIBRARY FFTW3_INCLUDE_DIR)
 
 if(FFTW3_FOUND AND NOT TARGET FFTW3::fftw3)
   add_library(FFTW3::fftw3 UNKNOWN IMPORTED)
-  # As a compile option: CMake drops /usr/include from the include path, but gfortran does not look
-  # there for fftw3.f03 by itself
+  # As a compile option: CMake drops /usr/include from the include path, but gfortran does not search
+  # it for fftw3.f03 by default
   set_target_properties(FFTW3::fftw3 PROPERTIES
     IMPORTED_LOCATION ${FFTW3_LIBRARY}
     INTERFACE_COMPILE_OPTIONS "$<$<COMPILE_LANGUAGE:Fortran>:-I${FFTW3_INCLUDE_DIR}>")

@@ -1,4 +1,4 @@
-# The transforms of MKL by its interface of FFTW 3: the imported target MKLFFT::mkl
+# The transforms of MKL by its FFTW 3 interface: the imported target MKLFFT::mkl
 #
 # MKLROOT, or CMAKE_PREFIX_PATH, is the folder with lib and include, such as a virtual environment with mkl and mkl-include of PyPI
 find_library(MKLFFT_LIBRARY NAMES mkl_rt libmkl_rt.so.3 libmkl_rt.so.2 HINTS ENV MKLROOT ${MKLROOT} PATH_SUFFIXES lib lib/intel64)

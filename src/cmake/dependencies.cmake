@@ -1,4 +1,4 @@
-# The compiler and the outside libraries, with the targets by which rooms name them after LIBRARIES:
+# The compiler and the external libraries, with the targets that rooms name after LIBRARIES:
 # CONTACT_FFT_LIBRARY (fft), hdf5_fortran (hdf5, cli)
 if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 12)
   message(FATAL_ERROR "CONTACT is built with gfortran 12 or newer, found "
@@ -13,8 +13,8 @@ add_library(hdf5_fortran INTERFACE)
 target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
 target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})
 
-# Transforms: FFTW, or MKL, which has the same interface, or pocketfft, whose source is here. CONTACT_FFT_LINK is what programs with
-# the static library need, CONTACT_FFT_NAME the name shown by contact --version, as the licence of the binary depends on it
+# Transforms: FFTW, MKL with the same interface, or pocketfft, whose source is included. CONTACT_FFT_LINK: libraries required by programs
+# with the static library; CONTACT_FFT_NAME: name shown by contact --version, because the licence of the binary depends on it
 set(CONTACT_FFT fftw CACHE STRING "Library of Fourier transforms: fftw, mkl or pocketfft")
 set_property(CACHE CONTACT_FFT PROPERTY STRINGS fftw mkl pocketfft)
 if(CONTACT_FFT STREQUAL "fftw")
@@ -38,9 +38,9 @@ elseif(CONTACT_FFT STREQUAL "pocketfft")
   set(CONTACT_FFT_LIBRARY contact_cxx)
   set(CONTACT_FFT_LINK -lstdc++)
   set(CONTACT_FFT_NAME "pocketfft (BSD)")
-  # Fortran links: the run-time library of C++ comes by its name
+  # Fortran is the linker language, so the run-time library of C++ is linked by name
   add_library(contact_cxx INTERFACE)
   target_link_libraries(contact_cxx INTERFACE ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
 else()
-  message(FATAL_ERROR "CONTACT_FFT is fftw, mkl or pocketfft, not ${CONTACT_FFT}")
+  message(FATAL_ERROR "CONTACT_FFT must be fftw, mkl or pocketfft, not ${CONTACT_FFT}")
 endif()

@@ -1,6 +1,6 @@
 # cmake -D folder=<modules of a room> -D stamp=<file> -P module_stamp.cmake
 #
-# Write the checksums of all module files to the stamp, which keeps its time if none of them has changed
+# Write the checksums of all module files to the stamp file, whose time stamp does not change if the modules have not changed
 file(GLOB modules ${folder}/*.mod)
 set(sums "")
 foreach(module IN LISTS modules)

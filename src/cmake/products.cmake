@@ -1,4 +1,4 @@
-# What is made from the rooms: libraries and program, and how they are installed
+# Products of the rooms: libraries and program, and their installation
 get_property(rooms GLOBAL PROPERTY contact_rooms)
 get_property(program_room GLOBAL PROPERTY contact_program_room)
 get_property(program_file GLOBAL PROPERTY contact_program_file)
@@ -15,8 +15,8 @@ endforeach()
 list(REMOVE_DUPLICATES libraries)
 list(APPEND libraries OpenMP::OpenMP_Fortran)
 
-# The shared library shows C functions only, and calls its own ones even where the host has others of these names. It
-# stays when its host unloads it: threads of the OpenMP run time would wait for work in code that is gone
+# The shared library exports C functions only, and calls its own functions even if the host has others of the same names. It
+# remains loaded when its host unloads it, because threads of the OpenMP run time would wait in code that no longer exists
 set(map ${PROJECT_SOURCE_DIR}/src/cmake/contact.map)
 function(contact_shared target)
   add_library(${target} SHARED ${objects})
@@ -34,21 +34,21 @@ function(contact_shared target)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
-# The version of its interface is its soname
+# Its soname has the version of its interface
 contact_shared(contact)
 if(NOT SKBUILD)
   set_target_properties(contact PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 endif()
 add_library(contact::contact ALIAS contact)
 
-# The same under the file name that existing callers load and link, beside the program. As that one it has no
-# soname: programs linked with it look for this file, not for libcontact
+# The same under the file name that existing callers load and link, in the folder of the program. Like the library of that name it
+# has no soname: programs linked with it load this file, not libcontact
 if(NOT APPLE AND NOT WIN32)
   contact_shared(contact_addon)
   set_target_properties(contact_addon PROPERTIES
     PREFIX "" OUTPUT_NAME contact_addon_linux64 NO_SONAME ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
-  # Linkers write through links, as build folders of earlier versions have one to libcontact here
+  # Remove the link to libcontact that build folders of earlier versions have here, because linkers write through links
   add_custom_command(TARGET contact_addon PRE_LINK COMMAND ${CMAKE_COMMAND} -E rm -f $<TARGET_FILE:contact_addon>)
   install(TARGETS contact_addon LIBRARY DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
@@ -62,7 +62,7 @@ if(CONTACT_SHARED_ROOMS)
   target_link_libraries(contact_all_rooms PRIVATE ${libraries})
 endif()
 
-# The program does not need the shared library, so it runs wherever it is copied to
+# The program does not need the shared library, so it can be copied anywhere
 if(program_room)
   add_executable(contact_program ${program_file} ${program_start})
   set_target_properties(contact_program PROPERTIES
@@ -84,7 +84,7 @@ foreach(product contact contact_addon contact_static contact_program)
   endif()
 endforeach()
 
-# The Python package; the program looks for the pages of `contact report` in this place
+# The Python package; the program finds the pages of `contact report` in this folder
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact ${PROJECT_SOURCE_DIR}/python/python_intfc DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 
@@ -102,7 +102,7 @@ if(CONTACT_FFT STREQUAL "pocketfft")
   install(FILES ${PROJECT_SOURCE_DIR}/src/fft/pocketfft/LICENSE.md DESTINATION ${licences} RENAME pocketfft)
 endif()
 
-# Inside a wheel of Python: library and program in the package's folder, see src/packaging/pyproject.toml
+# In a Python wheel: library and program in the folder of the package, see src/packaging/pyproject.toml
 if(SKBUILD)
   install(TARGETS contact LIBRARY DESTINATION contact COMPONENT python RUNTIME DESTINATION contact COMPONENT python)
   install(TARGETS contact_program RUNTIME DESTINATION contact/bin COMPONENT python)
@@ -120,12 +120,12 @@ install(FILES ${CMAKE_BINARY_DIR}/contact-config.cmake
 install(EXPORT contact NAMESPACE contact:: FILE contact-targets.cmake
   DESTINATION ${package_folder})
 
-# pkg-config: paths relative to the file, so that the tree may move; what the static library needs
-# is listed for `pkg-config --static`
+# pkg-config: paths relative to the file, so that the installation can be moved; requirements of the static library
+# are listed for `pkg-config --static`
 file(RELATIVE_PATH pc_prefix
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "${CONTACT_FFT_LINK}")
-# HDF5 often lies in a folder of its own, which linkers do not look into
+# HDF5 is often in a separate folder that linkers do not search
 string(JOIN " " hdf5_private ${HDF5_Fortran_LIBRARIES})
 string(APPEND pc_private " ${hdf5_private}")
 string(APPEND pc_private " -lgfortran -lquadmath -lgomp -lm")

@@ -1,11 +1,11 @@
 # HDF5 inside the program
 #
-# The shared library of HDF5 brings thirty others along on some systems (curl, Kerberos, LDAP), whose loading takes longer than
-# many a case. Where its archives lie beside it, the program is linked with these: CONTACT_PROGRAM_HDF5 is the target that takes the
-# place of hdf5_fortran. The library needs the shared one, as its host may use HDF5 too.
+# On some systems the shared library of HDF5 loads thirty others (curl, Kerberos, LDAP), which takes longer than many cases. If its
+# static libraries are in the same folder, the program is linked with them: CONTACT_PROGRAM_HDF5 is the target that replaces
+# hdf5_fortran. The CONTACT library needs the shared one, because its host may use HDF5, too.
 #
-# Code that is linked in is our own for base/guard.c. HDF5 looks after refused memory itself, so its calls are renamed and
-# lead to where those of outside libraries lead.
+# base/guard.c treats statically linked code as our own. HDF5 handles refused memory requests itself, so its calls are renamed and
+# handled like those of external libraries.
 option(CONTACT_STATIC_HDF5 "Link the program with the archives of HDF5 where there are some" ON)
 set(CONTACT_PROGRAM_HDF5 hdf5_fortran)
 if(NOT CONTACT_STATIC_HDF5 OR CONTACT_SANITIZE OR CONTACT_FUZZ OR CONTACT_SHARED_ROOMS OR NOT CMAKE_OBJCOPY
@@ -13,7 +13,7 @@ if(NOT CONTACT_STATIC_HDF5 OR CONTACT_SANITIZE OR CONTACT_FUZZ OR CONTACT_SHARED
   return()
 endif()
 
-# Its archives, and what they need besides
+# Its static libraries and their dependencies
 set(archives)
 set(needed)
 foreach(library IN LISTS HDF5_Fortran_LIBRARIES)
@@ -29,7 +29,7 @@ foreach(archive IN LISTS archives)
   endif()
 endforeach()
 
-# Its licence asks for its notice beside binaries that have it inside: no archives without it
+# Its licence requires its notice with binaries that contain it: static libraries are used only if the notice is available
 find_file(CONTACT_HDF5_NOTICE NAMES copyright COPYING NO_DEFAULT_PATH
   PATHS /usr/share/doc/libhdf5-dev /usr/share/licenses/hdf5-static /usr/share/licenses/hdf5)
 if(NOT CONTACT_HDF5_NOTICE)

@@ -1,11 +1,11 @@
-# One object library per room. A room sees the modules of the rooms it names after USES and of
-# no other, so an upward `use` ends in "cannot open module file".
+# One object library per room. A room can use only the modules of the rooms named after USES;
+# a `use` of a higher room fails with "cannot open module file".
 set(CONTACT_MODULE_ROOT ${CMAKE_BINARY_DIR}/modules)
 set(CONTACT_MODULE_STAMP ${CMAKE_CURRENT_LIST_DIR}/module_stamp.cmake)
 
 # contact_room(<room> [USES <lower rooms>] SOURCES <files> [LIBRARIES <targets>] [PROGRAM <file>])
 #
-# LIBRARIES are outside libraries only this room knows (that of transforms in fft). PROGRAM is the file of
+# LIBRARIES are external libraries used by this room only (that of transforms in fft). PROGRAM is the file of
 # the main program; its room is linked into bin/contact and not into the libraries.
 function(contact_room room)
   cmake_parse_arguments(arg "" "PROGRAM" "USES;SOURCES;LIBRARIES" ${ARGN})
@@ -25,7 +25,7 @@ function(contact_room room)
   set(libraries ${arg_LIBRARIES})
   foreach(lower IN LISTS arg_USES)
     if(NOT TARGET contact_${lower})
-      message(FATAL_ERROR "contact_room(${room}): room ${lower} stands nowhere above it")
+      message(FATAL_ERROR "contact_room(${room}): room ${lower} is not defined before it")
     endif()
     target_include_directories(contact_${room} PRIVATE ${CONTACT_MODULE_ROOT}/${lower})
     add_dependencies(contact_${room} contact_${lower}_modules)
@@ -37,8 +37,8 @@ function(contact_room room)
   endforeach()
   list(REMOVE_DUPLICATES closure)
   list(REMOVE_DUPLICATES libraries)
-  # CMake follows module files within a target and through linked libraries, not from one object
-  # library to the next: a source is compiled again when a module file of a room that it uses is new
+  # CMake tracks module files within a target and through linked libraries, but not between object
+  # libraries: therefore a source is recompiled if a module file of a room that it uses has changed
   set(objects)
   foreach(source IN LISTS arg_SOURCES)
     file(RELATIVE_PATH relative ${CMAKE_CURRENT_SOURCE_DIR} ${source})
@@ -51,7 +51,7 @@ function(contact_room room)
   add_custom_target(contact_${room}_modules DEPENDS ${stamp})
   add_dependencies(contact_${room}_modules contact_${room})
 
-  # What a program needs at its link that uses this room: rooms and outside libraries
+  # Rooms and external libraries to be linked with a program that uses this room
   set_target_properties(contact_${room} PROPERTIES
     CONTACT_CLOSURE "${closure}"
     CONTACT_LIBRARIES "${libraries}")
@@ -64,7 +64,7 @@ function(contact_room room)
   endif()
 endfunction()
 
-# Let a target see the modules of the named rooms, and compile it again when one of them has changed
+# Give a target access to the modules of the named rooms, and recompile it if one of them has changed
 function(contact_use_rooms target)
   get_target_property(sources ${target} SOURCES)
   foreach(room IN LISTS ARGN)
@@ -77,10 +77,10 @@ function(contact_use_rooms target)
   endforeach()
 endfunction()
 
-# Program and tests share one library of all rooms, so that one link serves all of them when a single file is new
+# Program and tests share one library of all rooms, so that a change of one file needs one link
 option(CONTACT_SHARED_ROOMS "Link program and tests with one shared library of all rooms (tests/planted)" OFF)
 
-# The same, and link it with these rooms and all below
+# The same, and link it with these rooms and all lower ones
 function(contact_link_rooms target)
   contact_use_rooms(${target} ${ARGN})
   if(CONTACT_SHARED_ROOMS)

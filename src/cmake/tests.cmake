@@ -1,20 +1,20 @@
-# Tests as one-line entries. Names of labels are names of folders below tests/.
+# Functions that define a test in one line. Labels are names of folders below tests/.
 set(CONTACT_REFERENCE ${PROJECT_SOURCE_DIR}/../shared/reference CACHE PATH
   "Reference data; tests that need it are skipped when it is absent")
 
-# Compile tests quickly: what is tested is compiled in its own rooms, with optimisation and instruments.
-# Scopes with cases and results take a minute with -O1, since the compiler copies the release of their components into each of them
+# Compile tests without optimisation: the tested code is compiled in its rooms, with optimisation and instrumentation.
+# With -O1 scopes with cases and results take a minute, because the compiler copies the release of their components into each of them
 function(contact_quick_compilation target)
   target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O0>)
   if(CONTACT_SANITIZE)
-    # A test with all instruments, optimised, takes a minute to compile; this way some seconds.
-    # Options of the sources come behind those of the target
+    # An optimised test with full instrumentation takes a minute to compile; without it some seconds.
+    # Options of the sources follow those of the target
     get_target_property(sources ${target} SOURCES)
     set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-O0;-fno-sanitize=undefined")
   endif()
 endfunction()
 
-# A hundred test programs are linked; gold takes half the time of the usual linker
+# A hundred test programs are linked; gold takes half the time of the default linker
 include(CheckLinkerFlag)
 if(NOT CONTACT_SANITIZE AND NOT CONTACT_FUZZ AND NOT CONTACT_COVERAGE)
   check_linker_flag(Fortran -fuse-ld=gold CONTACT_HAS_GOLD)
@@ -22,14 +22,14 @@ endif()
 
 # contact_test(<name> [BUILDERS] LABEL <labels> ROOMS <rooms> SOURCES <files> [TIMEOUT <seconds>])
 #
-# A Fortran test program. It sees the modules of the named rooms and of the harness, and is linked
-# with these rooms and all rooms below them, so that it builds even if other parts do not. It runs in
-# a scratch directory of its own. BUILDERS adds the modules of tests/support that build a case. Exit status 77 means "skipped".
+# A Fortran test program. It can use the modules of the named rooms and of the harness, and is linked
+# with these rooms and all lower ones, so that it can be built even if other parts cannot. It runs in
+# a separate temporary folder. BUILDERS adds the modules of tests/support that build a case. Exit status 77 means "skipped".
 # A second label `long` keeps a test out of the default run of tests/run.sh.
 function(contact_test name)
   cmake_parse_arguments(arg "BUILDERS" "TIMEOUT" "LABEL;ROOMS;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_LABEL OR NOT arg_SOURCES)
-    message(FATAL_ERROR "contact_test(${name}): LABEL and SOURCES are needed, and nothing else than "
+    message(FATAL_ERROR "contact_test(${name}): LABEL and SOURCES are required, and nothing else than "
       "ROOMS and TIMEOUT is known; got ${ARGN}")
   endif()
   set(target test_${name})
@@ -52,8 +52,8 @@ function(contact_test name)
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
 endfunction()
 
-# Tests that start first, so that none of them is left alone in the end, with about their processor seconds. ctest uses its own
-# figures from the second run on
+# Tests that start first, so that none of them runs alone at the end, with their approximate processor time [s]. From the second run
+# on ctest uses its own figures
 set(CONTACT_LONG_TESTS report_viewer:94 house_pages:48 campaign_module1:45 campaign_module3:41 report_browser:40 faults_of_files:40
   worn_profiles:31 report_start:30 hdf5_file:26 performance_instructions:23 manual_tutorials:21)
 
@@ -67,7 +67,7 @@ function(contact_command_test name)
     set(arg_TIMEOUT 300)
   endif()
   if(CMAKE_BUILD_TYPE STREQUAL Debug OR CONTACT_SANITIZE)
-    # checks at run time cost time
+    # run-time checks take time
     math(EXPR arg_TIMEOUT "4*${arg_TIMEOUT}")
   endif()
   set(scratch ${CMAKE_BINARY_DIR}/tests/scratch/${name})
@@ -85,14 +85,15 @@ endfunction()
 
 # contact_python_test(<name> LABEL <labels> SCRIPT <file> [<arguments>] [TIMEOUT <seconds>])
 #
-# A test that is a script of Python. The interpreter is looked up when the test runs, not when the build is configured:
-# tests/run.sh may have put one with the packages of the tests in front of the one that was there before.
+# A test by a Python script. The interpreter is looked up when the test runs, not when the build is configured, because
+# tests/run.sh may have added one with the packages of the tests to the search path.
 function(contact_python_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;SCRIPT" ${ARGN})
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND python3 -B ${arg_SCRIPT})
 endfunction()
 
-# Python is not instrumented; it loads a library with the address sanitizer when that comes first. What Python keeps is no leak
+# Python is not instrumented; it can load a library with the address sanitizer if that is loaded first. Memory kept by Python is not
+# reported as a leak
 set(CONTACT_INSTRUMENTS)
 if(CONTACT_SANITIZE MATCHES address)
   foreach(library asan ubsan)
@@ -102,7 +103,7 @@ if(CONTACT_SANITIZE MATCHES address)
   list(JOIN CONTACT_INSTRUMENTS " " CONTACT_INSTRUMENTS)
 endif()
 
-# contact_library_test(<name> ...): the same for a script that loads the library, which CONTACT_LIBRARY names
+# contact_library_test(<name> ...): the same for a script that loads the library named by CONTACT_LIBRARY
 function(contact_library_test name)
   contact_python_test(${name} ${ARGN})
   set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "CONTACT_LIBRARY=$<TARGET_FILE:contact>")

@@ -11,8 +11,8 @@ target_compile_options(contact_warnings INTERFACE
     -Wtrampolines -Wno-compare-reals -Wno-uninitialized -Wno-maybe-uninitialized -fimplicit-none -frecursive
     -ffree-line-length-132>
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra>)
-# -Wno-uninitialized: gfortran takes the bounds of an unallocated array that is about to be assigned for
-# uninitialized (12.2); debug builds set reals to signalling NaN
+# -Wno-uninitialized: gfortran 12.2 regards the bounds of an unallocated array as uninitialized when the array is
+# assigned; debug builds set reals to signalling NaN
 if(CONTACT_WERROR)
   target_compile_options(contact_warnings INTERFACE -Werror)
 endif()
@@ -22,8 +22,8 @@ endif()
 if(CONTACT_SANITIZE)
   target_compile_options(contact_warnings INTERFACE
     -fsanitize=${CONTACT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
-  # gfortran forms the address of an absent optional array before it hands on that it is absent, and
-  # the check takes that for a load (12.2); a true access to address zero still ends the program
+  # gfortran 12.2 computes the address of an absent optional array before it passes on that it is absent, and
+  # the check regards that as a load; a true access to address zero still ends the program
   target_compile_options(contact_warnings INTERFACE
     $<$<COMPILE_LANGUAGE:Fortran>:-fno-sanitize=null>)
   add_link_options(-fsanitize=${CONTACT_SANITIZE})
@@ -36,10 +36,10 @@ if(CONTACT_COVERAGE)
   add_link_options(--coverage)
 endif()
 
-# Sources are not preprocessed, but for those that say so: CMake would write a copy of each before it looks for modules
+# Sources are not preprocessed, except where stated: CMake would write a copy of each before it searches for modules
 set(CMAKE_Fortran_PREPROCESS OFF)
 
-# Debug: everything the compiler can check at run time. Release: no -ffast-math, because checks for
+# Debug: all run-time checks of the compiler. Release: no -ffast-math, because checks for
 # NaN and reproducible sums matter.
 set(CMAKE_Fortran_FLAGS_DEBUG
   "-O0 -g -fcheck=all,no-array-temps -fbacktrace -finit-real=snan -ffpe-trap=invalid,zero,overflow")

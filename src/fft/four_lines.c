@@ -3,7 +3,7 @@
  * A line of n = r1 r2 ... numbers is transformed in place, one step per factor. Forward, the first step divides it into r1 lines of
  * n/r1 numbers each, and so on, which leaves the frequencies in permuted positions; back, the steps are done in reverse order, and
  * the results are in their natural order. All steps do the same to the numbers of four lines, which are therefore interleaved. The
- * transform back is one of exchanged real and imaginary parts. Where half of a line is zero on entry, or not needed on exit, the
+ * transform back is one of exchanged real and imaginary parts. If half of a line is zero on entry, or not needed on exit, the
  * first or last step takes this into account.
  *
  * Unlike the loops of lanes.h, these use multiplications with additions where they are available: their last digits depend on the

@@ -233,7 +233,7 @@ TARGET static void OF(step_forward)(int r, int n, int blocks, const double *w, d
 TARGET static void OF(step_back)(int r, int n, int blocks, const double *w, double *x, double *y) { STEPS(BACK) }
 #undef STEPS
 
-/* First or last step of a line of which no more than half is given or wanted: `few` of r numbers up to some position, and one
+/* First or last step of a line of which at most half is given or requested: `few` of r numbers up to some position, and one
  * number less from there on */
 #define HALF_STEP(r, few, way)                                                 \
   case r: {                                                                    \
@@ -251,7 +251,7 @@ TARGET static void OF(step_back)(int r, int n, int blocks, const double *w, doub
     default: return 0;                                                         \
   }
 
-/* Not done, with 0 as result, unless all numbers but the last of the few are complete */
+/* Returns 0 without transforming unless all numbers but the last of the few are complete */
 #define IS_HALF(r, n, part) ((r) > 0 && 2 * (part) <= (n) && (part) >= ((r) - 1) / 2 * ((n) / (r)))
 
 TARGET static int OF(half_step_forward)(int r, int n, int part, const double *w, const double *from, double *to) {

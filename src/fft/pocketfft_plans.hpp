@@ -1,4 +1,4 @@
-// What plans and transforms of pocketfft know of each other
+// Declarations shared by plans and transforms of pocketfft
 #pragma once
 #include <cstddef>
 
@@ -7,7 +7,7 @@ struct plan_tables {
   virtual ~plan_tables() = default;
 };
 
-// Some transforms of one length. Strides and distances count complex elements
+// Several transforms of one length. Strides and distances are in complex elements
 struct batch {
   bool forward;
   size_t n, many;

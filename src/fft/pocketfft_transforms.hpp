@@ -1,9 +1,9 @@
 // Transforms by pocketfft, compiled once for each set of instructions: LANES is the name of the set
 //
-// As many rows or columns as a register holds are transformed together; the result of a row does not depend on its neighbours.
+// One row or column per lane of a register is transformed at a time; the result of a row does not depend on its neighbours.
 // A plan is not changed when it is executed, so that threads may share it.
 #define POCKETFFT_NO_MULTITHREADING
-// a name of its own for each set, or else the linker would take the functions of one for both
+// a separate name for each set, otherwise the linker would use the functions of one set for both
 #define pocketfft LANES_NAME(pocketfft_, LANES)
 #define LANES_NAME(a, b) LANES_JOIN(a, b)
 #define LANES_JOIN(a, b) a##b

@@ -1,5 +1,5 @@
-/* Loops of factor_loops.c, for one kind of processor; see lanes.h. Matrices are stored by columns, each `stride` numbers behind
- * the last one */
+/* Loops of factor_loops.c, for one kind of processor; see lanes.h. Matrices are stored by columns, `stride` numbers
+ * apart */
 
 /* y := y - a t for `rows` rows and `columns` columns; rows in groups whose sums stay in registers */
 TARGET static void OF(subtract_product)(int rows, int columns, int stride, const double *a, const double *t, double *y) {

@@ -24,7 +24,7 @@ TARGET static void OF(add)(int n, double factor, const double *a, double *b) {
   for (; k < n; k++) b[k] += factor * a[k];
 }
 
-/* Inner products of four vectors, each `stride` numbers behind the other, with one: the same numbers as of one after the other */
+/* Inner products of four vectors, `stride` numbers apart, with one; the same digits as if they were computed separately */
 TARGET static void OF(inner_four)(int n, int stride, const double *a, const double *b, double *sums) {
   const double *a0 = a, *a1 = a + stride, *a2 = a1 + stride, *a3 = a2 + stride;
   four even0 = {0.0}, even1 = {0.0}, even2 = {0.0}, even3 = {0.0}, odd0 = {0.0}, odd1 = {0.0}, odd2 = {0.0}, odd3 = {0.0};

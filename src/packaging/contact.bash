@@ -1,4 +1,4 @@
-# Completion of the command contact for bash; it asks the program for its options
+# Completion of the command contact for bash; the options are requested from the program
 _contact() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
   case $before in

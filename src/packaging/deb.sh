@@ -1,6 +1,6 @@
 #!/bin/sh
 # Packages for Debian: program, library, headers, Python, Matlab, manual, by the files in debian/. Usage: deb.sh [FOLDER]; results
-# are in FOLDER, default build/packages. Needs debhelper, dh-python and what a build needs; DEBMAINTAINER is who answers for them
+# are in FOLDER, default build/packages. Needs debhelper, dh-python and the requirements of a build; DEBMAINTAINER is the maintainer named in them
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 out=${1:-$top/build/packages}
@@ -12,7 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 source=$work/contact-$version
 
-# What git has, and nothing that lies about
+# Files under version control only
 mkdir "$source"
 (cd "$top" && git ls-files -z --cached --others --exclude-standard -- CMakeLists.txt LICENSE README.md src include python matlab doc examples |
   tar -c --null -T -) | tar -x -C "$source"
@@ -26,7 +26,7 @@ sed -i "s/^Maintainer: .*/Maintainer: $maintainer/" "$source/debian/control"
 rm -f "$out"/*.deb "$out"/contact_*.changes "$out"/contact_*.buildinfo
 cp "$work"/*.deb "$work"/*.changes "$work"/*.buildinfo "$out"
 if command -v lintian > /dev/null; then
-  # What is never uploaded to Debian closes none of its bugs
+  # Packages that are not uploaded to Debian do not close bugs
   lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs --tag-display-limit 0 "$out"/contact_*.changes
 fi
 ls -l "$out"/*.deb

@@ -1,9 +1,9 @@
 #!/bin/sh
 # shellcheck disable=SC2016  # the shell in the root expands
-# Installs the packages of a folder in a bare Debian without compilers, made for this, and tries what users do: the wheel, the packages for
-# Debian, then gcc and the library from C by pkg-config and CMake. One line for each; exit status 1 if one failed.
-# Usage (root): try_packages.sh [FOLDER [ROOT]]; FOLDER has the packages, default build/packages; ROOT is a bare root that is there, which is copied.
-# The system of the root is that of this machine, as are the places packages come from
+# Install the packages of a folder in a minimal Debian root without compilers and test them: the wheel, the packages for
+# Debian, then, with gcc installed, the library from C by pkg-config and CMake. One line for each test; exit status 1 if one failed.
+# Usage (root): try_packages.sh [FOLDER [ROOT]]; FOLDER has the packages, default build/packages; ROOT is an existing minimal root, which is copied.
+# The root has the release and the package sources of this machine
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 packages=$(cd "${1:-$top/build/packages}" && pwd)
@@ -19,7 +19,7 @@ trap finish EXIT
 # shellcheck source=/dev/null
 . /etc/os-release
 
-# try WHAT COMMAND: run it in the root as a user does, in a folder of its own
+# try WHAT COMMAND: run the command in the root as a user, in a separate folder
 try() {
   if chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     sh -euc "cd /root && $2" > "$log" 2>&1; then
@@ -37,7 +37,7 @@ else
   mirror=$(sed -n 's/^URIs: *//p; s/^deb \([^[ ]*\) .*/\1/p' /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2> /dev/null | head -1)
   debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" > "$log" 2>&1 || { tail "$log"; exit 1; }
 fi
-# borrow FILE: the root has it as this machine does
+# borrow FILE: copy a file of this machine to the root
 borrow() {
   [ ! -f "$1" ] || { mkdir -p "$root$(dirname "$1")" && cp "$1" "$root$1"; }
 }
@@ -62,7 +62,7 @@ add_executable(manchester ../examples/library/manchester.c)
 target_link_libraries(manchester PRIVATE contact::contact m)
 END
 
-echo "== a bare system: $PRETTY_NAME"
+echo "== a minimal system: $PRETTY_NAME"
 try "there is no compiler" '! command -v cc gcc gfortran g++ && echo none'
 try "lists of packages" 'apt-get update && apt-get install -y --no-install-recommends ca-certificates'
 borrow /etc/ssl/certs/ca-certificates.crt

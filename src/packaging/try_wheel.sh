@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tries an installed wheel: the program, a wheel on a rail, and an example of the library
+# Test an installed wheel: the program, a wheel on a rail, and an example of the library
 # Usage: try_wheel.sh BIN EXAMPLES; BIN is the folder of its python, EXAMPLES that of the examples
 set -eu
 bin=$1
@@ -7,7 +7,7 @@ examples=$(cd "$2" && pwd)
 unset CONTACT_LIBRARY PYTHONPATH CONTACT_PYTHON
 cd "$(mktemp -d)"
 "$bin/contact" --version
-# closed programs may link it
+# linking must be permitted for proprietary programs
 "$bin/contact" --version | grep -q "transforms by pocketfft"
 "$bin/contact" --quiet --output-dir . 2 "$examples/wheel_on_rail"
 grep -q "10 cases: 10 solved" wheel_on_rail.out || grep -q "TOTAL FORCES ON RAIL" wheel_on_rail.out
@@ -22,7 +22,7 @@ with contact.Problem() as problem:
     problem.set_normal_force(80e3)
     problem.set_creepages(0.001)
     result = problem.solve()
-# what refinement to 100 x 100 elements gives
+# result of refinement to 100 x 100 elements
 assert abs(result.fx + 10592.0) < 20.0, result.fx
 print("library inside the wheel: FX", round(result.fx))
 PY

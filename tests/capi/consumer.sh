@@ -1,6 +1,6 @@
 #!/bin/sh
-# Install into a temporary folder, then build and run third-party programs against it: by CMake package, by pkg-config
-# with the shared and with the static library, and as callers of the published library are built, by its file names
+# Install into a temporary folder, then build and run third-party programs with it: by the CMake package, by pkg-config
+# with the shared and the static library, and by the file names of the published library
 # usage: consumer.sh BUILD_FOLDER C_COMPILER FORTRAN_COMPILER
 # shellcheck disable=SC2086  # options are lists of words
 set -eu
@@ -18,13 +18,13 @@ for file in bin/contact include/contact.h include/contact_addon.h include/caddon
   test -f "prefix/$file" || { echo "not installed: $file"; exit 1; }
 done
 if [ -n "$(find prefix -name '*.mod')" ]; then
-  echo "module files are installed, but the contract is the C interface"
+  echo "module files are installed, but only the C interface is public"
   exit 1
 fi
 library_folder=$(dirname "$(find "$work/prefix" -name libcontact.a)")
 prefix/bin/contact --version
 
-echo "-- notices of what is linked in"
+echo "-- licence notices of included libraries"
 ldd prefix/bin/contact | grep -q libhdf5 || grep -qi "hdf *group" prefix/share/licenses/contact/HDF5
 case $(prefix/bin/contact --version) in
   *pocketfft*) grep -q "Max-Planck" prefix/share/licenses/contact/pocketfft ;;
@@ -47,7 +47,7 @@ run cmake cmake_build/consumer
 
 include=$work/prefix/include
 strict="-Wall -Wextra -Wpedantic -Werror"
-# same NAME PROGRAM: it prints what the first one printed
+# same NAME PROGRAM: its output is that of the first program
 same() {
   "$2" > "$1.txt"
   cmp stranger.txt "$1.txt"
@@ -68,7 +68,7 @@ if command -v c++ > /dev/null 2>&1; then
   c++ -x c++ $strict -I"$include" "$here/consumer/stranger.c" -x none -o stranger_plus "$work/prefix/bin/contact_addon_linux64.so"
   same stranger_plus ./stranger_plus
 else
-  echo "-- no C++ compiler here, its headers are not tested"
+  echo "-- no C++ compiler: the headers are not tested with C++"
 fi
 "$fortran" -cpp -fopenmp -I"$include" "$here/consumer/stranger.F90" -o stranger_fortran -L"$work/prefix/bin" \
   -l:contact_addon_linux64.so "-Wl,-rpath,$work/prefix/bin"
@@ -91,24 +91,24 @@ import contact._library
 assert '$work/prefix/bin/' in contact._library.library()._name
 cntc.closelibrary()")
 else
-  echo "-- no numpy here, it is not tested"
+  echo "-- numpy is not installed: the Python package is not tested"
 fi
 
 if ! command -v pkg-config > /dev/null 2>&1; then
-  echo "-- no pkg-config here, its two ways are not tested"
+  echo "-- pkg-config is not installed: shared and static linking by pkg-config are not tested"
   exit 0
 fi
 PKG_CONFIG_PATH=$library_folder/pkgconfig
 export PKG_CONFIG_PATH
 
-# pkg-config escapes blanks in paths for the shell, so its answer is read by eval
+# pkg-config escapes blanks in paths for the shell, so its output is read by eval
 echo "-- pkg-config, shared library"
 flags=$(pkg-config --cflags --libs contact)
 eval "\"\$compiler\" -Wall -Wextra -Werror \"\$here/consumer/consumer.c\" -o consumer_shared $flags" \
   '"-Wl,-rpath,$library_folder"'
 run shared ./consumer_shared
 
-# build_caller NAME COMPILER FILES: the library's routines, which need no module file of the library
+# build_caller NAME COMPILER FILES: calls of routines of the library, without module files of the library
 build_caller() {
   name=$1
   # shellcheck disable=SC2034  # eval reads it

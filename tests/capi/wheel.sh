@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Python package, installed by pip with the library in it, and used outside the checkout
+# The Python package, installed by pip with the library, and used outside the checkout
 # usage: wheel.sh LIBRARY
 set -eu
 python3 -c "import numpy" 2> /dev/null || { echo "skipped: numpy is not installed"; exit 77; }
@@ -13,7 +13,7 @@ cp -R "$CONTACT_SOURCE/python" source
 rm -rf source/build source/*.egg-info source/contact/*.so
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
 
-# use FOLDER: solve a case with the package in it
+# use FOLDER: solve a case with the package in the folder
 use() {
   PYTHONPATH=$PWD/$1 python3 - "$1" << 'END'
 import sys
@@ -33,19 +33,19 @@ assert f"/{sys.argv[1]}/" in contact._library.library()._name, contact._library.
 END
 }
 
-echo "-- pip install takes the library that CONTACT_LIBRARY names"
+echo "-- pip install uses the library named by CONTACT_LIBRARY"
 CONTACT_LIBRARY=$1 python3 -m pip install --quiet --no-deps --no-index --no-build-isolation --target target/own ./source
 unset CONTACT_LIBRARY
 (use target/own)
 
-echo "-- or the one of build/release beside the package, by way of a wheel that is bound to the platform"
+echo "-- or the one of build/release of the checkout, by a platform-specific wheel"
 mkdir -p checkout/build/release/lib
 cp -L "$1" checkout/build/release/lib/libcontact.so
 rm -rf checkout/python source/build source/*.egg-info
 mv source checkout/python
 python3 -m pip wheel --quiet --no-deps --no-index --no-build-isolation --wheel-dir wheels ./checkout/python
 case $(ls wheels) in
-  *-any.whl) echo "the wheel pretends to fit everywhere"; exit 1 ;;
+  *-any.whl) echo "the wheel is not marked as platform-specific"; exit 1 ;;
 esac
 python3 -m pip install --quiet --no-deps --no-index --target target/wheel ./wheels/*.whl
 rm -rf checkout

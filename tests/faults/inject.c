@@ -6,16 +6,16 @@
  * INJECT_AT       number of the call that fails; 0 for none
  * INJECT_ERROR    number of the error (errno); -1: the process ends instead, a write after half of its bytes; -2: a write takes half
  *                 of its bytes and returns their number, which is not an error
- * INJECT_FOLDER   files below this folder are meant
+ * INJECT_FOLDER   only files below this folder are affected
  * INJECT_FOR_EVER if set, all later calls fail too
  * INJECT_COUNT    name of a file that receives the number of calls at the end
- * INJECT_NO_OPENAT2   if set, the system does not know openat2, as before Linux 5.6
+ * INJECT_NO_OPENAT2   if set, the system does not have openat2, as before Linux 5.6
  * INJECT_SIZE     requests for less memory are not counted [bytes]
  *
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
  * inject_memory(n, for_ever, size) begins to count, inject_counted() returns the count.
  *
- * The streams of the C library call write and close of their own: fopen and fdopen for writing make streams that call those here.
+ * Streams of the C library call their own write and close: fopen and fdopen for writing create streams that call those defined here.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>

@@ -1,4 +1,4 @@
-/* Cases in memory: texts of the readable format with any numbers in place of theirs, into arrays of any size
+/* Cases in memory: texts of the readable format with arbitrary values of numbers, and result arrays of arbitrary size
  *
  * The first line may contain sizes of the arrays, the names of varied numbers and their values:
  *     # rows columns cases reason_length | group.key group.key | value value ...
@@ -193,7 +193,7 @@ void fuzz_text(const char *text, size_t length)
     make_arrays(&all[k]->job);
     status[k] = contact_batch_solve(batches[k == 2], &all[k]->job, message[k], sizeof message[k]);
     if (k == 0) fuzz_tell("status %d, %d cases, %d rows: %s", status[0], first.job.cases, first.job.rows, message[0]);
-    if (status[k] != 0) fuzz_judge_message(message[k], "the batch fails");
+    if (status[k] != 0) fuzz_check_message(message[k], "the batch fails");
     if (status[k] == 0 && message[k][0]) fuzz_fail("success with a message: %s", message[k]);
     judge(&all[k]->job);
     look(batches[k == 2], &all[k]->job);

@@ -259,7 +259,7 @@ static void judge(struct routine *this, struct value *values)
       if (!isfinite(((double *)value->array)[i]))
         fuzz_fail("%s: element %zu of %s is %g", this->name, i, argument->name, ((double *)value->array)[i]);
   }
-  if (getenv("CONTACT_FUZZ_TELL")) {
+  if (getenv("CONTACT_FUZZ_PRINT")) {
     struct value *code = find(this, values, "ierror");
     int ire = values[0].i, icp = this->count > 1 && strcmp(this->arguments[1].name, "icp") == 0 ? values[1].i : -1;
     message[0] = '\0';
@@ -270,7 +270,7 @@ static void judge(struct routine *this, struct value *values)
     if (code->is_null) return;
     if (code->i == unset) fuzz_fail("%s does not set a code", this->name);
     if (code->i >= 0 || ire->is_null || icp->is_null) return;
-    if (contact_last_error(ire->i, icp->i, message, sizeof message) != 0) fuzz_judge_message(message, "a calculation fails");
+    if (contact_last_error(ire->i, icp->i, message, sizeof message) != 0) fuzz_check_message(message, "a calculation fails");
   }
 }
 

@@ -27,9 +27,9 @@ int run_experiment(int mode, int extra)
     2500.0, message, sizeof message);
   fuzz_tell("status %d: %s", status, message);
   if (status == 1) fuzz_fail("the call is refused: %s", message);
-  if (status != 0) fuzz_judge_message(message, "the run fails");
+  if (status != 0) fuzz_check_message(message, "the run fails");
   if (status == status_input && !names_a_place(message)) fuzz_fail("an error of the text without its position: %s", message);
   if (status == 0 && message[0]) fuzz_fail("success with a message: %s", message);
-  if (mode == CONTACT_RUN) fuzz_judge_report("fuzz.out");
+  if (mode == CONTACT_RUN) fuzz_check_report("fuzz.out");
   return status;
 }

@@ -37,7 +37,7 @@ _Noreturn void fuzz_fail(const char *format, ...)
 void fuzz_tell(const char *format, ...)
 {
   va_list arguments;
-  if (!getenv("CONTACT_FUZZ_TELL")) return;
+  if (!getenv("CONTACT_FUZZ_PRINT")) return;
   va_start(arguments, format);
   vfprintf(stderr, format, arguments);
   va_end(arguments);
@@ -168,7 +168,7 @@ void fuzz_execute(const char *text, size_t length)
   fuzz_tidy();
 }
 
-void fuzz_judge_message(const char *message, const char *what)
+void fuzz_check_message(const char *message, const char *what)
 {
   const unsigned char *c = (const unsigned char *)message;
   if (!*c) fuzz_fail("%s, without a message", what);
@@ -197,7 +197,7 @@ static int is_picture(const char *line)
   return line[strspn(line, " \r\n")] == '\0';
 }
 
-void fuzz_judge_report(const char *name)
+void fuzz_check_report(const char *name)
 {
   static char line[4096];
   FILE *file = fopen(name, "r");

@@ -1,7 +1,7 @@
 /* Common part of all fuzzing targets: a text is passed to the library, and the results are checked.
  *
  * A target is one C file with fuzz_name, fuzz_begin and fuzz_text. It is linked with replay.c, which repeats a corpus and
- * changes it by a fixed seed, or with guided.c, which lets libFuzzer choose by the branches that were taken. */
+ * mutates it with a fixed seed, or with guided.c, by which libFuzzer mutates texts based on coverage. */
 #ifndef FUZZ_H
 #define FUZZ_H
 
@@ -20,7 +20,7 @@ void fuzz_text(const char *text, size_t length);
 
 /* Make an empty folder in memory, go there, copy the profiles of the examples to profiles/ with an eighth of their points */
 void fuzz_enter(void);
-/* Remove all files of that folder that fuzz_keep has not named */
+/* Remove all files of that folder except those marked by fuzz_keep */
 void fuzz_tidy(void);
 /* Mark all present files to be kept */
 void fuzz_keep(void);
@@ -33,14 +33,14 @@ extern int fuzz_slow_count;
 
 /* Report a finding and end the process by SIGABRT */
 _Noreturn void fuzz_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* Print a message of the library on standard error if CONTACT_FUZZ_TELL is set, which shows how far texts get */
+/* Print a message of the library on standard error if CONTACT_FUZZ_PRINT is set, which shows how far texts get */
 void fuzz_tell(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Write a file; a failure ends the process */
 void fuzz_write(const char *name, const char *text, size_t length);
-/* A message to a user must be there and be a text of one line */
-void fuzz_judge_message(const char *message, const char *what);
-/* No result of a report may be other than a finite number */
-void fuzz_judge_report(const char *name);
+/* A message to a user must be present, and must be a text of one line */
+void fuzz_check_message(const char *message, const char *what);
+/* All results of a report must be finite numbers */
+void fuzz_check_report(const char *name);
 
 /* Change a text in place: bytes, numbers, words, lines, pieces of another text.
  *

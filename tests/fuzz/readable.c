@@ -59,7 +59,7 @@ void fuzz_text(const char *text, size_t length)
   status = contact_convert_experiment("fuzz.toml", NULL, 0, message, sizeof message);
   fuzz_tell("converted %d: %s", status, message);
   if (status != 0) {
-    fuzz_judge_message(message, "the conversion fails");
+    fuzz_check_message(message, "the conversion fails");
     return;
   }
   if (rename("fuzz.jsonl", "first.jsonl") != 0 || remove("fuzz.toml") != 0) fuzz_fail("the run left no totals");

@@ -248,7 +248,7 @@ void fuzz_text(const char *text, size_t length)
   message[0] = '\0';
   status = fuzz_run(1, message, sizeof message);
   fuzz_tell("status %d: %s", status, message);
-  if (status != 0) fuzz_judge_message(message, "the run fails");
+  if (status != 0) fuzz_check_message(message, "the run fails");
   if (on_purpose) return;
   found = report();
   if (status == 0 && (!found || strcmp(found, whole_report) != 0)) {

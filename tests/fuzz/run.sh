@@ -1,14 +1,15 @@
 #!/bin/sh
-# Fuzzing by the branches taken: sh tests/fuzz/run.sh [--minutes N] [--target NAME]... [--sanitize] [--minimise]
+# Coverage-guided fuzzing: sh tests/fuzz/run.sh [--minutes N] [--target NAME]... [--sanitize] [--minimise]
 #
-#   --minutes N   of all targets together, 60 unless given
-#   --target      one of check run readable profile coefficients calls batch resume; all of them unless given
-#   --sanitize    with the sanitizers (preset fuzz), a tenth of the speed; else with checks of bounds (preset fuzz-fast)
-#   --minimise    no fuzzing; keep the smallest set of texts that takes the same branches
+#   --minutes N   total time of all targets; default: 60
+#   --target      one of check run readable profile coefficients calls batch resume; default: all
+#   --sanitize    with the sanitizers (preset fuzz), at a tenth of the speed; otherwise with bounds checks (preset fuzz-fast)
+#   --minimise    no fuzzing; keep the smallest set of texts with the same coverage
 #
-# May be stopped and started again at any time: texts that take new branches are kept in build/fuzzing/NAME, findings
-# are in build/fuzzing/found (slow-... are texts that take more than 2 s of processor time), and the sum of all runs is
-# in build/fuzzing/statistics. The exit status is 1 if there are findings. A text is repeated by build/fuzz/tests/fuzz_NAME FILE, with CONTACT_SOURCE set to the top of the sources.
+# Can be stopped and restarted at any time: texts with new coverage are kept in build/fuzzing/NAME, findings
+# in build/fuzzing/found (slow-...: texts that take more than 2 s of processor time), and statistics of all runs
+# in build/fuzzing/statistics. The exit status is 1 if there are findings. Repeat a text by build/fuzz/tests/fuzz_NAME FILE, with
+# CONTACT_SOURCE set to the top of the sources.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"
@@ -28,7 +29,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 [ -n "$targets" ] || targets="check run readable profile coefficients calls batch resume"
-case $minutes in '' | *[!0-9]*) fail "--minutes takes a whole number" ;; esac
+case $minutes in '' | *[!0-9]*) fail "--minutes must be a whole number" ;; esac
 
 install_missing
 install_fuzzer
@@ -42,7 +43,7 @@ CONTACT_FUZZ_PLACE=$(mktemp -d /dev/shm/contact-fuzz-XXXXXX 2>/dev/null || mktem
 trap 'rm -rf "$CONTACT_FUZZ_PLACE"' EXIT
 trap 'exit 130' INT TERM
 
-# Words of the dictionary, and the names of the routines
+# Words of the dictionary, and names of routines
 cp "$top/tests/fuzz/words.dict" "$work/words.dict"
 sed -n 's/^\(\(cntc\|subs\)_[a-z0-9_]*\)(.*/"\1"/p' "$top/src/capi/interface.txt" >>"$work/words.dict"
 
@@ -52,7 +53,7 @@ slow_of() { find "$work/found" -name "slow-$1-*" | wc -l; }
 # Number of files in a folder
 files_of() { find "$1" -type f | wc -l; }
 
-# A number of the last run, by its name
+# A figure of the last run, by its name
 figure() { sed -n "s/^stat::$1: *//p" "$work/log" | tail -n 1; }
 
 found=0
@@ -90,7 +91,7 @@ for name in $targets; do
   done
   seconds=$(($(date +%s) - begin))
   new=$((new + $(slow_of "$name") - slow))
-  # branches that all texts take, these findings left out
+  # coverage of all texts except these findings
   "$program" -runs=0 -entropic=0 -timeout=120 "$texts" "$top/tests/fuzz/corpus/$name" >"$work/log" 2>&1
   printf '%s %s %s %s %s %s\n' "$name" "$preset" "$executions" "$seconds" "$new" "$(figure branches)" >>"$work/statistics"
   say "$name: $executions executions in $seconds s, $new findings, $(files_of "$texts") texts, $(figure branches) branches"
@@ -100,5 +101,5 @@ done
 say "All runs so far"
 awk '{ e[$1] += $3; s[$1] += $4; f[$1] += $5; if ($6 > b[$1]) b[$1] = $6; n += $3 }
   END { for (k in e) printf "%-14s %9d executions %8d s %4d findings %7d branches\n", k, e[k], s[k], f[k], b[k]
-        printf "%-14s %9d executions\n", "in all", n }' "$work/statistics"
+        printf "%-14s %9d executions\n", "total", n }' "$work/statistics"
 [ $found = 0 ]

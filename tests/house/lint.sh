@@ -1,12 +1,12 @@
 #!/bin/sh
-# Rules for one language: sh lint.sh fortran|python|shell. Exit status 0: no finding; 77: the tool is not installed
+# Lint one language: sh lint.sh fortran|python|shell. Exit status 0: no finding; 77: the tool is not installed
 #
 # The rules, with reasons of those that are disabled, are in .fortitude.toml, .ruff.toml and .shellcheckrc.
 set -u
 cd "$CONTACT_SOURCE" || exit 1
 # installed there by tests/support/setup.sh
 PATH=$CONTACT_SOURCE/build/lint/bin:$PATH
-skip() { echo "SKIPPED: there is no $1; sh tests/run.sh installs it"; exit 77; }
+skip() { echo "SKIPPED: $1 is not installed; sh tests/run.sh installs it"; exit 77; }
 
 case ${1:-} in
   fortran)

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Error against time: sh tests/performance/accuracy.sh [--goals]
 #
-# Builds, measures for some minutes, and writes doc/validation/accuracy.md and accuracy.svg; --goals writes only the last part of
-# accuracy.md, random contacts beside the goals.
+# Builds, measures for some minutes, and writes doc/validation/accuracy.md and accuracy.svg; --goals writes only the last section of
+# accuracy.md, random contacts compared with the goals.
 # BENCH_BUILD names an up-to-date build folder to be used instead of building.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1

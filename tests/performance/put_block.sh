@@ -2,7 +2,7 @@
 # Replace a generated block of a document: sh put_block.sh NAME TEXT DOCUMENT
 #
 # The block is between the lines <!-- run.sh: NAME --> and <!-- end of run.sh: NAME -->, each of which must occur once, in this
-# order. TEXT is a file with the new lines; all others stay as they are.
+# order. TEXT is a file with the new lines; all other lines are unchanged.
 set -u
 name=$1
 text=$2

@@ -3,10 +3,10 @@
 #
 #   --large    also 201,000 elements, and the prototype on 320 x 320
 #   --quick    smallest sizes only, tables of 100 cases
-#   --write    puts the tables of cases, and of wheel on rail, into their blocks of doc/validation/performance.md: all sections,
-#              or rail alone
-#   sections   setup normal rolling shift classical line table rail; without any: all of them, the
-#              whole program, requests to the heap, and the comparison with the prototype
+#   --write    write the tables of cases, and of wheel on rail, to their blocks of doc/validation/performance.md; requires all
+#              sections, or rail alone
+#   sections   setup normal rolling shift classical line table rail; default: all of them, the
+#              whole program, heap allocations, and the comparison with the prototype
 # BENCH_BUILD names an up-to-date build folder to be used instead of building.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
@@ -26,7 +26,7 @@ for argument; do
     *) fail "usage: sh tests/performance/run.sh [--large] [--quick] [--write] [section ...]" ;;
   esac
 done
-# a part of a table must not replace the whole one
+# a table must not be replaced by a part of it
 if [ $write = yes ]; then
   case $options$sections in
     "" | " --large") ;;
@@ -71,7 +71,7 @@ measure_vehicle() {
   "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps
 }
 
-# What the document has in its own words
+# Lines of the document that are written by hand
 measure_others() {
   title "The whole program"
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"

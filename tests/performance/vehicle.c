@@ -3,7 +3,7 @@
  * usage: vehicle FOLDER_OF_PROFILES [--check] [--derivatives] [--simplified] [--calls FILE] [STEPS]
  *
  * --simplified uses the tractions of Fastsim and FaStrip, with pressures of the full theory, of KPEC and of ANALYN.
- * --derivatives requests the derivatives of the forces after each call, and reports their time beside that of the call.
+ * --derivatives requests the derivatives of the forces after each call, and reports their time with that of the call.
  *
  * Prints the distribution of the processor time of calls, with the goals of doc/validation/performance.md, and their requests to
  * the heap. --calls writes a line for every call to a file, for vehicle_calls.py. --check tests what does not depend
@@ -114,7 +114,7 @@ static int compare(const void *a, const void *b) {
   return x < y ? -1 : x > y;
 }
 
-/* A goal beside the measured value [ms]; 0: none */
+/* Compare a measured value with its goal [ms]; 0: no goal */
 static void judge(double measured, double goal) {
   if (goal > 0.0) printf(" %g: %s |", goal, measured <= goal ? "met" : "MISSED");
   else printf(" |");
@@ -270,7 +270,7 @@ static void judge_smoothness(double side, double y0) {
   printf(" FZ of noise\n");
 }
 
-/* The same run with the derivatives of the forces: their time beside that of the calls, some of which are at a discontinuity */
+/* The same run with the derivatives of the forces: their time compared with that of the calls, some of which are at a discontinuity */
 static void differentiate(double side, int steps) {
   double *time = malloc(sizeof(double) * (size_t)(2 * wheels * steps)), force[6], from, sum[2] = {0.0, 0.0};
   double values[CONTACT_JACOBIAN_ROWS * CONTACT_JACOBIAN_COLUMNS];

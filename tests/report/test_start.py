@@ -135,7 +135,7 @@ class Start(Page):
         page.wait_for_selector("tr[data-name=cattaneo] a")
         self.assertEqual(page.evaluate(focus), "run cattaneo")
         page.keyboard.press("Tab")
-        self.assertEqual(page.evaluate(focus), "look at cattaneo")
+        self.assertEqual(page.evaluate(focus), "show cattaneo")
         reach("input long.inp")
         page.keyboard.press("Enter")
         page.wait_for_function("() => document.activeElement.id === 'input'")

@@ -321,7 +321,7 @@ class Viewer(Page):
         self.assertNotIn("More", totals)
         page.select_option("#quantity", "wear")
         self.assertGreater(page.evaluate(COLOURS, "map-more"), 20)
-        self.assertIn("depth worn off", page.inner_text("#quantity"))
+        self.assertIn("wear depth", page.inner_text("#quantity"))
         self.assertEqual(self.troubles, [])
 
     def test_labels_apart_and_wheels_not_joined(self):

@@ -1,4 +1,4 @@
-/* The bare loop of the library against which studies are measured: a creep table, one thread; prints processor time per case.
+/* The simple loop of library calls with which studies are compared: a creep table, one thread; prints processor time per case.
  * usage: loop CASES ELEMENTS [FIRST LAST]: computes cases FIRST to LAST, from 0, so that several processes share them */
 #include <caddon_flags.h>
 #include <contact_addon.h>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A page of studies: its blocks, and as a notebook from its first to its last cell
+# A page on studies: its code blocks, and the whole page as a notebook
 # usage: notebook.sh PAGE.md
 set -eu
 has() {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# One file of tests of studies by pytest
+# Tests of studies in one file, run by pytest
 # usage: study.sh FILE
 set -eu
 python3 -c "import pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed, xarray" 2> /dev/null || {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A command under helgrind: no data race between threads
+# Run a command under helgrind, without data races between threads
 #
 # usage: helgrind.sh LIBRARY_OF_LOCKS PROGRAM ARGUMENTS...
 command -v valgrind >/dev/null 2>&1 || { echo "valgrind is not installed"; exit 77; }

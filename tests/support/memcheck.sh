@@ -1,5 +1,5 @@
 #!/bin/sh
-# A command under valgrind: no access outside allocated memory, no decision by an uninitialised value, no memory leak
+# Run a command under valgrind: no access outside allocated memory, no branch on an uninitialised value, no memory leak
 #
 # usage: memcheck.sh PROGRAM ARGUMENTS...
 command -v valgrind >/dev/null 2>&1 || { echo "valgrind is not installed"; exit 77; }

@@ -3,10 +3,10 @@
 #   install_missing    installs the compiler, tools and libraries that are missing
 #   install_octave     the same for GNU Octave, for tests of matlab/; continues without it
 #   install_python_packages   the same for numpy, chromium and others, for tests only; continues without them
-#   install_axe        the same for axe-core, which checks the accessibility of the pages; continues without it
-#   install_valgrind   the same for valgrind, by which tests find uninitialised values; continues without it
-#   install_linters    the same for fortitude, ruff, shellcheck and ford, the rules for sources and their pages
-#   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
+#   install_axe        the same for axe-core, for accessibility checks of the pages; continues without it
+#   install_valgrind   the same for valgrind, for tests of uninitialised values; continues without it
+#   install_linters    the same for fortitude, ruff, shellcheck and ford, for linting and module documentation
+#   install_fuzzer     the same for libFuzzer, used by tests/fuzz/run.sh only
 #   build PRESET [-DX] configures and builds into build/PRESET; all targets, or those of the build preset $build_targets
 # shellcheck shell=sh disable=SC2154
 
@@ -14,7 +14,7 @@ say() { printf '%s\n' "== $*"; }
 fail() { printf '%s\n' "$*" >&2; exit 1; }
 
 # Use the first gfortran that is new enough, unless the caller set a compiler in FC. On some
-# systems the plain name is an older one, and newer ones carry their number.
+# systems the plain name is an older version, and newer ones have the version in their names.
 choose_compiler() {
   [ -n "${FC:-}" ] && return 0
   for candidate in gfortran gfortran-15 gfortran-14 gfortran-13 gfortran-12; do
@@ -29,7 +29,7 @@ choose_compiler() {
 }
 
 # Can a Fortran program be compiled and linked with all dependencies of the build? Tested
-# with the tools of the build, because names of packages do not show whether it works.
+# with the tools of the build, because package names do not show whether it works.
 everything_there() {
   command -v cmake >/dev/null 2>&1 || return 1
   choose_compiler || return 1
@@ -57,12 +57,12 @@ as_root() {
   elif command -v sudo >/dev/null 2>&1; then
     sudo "$@"
   else
-    fail "Packages are missing, and neither root nor sudo is at hand. Ask for these:
+    fail "Packages are missing, and this user has neither root nor sudo rights. Please have these installed:
   $packages"
   fi
 }
 
-# $packages is a list of words on purpose
+# $packages is deliberately a list of words
 # shellcheck disable=SC2086
 install_missing() {
   if everything_there; then
@@ -73,7 +73,7 @@ install_missing() {
     packages="gfortran gcc libc6-dev make cmake ninja-build pkg-config python3
       libfftw3-dev libhdf5-dev"
     apt="env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
-    # The lists of a new machine are empty, those of an old one out of date
+    # The package lists of a new machine are empty, those of an old one out of date
     as_root apt-get update ||
       say "apt-get update failed; trying with the package lists that are there"
     as_root $apt $packages && { choose_compiler || as_root $apt gfortran-12; }
@@ -98,12 +98,12 @@ install_missing() {
     fail "No package manager found (apt-get, dnf, zypper, pacman, apk, brew). Please install:
 gfortran >= 12, a C compiler, cmake >= 3.22, ninja or make, pkg-config, python3 and the
 development files of FFTW 3 and HDF5 with its Fortran interface."
-  fi || fail "The package manager could not install what is missing; its messages stand above."
+  fi || fail "The package manager could not install what is missing; see its messages above."
   everything_there || fail "Packages were installed, but a build cannot be configured yet. To see
 why: cmake --preset release (in $top)"
 }
 
-# Octave with its graphics, and an X server without a screen. Tests of matlab/ are skipped without them.
+# Octave with graphics, and a virtual X server. Tests of matlab/ are skipped without them.
 octave_there() {
   command -v octave-cli >/dev/null 2>&1 && command -v mkoctfile >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1
 }
@@ -140,18 +140,18 @@ install_octave() {
 
 # Packages for the tests of Python: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
 # playwright for the browser, matplotlib, xarray, h5netcdf and jsonschema for results, pytest and the rest for studies. setuptools
-# comes first: it refuses to be imported after the distutils that it replaces
+# is imported first: it must precede the distutils that it replaces
 python_modules="setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf, jsonschema"
 study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed, nbclient, ipykernel"
 has_python_packages() { python3 -c "import $python_modules, $study_modules" >/dev/null 2>&1; }
 
-# Those in the folder below build come first
+# Packages in the folder below build have priority
 use_python_packages() {
   [ -x "$top/build/python/bin/python3" ] && PATH=$top/build/python/bin:$PATH
   export PATH
 }
 
-# From the system's packages, or in a folder below build
+# Installed from packages of the system, or in a folder below build
 install_python_packages() {
   # Installed by an earlier run
   use_python_packages
@@ -176,7 +176,7 @@ install_python_packages() {
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"
 }
 
-# A package of Debian, without a prompt for a password
+# Install a Debian package without a password prompt
 quiet_apt() {
   command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } || return 1
   packages=$1
@@ -202,7 +202,7 @@ install_valgrind() {
   quiet_apt valgrind || say "valgrind could not be installed; tests that need it are skipped"
 }
 
-# The versions used to check the sources; in a folder of their own python3 is unchanged
+# The versions used to check the sources; they are in a separate folder, so that python3 is not changed
 linters="fortitude-lint==0.10.0 ruff==0.17.6 ford==7.0.13"
 install_linters() {
   if ! command -v shellcheck >/dev/null 2>&1; then
@@ -228,7 +228,7 @@ install_fuzzer() {
 }
 
 # build PRESET [options of cmake]
-# A folder that was configured before keeps its generator.
+# A folder that has been configured keeps its generator.
 build_targets=
 build() {
   preset=$1

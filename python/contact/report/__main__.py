@@ -13,7 +13,7 @@ def port_number(text: str) -> int:
     """Argument type: a valid port number"""
     if text.isascii() and text.isdigit() and int(text) < 65536:
         return int(text)
-    raise argparse.ArgumentTypeError("%r is no port; ports are the numbers from 0 to 65535" % text)
+    raise argparse.ArgumentTypeError("%r is not a port number; port numbers are 0 to 65535" % text)
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -20,7 +20,7 @@ class Folder:
 
     def __init__(self, path: str) -> None:
         if not os.path.isdir(path):
-            raise MissingResults("%s is no folder" % path)
+            raise MissingResults("%s is not a folder" % path)
         self.path = os.path.realpath(path)
         self._runs: dict[str, tuple[tuple[float, int], dict[str, Any] | None]] = {}
 

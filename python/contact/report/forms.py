@@ -147,7 +147,7 @@ def _values(kind: dict[str, Any], given: dict[str, Any], profiles: list[str]) ->
         value = given.get(name)
         if isinstance(third, list):
             if value not in [choice for choice, _ in third]:
-                raise Refused("%s is none of the choices" % label)
+                raise Refused("%s is not one of the choices" % label)
         elif third == "profile":
             if value not in profiles:
                 raise Refused("%s: there is no such file in this folder" % label)
@@ -159,7 +159,7 @@ def _values(kind: dict[str, Any], given: dict[str, Any], profiles: list[str]) ->
 
 def _number(label: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or abs(value) > 1e9:
-        raise Refused("%s is no number that can be used" % label)
+        raise Refused("%s is not a valid number" % label)
     return float(value)
 
 
@@ -167,7 +167,7 @@ def text_of(kind: str, values: dict[str, Any], vary: str = "", to: float = 0.0, 
     """The input in the readable format; one field may vary to another value in equal steps"""
     if kind == "hertz":
         if not (values["rx"] > 0.0 and values["ry"] > 0.0 and values["mx"] >= 1.0):
-            raise Refused("Radii and number of elements are positive")
+            raise Refused("Radii and number of elements must be positive")
         # about one element, for a ball of the mean radius on a plane (Hertz 1882); the program uses the element of its grid
         stiffness = values["gg"] / max(1.0 - values["poiss"], 0.1)
         radius = (0.75 * abs(values["fn"]) * math.sqrt(values["rx"] * values["ry"]) / max(stiffness, 1e-9)) ** (1 / 3)
@@ -191,12 +191,12 @@ def _parse_form(body: bytes) -> tuple[dict[str, Any], str, str, str]:
     except ValueError:
         data = None
     if not isinstance(data, dict) or not isinstance(data.get("values"), dict):
-        raise Refused("the form cannot be understood")
+        raise Refused("the form is invalid")
     name, place, form = (data.get(key) for key in ("name", "folder", "format"))
     if not isinstance(name, str) or not NAME.fullmatch(name):
-        raise Refused("A name has letters, digits, - and _, 60 at most, and begins with a letter or a digit")
+        raise Refused("A name consists of at most 60 letters, digits, - and _, and begins with a letter or a digit")
     if not isinstance(place, str) or form not in FORMATS or data.get("kind") not in KINDS:
-        raise Refused("the form cannot be understood")
+        raise Refused("the form is invalid")
     return data, name, place, str(form)
 
 
@@ -212,11 +212,11 @@ def new_input(folder: Folder, body: bytes) -> dict[str, Any]:
     if vary and vary not in kind["vary"]:
         raise Refused("%s cannot be varied" % vary)
     if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MAX_CASES or (count > 1) != bool(vary):
-        raise Refused("The number of cases is from 2 to %d where something varies" % MAX_CASES)
+        raise Refused("The number of cases must be 2 to %d if a value varies" % MAX_CASES)
     text = text_of(data["kind"], values, vary, _number("The last value", data.get("to", 0.0)), count)
     base = os.path.join(path, name)
     if any(os.path.lexists("%s.%s" % (base, other)) for other in FORMATS):
-        raise Refused("there is an experiment %s already" % name)
+        raise Refused("there is already an experiment %s" % name)
     return {"name": (place + "/" if place else "") + name, "messages": _written(base, form, text)}
 
 

@@ -14,7 +14,7 @@ class Picture {
     this.file = null;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
-    this.canvas.setAttribute("aria-roledescription", "picture with values");
+    this.canvas.setAttribute("aria-roledescription", "plot with values");
     this.canvas.setAttribute("aria-describedby", "keys");
     this.title = this.name = this.canvas.closest(".card").querySelector("h2 .name").textContent;
     this.handle();

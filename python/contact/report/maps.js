@@ -310,7 +310,7 @@ class Section extends Frame {
       ? `row ${at + 1} of ${my}, y = ${figures(place)} mm`
       : `column ${at + 1} of ${mx}, x = ${figures(place)} mm`;
     byId("section-row").textContent = section;
-    byId("section-row").title = `${section}; click a map for another`;
+    byId("section-row").title = `${section}; click in a map for another`;
     this.announce(
       `${section}; ` +
         this.drawn

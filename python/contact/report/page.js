@@ -358,8 +358,8 @@ function start() {
     [
       "",
       matchMedia("(pointer:coarse)").matches
-        ? "tap a picture to read values; two fingers pan and zoom"
-        : "point at a picture to read values; drag to move, Ctrl and wheel to zoom, double click to see all; " +
+        ? "tap a plot to read values; two fingers pan and zoom"
+        : "point at a plot to read values; drag to move, Ctrl and wheel to zoom, double click to see all; " +
           "arrow keys step through the cases",
     ],
   ]);

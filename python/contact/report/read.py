@@ -260,7 +260,7 @@ def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
         raise
     except Exception as reason:  # h5py and NumPy raise many kinds of errors for a damaged file
         what = " ".join(str(reason).split()) or type(reason).__name__
-        raise MissingResults("%s cannot be read, it is damaged or no HDF5 file: %s" % (path, what)) from None
+        raise MissingResults("%s cannot be read, it is damaged or not an HDF5 file: %s" % (path, what)) from None
 
 
 def _run_of(file: Any) -> dict[str, Any] | None:
@@ -296,7 +296,7 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
     """As read_experiment, from an open file"""
     import numpy as np
     if int(file.attrs.get("layout", 0)) != LAYOUT:
-        raise MissingResults("%s is no result of contact --hdf5, or of another version of it" % path)
+        raise MissingResults("%s is not a result of contact --hdf5, or is one of another version" % path)
     reader = _Reader(file, os.path.getsize(path))
     case_rows, case_meta = reader.columns("cases")
     patch_rows, patch_meta = reader.columns("patches")

@@ -112,12 +112,12 @@ class Handler(BaseHTTPRequestHandler):
         try:
             if self._is_foreign():
                 self.close_connection = True
-                return self._answer(403, "this server answers to pages of its own only")
+                return self._answer(403, "this server answers its own pages only")
             try:
                 address = urllib.parse.urlsplit(self.path)
                 query = urllib.parse.parse_qs(address.query, max_num_fields=8)
             except ValueError:
-                return self._answer(400, "the address of the request cannot be understood")
+                return self._answer(400, "the address of the request is invalid")
             work(address.path, query)
         except (ConnectionError, TimeoutError):
             raise
@@ -133,7 +133,7 @@ class Handler(BaseHTTPRequestHandler):
         lengths = self.headers.get_all("Content-Length", ["0"])
         if len(lengths) != 1 or not re.fullmatch("[0-9]{1,9}", lengths[0]) or "Transfer-Encoding" in self.headers:
             self.close_connection = True
-            return self._answer(400, "the length of the request cannot be understood")
+            return self._answer(400, "the length of the request is invalid")
         if int(lengths[0]) > MAX_BYTES:
             self.close_connection = True
             return self._answer(413, "the request is too long")
@@ -276,7 +276,7 @@ class Server(ThreadingHTTPServer):
                 return False
             path = self.folder.input(name)
             if path is None:
-                raise MissingResults("the input of %s does not exist any more" % name)
+                raise MissingResults("the input of %s no longer exists" % name)
             self.job = Job(name, path, mode)
             return True
 

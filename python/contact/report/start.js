@@ -35,7 +35,7 @@ function resultState(file) {
   return [
     age +
       `, ${run.cases_finished} case${run.cases_finished === 1 ? "" : "s"}` +
-      (bad ? `, ${bad} of them without result or not converged` : ""),
+      (bad ? `, ${bad} of them refused or not converged` : ""),
     !bad,
   ];
 }
@@ -83,13 +83,13 @@ function rowOf(file) {
     actions.append(b);
   }
   if (file.result !== "none") {
-    const link = element("a", "look", "button"),
+    const link = element("a", "show", "button"),
       other = byId("beside").value;
     link.href =
       "/result?" + new URLSearchParams(other && other !== file.name ? { name: file.name, with: other } : { name: file.name });
     link.target = "_blank";
     link.rel = "noopener";
-    link.setAttribute("aria-label", `look at ${file.name}`);
+    link.setAttribute("aria-label", `show ${file.name}`);
     actions.append(link);
   }
   row.append(name, actions);
@@ -163,7 +163,7 @@ function follow(job) {
   page.begun = Date.now() - 1000 * job.seconds;
   byId("stop").disabled = job.done;
   byId("stop").textContent = job.stopping ? "stop at once" : "stop";
-  showState(job.done ? "" : "at work \u2026");
+  showState(job.done ? "" : "running \u2026");
   progress(job);
   const stream = (page.stream = new EventSource("/messages")),
     box = byId("messages");

@@ -15,7 +15,7 @@ const GROUPS = [
     ),
   ],
   ["Fatigue", ["traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]],
-  ["Where it touches", ["xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r", "deltcp_r", "xcp_w", "ycp_w", "zcp_w"]],
+  ["Contact location", ["xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r", "deltcp_r", "xcp_w", "ycp_w", "zcp_w"]],
   ["Wheelset and rail", ["s_ws", "y_ws", "z_ws", "roll_ws", "yaw_ws", "vpitch_ws", "dy_defl", "dz_defl"]],
   ["Moments", ["mz", "mz_elem", "bar_mn", "mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"]],
   ["Elements and iterations", ["ncon", "nadh", "nslip", "nplast", "border_elements", "force_trials"]],
@@ -214,7 +214,7 @@ function howObtained() {
     if (p.coarse.length)
       note(
         "Few elements",
-        `contact is ${p.coarse.join(" x ")} elements wide at most: its area, forces and pressures are rough.`,
+        `contact is ${p.coarse.join(" x ")} elements wide at most: its area, forces and pressures are inaccurate.`,
         true,
       );
     note("Effects:", p.effects || "none");

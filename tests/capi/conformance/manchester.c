@@ -253,7 +253,7 @@ int main(int argc, char **argv) {
   snprintf(name, sizeof name, "%s/MBench_UIC60_v3.prr", argv[1]);
   file = fopen(name, "r");
   if (file == NULL) {
-    printf("skipped: there are no profiles of the benchmark in %s\n", argv[1]);
+    printf("skipped: the profiles of the benchmark are not in %s\n", argv[1]);
     return 77;
   }
   fclose(file);

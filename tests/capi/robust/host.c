@@ -155,7 +155,7 @@ static void folder(void) {
   start(11, 3);
   double force[4];
   cntc_setflags(INT(11), INT(1), INT(2), INTS(2002, 1987), INTS(1, 1));
-  check(basic(11, 9, force) == 0, "input and .mat files that cannot be written are no failure of the case");
+  check(basic(11, 9, force) == 0, "input and .mat files that cannot be written do not make the case fail");
 }
 
 /* A host with another locale: decimals with a comma, in Turkish also an i without an upper-case form of one byte. 0 if there is no

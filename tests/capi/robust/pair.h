@@ -1,4 +1,4 @@
-/* The pair of wheel and rail of the tests of hosts: S1002 on 60E1, nearly free rolling under 10 kN, all but its position */
+/* Wheel and rail for tests of hosts: S1002 on 60E1, nearly free rolling under 10 kN; all settings except the position */
 #ifndef PAIR_H
 #define PAIR_H
 

@@ -80,7 +80,7 @@ static void codes(void) {
   double pen = 0.1, f[4] = {-1, -2, -3, -4};
   int one = 1, flag = 2000, zero = 0, ire, icp, k;
 
-  /* nothing was initialised: a flag of the library, then a problem that makes itself */
+  /* nothing was initialised: a flag of the library, then a problem that is created implicitly */
   remove("contact_addon.out");
   cntc_setglobalflags(&one, &flag, &zero);
   check(!exists("contact_addon.out"), "a flag alone does not start a run");
@@ -134,7 +134,7 @@ static void codes(void) {
   same(start(107, 3), 0, "a freed element can be used again");
   cntc_finalizelast();
 
-  /* freeing one element leaves the others alone */
+  /* freeing one element does not affect the others */
   start(1, 3), start(2, 3);
   set_up(1, 1, 7, 1e-3), set_up(2, 1, 7, 2e-3);
   calculate(1, 1), calculate(2, 1);
@@ -308,8 +308,8 @@ static void note(int ire, char *text_out) {
   snprintf(text_out, text_length, "%d %s", code, text);
 }
 
-/* Wrong calls, whose texts have other numbers and lengths for each worker and attempt, among valid ones */
-static void complain_all(int worker, transcript texts) {
+/* Invalid calls among valid ones; their messages have other numbers and lengths for each worker and attempt */
+static void report_all(int worker, transcript texts) {
   int ire = worker + 1, icp = 1, k, n;
   for (k = 0; k < tries; k++) {
     int one = 1, two = 2, flag[2], value[2], codes[1], limits[4] = {0, 0, 0, 0}, hertz = -3;
@@ -354,9 +354,9 @@ static void complain_all(int worker, transcript texts) {
   }
 }
 
-static void *complain_together(void *number) {
+static void *report_together(void *number) {
   int worker = *(int *)number;
-  complain_all(worker, texts_together[worker]);
+  report_all(worker, texts_together[worker]);
   return NULL;
 }
 
@@ -366,14 +366,14 @@ static void messages(void) {
   int number[talkers], k, i, round, reported = 0, other = 0;
 
   for (k = 0; k < talkers; k++) start(k + 1, 3);
-  for (k = 0; k < talkers; k++) complain_all(k, texts_alone[k]);
+  for (k = 0; k < talkers; k++) report_all(k, texts_alone[k]);
   for (k = 0; k < talkers; k++)
     for (i = 0; i < tries; i++) reported += strlen(texts_alone[k][i]) > 10;
   check(reported >= talkers * tries * 3 / 4, "wrong calls are reported");
   for (round = 0; round < 10; round++) {
     for (k = 0; k < talkers; k++) {
       number[k] = k;
-      pthread_create(&thread[k], NULL, complain_together, &number[k]);
+      pthread_create(&thread[k], NULL, report_together, &number[k]);
     }
     for (k = 0; k < talkers; k++) pthread_join(thread[k], NULL);
     for (k = 0; k < talkers; k++)
