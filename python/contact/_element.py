@@ -190,6 +190,9 @@ class Patch(View):
         found = {"eldiv": self.state, "h": self.distance, "mu": self.friction, "pn": self.pn, "un": self.un}
         if self.motion != "frictionless":
             found.update(px=self.px, py=self.py, ux=self.ux, uy=self.uy, sx=self.sx, sy=self.sy)
+        elif self.ux.any() or self.uy.any():
+            # pressures displace the surfaces of dissimilar bodies laterally
+            found.update(ux=self.ux, uy=self.uy)
         if self.temperatures is not None:
             found.update(temp1=self.temperatures[0], temp2=self.temperatures[1])
         if self.power is not None:

@@ -230,6 +230,18 @@ def data_sets(result, stresses, pair):
         close(float(tree["fz_tr"]), 10e3, 1.0, "total force in the tree")
 
 
+def displaced_without_motion():
+    """Pressures displace the surfaces of dissimilar bodies laterally; those of like bodies have no such fields"""
+    for stiffness, names in ((82000.0, set()), (2000.0, {"ux", "uy"})):
+        with contact.Problem(motion="frictionless") as problem:
+            problem.set_material(g=82000.0, nu=0.28, g2=stiffness, nu2=0.28)
+            problem.set_friction(0.3)
+            problem.set_hertz(11, 11, aa=4.0, bb=3.0)
+            problem.set_normal_force(9000.0)
+            result = problem.solve()
+        same(set(result.fields()) & {"px", "py", "ux", "uy", "sx", "sy"}, names, f"fields without motion, {stiffness} N/mm2")
+
+
 def loaded(program):
     """The three kinds of files contain the same values, up to their figures"""
     for name in ("cattaneo", "manchester"):
@@ -393,6 +405,7 @@ if __name__ == "__main__":
     units_of_values()
     drawn(*everything)
     data_sets(*everything)
+    displaced_without_motion()
     loaded(sys.argv[1])
     places_of_wheels(sys.argv[1])
     problems_of_elements(sys.argv[1])
