@@ -32,9 +32,9 @@ module contact_cases_stress_errors
    real(wp), parameter :: smeared = 0.35_wp
    !> Scatter of this error with the offset of the grid, and largest usual difference of the error by the levels, over it
    real(wp), parameter :: scatter = 0.35_wp, usual_difference = 1.15_wp
-   !> The difference of both errors of pressures, by the levels and of second order: the fraction that is added with its sign (two
-   !> samples, of which the second scatters less; of random contacts, seeds 5601 to 5603), and that of a larger difference of unknown
-   !> sign: pressures that the coarser level does not resolve
+   !> Difference of the two errors of pressures, by the levels and of second order: fraction that is added with its sign, as both
+   !> are samples, of which the second scatters less (random contacts, seeds 5601 to 5603); fraction of a larger difference, of
+   !> pressures that the coarser level does not resolve, whose sign is unknown
    real(wp), parameter :: level_share = 0.25_wp, unresolved = 0.3_wp
    !> Lower bound of the error of second order: factor of the stress over the number of elements in contact, for points at which
    !> the second derivative vanishes; chosen
