@@ -88,7 +88,7 @@ module contact_control_words
       & form_row("ISUBS", 5, "all", "all columns and rows, a list of depths"), &
       & form_row("ISUBS", 6, "ranges", "ranges of columns and rows, a list of depths"), &
       & form_row("ISUBS", 7, "lists", "lists of columns and rows, and of depths"), &
-      & form_row("ISUBS", 9, "free", "coordinates of their own"), &
+      & form_row("ISUBS", 9, "free", "coordinates of the points"), &
       & form_row("ISUBS", 1, "all_by_step", "all columns and rows, depths by first one and step"), &
       & form_row("ISUBS", 2, "ranges_by_step", "ranges of columns and rows, depths by first one and step"), &
       & form_row("ISUBS", 3, "lists_by_step", "lists of columns and rows, depths by first one and step")]
@@ -439,7 +439,7 @@ contains
       end if
    end subroutine translate_digit
 
-   !> Condition on the groups of a case that is expressed by a digit that is no choice; blank for others
+   !> Condition on the groups of a case that is expressed by a digit that is not a choice; blank for others
    pure function part_of(name, digit, module_number) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit, module_number

@@ -120,7 +120,7 @@ def digit_rows(modules):
     found = {}
     for name, digit, _, module, built, text, *_ in ([row[0], *row[1:]] for row in rows("control/digits.f90", "digit_row")):
         if module in modules:
-            found.setdefault(name, []).append(f"| {name} | {digit} | {text}{'' if built == '.true.' else ' (not built)'} |")
+            found.setdefault(name, []).append(f"| {name} | {digit} | {text}{'' if built == '.true.' else ' (not implemented)'} |")
     return found
 
 
@@ -168,7 +168,7 @@ def tables():
     form_keys = {"IPOTCN": "form", "IBASE": "form", "IPLAN": "planform", "ISUBS": "points"}
 
     def choice(name, module):
-        return [f"| | `\"{row[6]}\"` | {words_of(row[5])}{'' if row[4] == '.true.' else ' (not built)'} |"
+        return [f"| | `\"{row[6]}\"` | {words_of(row[5])}{'' if row[4] == '.true.' else ' (not implemented)'} |"
                 for row in digits if row[0] == name and len(row) > 6 and row[3] in ("both", module)]
 
     def choices(group):

@@ -133,7 +133,7 @@ for a case that starts from zero on a grid that is already set up.
 Each dot is one grid with one tolerance; for each method the lines join the combinations that no
 other combination beats in both time and error. An error that changes its sign between grids can be small
 by chance: single points far below their neighbours are not significant. Errors below 1e-8 are drawn at 1e-8.
-References from a finest grid have an error of their own, about half that of the next coarser grid.
+References from a finest grid have an error, too, about half that of the next coarser grid.
 
 - *Normal problem*: a ball on a flat, approach prescribed; errors of the force and of the largest
   pressure against Hertz's solution.

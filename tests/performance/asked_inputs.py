@@ -72,9 +72,9 @@ ROWS = [("normal problem, 3,000 elements", ball(68), 1, "ms", 8.0),
 #: Name, and known millions of instructions without the start of the program
 COUNTED = [("normal problem, 3,000 elements", ball(68), 25),
            ("steady rolling with G = 5, 3,000 elements", ball(68, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 110),
-           ("wheel on rail, KPEC, 0.2 mm, 5 places", wheel("1250100", 0.2, 5), 120),
-           ("wheel on rail, ANALYN, 0.2 mm, 5 places", wheel("1260100", 0.2, 5), 111),
-           ("wheel on rail, KPEC, 1.0 mm, 41 places", wheel("1250100", 1.0, 41), 125),
+           ("wheel on rail, KPEC, 0.2 mm, 5 positions", wheel("1250100", 0.2, 5), 120),
+           ("wheel on rail, ANALYN, 0.2 mm, 5 positions", wheel("1260100", 0.2, 5), 111),
+           ("wheel on rail, KPEC, 1.0 mm, 41 positions", wheel("1250100", 1.0, 41), 125),
            ("wheel flat, KPEC, 0.4 mm, 5 positions", flat(5), 563),
            ("rolling of a material that relaxes, two grids, three times each", remembering((50, 58)*3), 580)]
 #: The start alone, with HDF5 linked statically: its shared library may load many others

@@ -124,7 +124,7 @@ def report(tables, motion):
         cells, best = [], math.inf
         for rows in tables.values():
             reached = [r for r in rows if r[1] <= error]
-            cells.append(f"{reached[0][0]}, {reached[0][1]:.1e}, {1e3 * reached[0][2]:.3g}" if reached else "out of reach")
+            cells.append(f"{reached[0][0]}, {reached[0][1]:.1e}, {1e3 * reached[0][2]:.3g}" if reached else "not reached")
             best = min([best, *(1e3 * r[2] for r in reached)])
         lines.append(f"| {error:g} | " + " | ".join(cells) + f" | {goal:g} ms: {'met' if best <= goal else 'MISSED'} |")
     return [*lines, ""]

@@ -23,7 +23,7 @@ the result by direct sums over influence coefficients, without FFT and without a
 behind: no tension, gap zero in contact and not negative outside, tractions within their bounds, zero slip
 in adhesion, slip opposite to traction, prescribed forces met. See `tests/stability/hard_case.f90`.
 
-EPS is 1e-6, and the bodies are steel with mu 0.3, unless the name of a case says otherwise. Products are those with the
+EPS is 1e-6, and the bodies are steel with mu 0.3, unless the name of a case states otherwise. Products are those with the
 compliance on the finest grid, over all outer passes. "Recomputed" is the largest violation that the direct sums find
 (normal gap or friction law). Sweeps and gradients stop when the tractions no longer change by EPS (1e-5 in the group
 "solvers"): their true residual may be larger by some factor. In "coupling" it includes what the outer
@@ -70,7 +70,7 @@ def listed(cases):
 
 def report(build):
     groups = [(name, *read(name, build)) for name in GROUPS]
-    out = [TEXT, ("| group | cases | refused | handed to a fall-back | not converged, and said so | products: mean | largest | "
+    out = [TEXT, ("| group | cases | refused | solved by a fall-back | not converged, as reported | products: mean | largest | "
            "recomputed: largest of the converged |"), "|---|---|---|---|---|---|---|---|"]
     for name, _, cases in groups:
         solved = [case for case in cases if not case["refused"]]

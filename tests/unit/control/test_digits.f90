@@ -140,7 +140,7 @@ contains
       call suite%equal(digit_of("B", 77, 3), -1, "no digit for an unknown choice")
    end subroutine questions
 
-   !> The manual lists every row with its words: `| P | 0 | text |`, marked when it is not built
+   !> The manual lists every row with its words: `| P | 0 | text |`, marked if it is not implemented
    subroutine manual(suite)
       type(test_suite), intent(inout) :: suite
       logical :: seen(size(digit_table))
@@ -178,7 +178,7 @@ contains
             if (.not. required(k)) cycle
             associate (row => digit_table(k))
                expected = "| " // trim(row%name) // " | " // achar(iachar("0") + row%digit) // " | " // trim(row%text)
-               if (.not. row%built) expected = expected // " (not built)"
+               if (.not. row%built) expected = expected // " (not implemented)"
                if (line == expected // " |") seen(k) = .true.
             end associate
          end do

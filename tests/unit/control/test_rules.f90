@@ -19,8 +19,8 @@ program test_rules
    call break_all(suite)
    call numbers(suite)
    call terms(suite)
-   call manual(suite, "## Choices that go together", [(row_of_choice(i), i = 1, size(choice_rules))])
-   call manual(suite, "### Numbers that choices ask for", [(row_of_number(i), i = 1, size(number_rules))])
+   call manual(suite, "## Compatible choices", [(row_of_choice(i), i = 1, size(choice_rules))])
+   call manual(suite, "### Numbers required by choices", [(row_of_number(i), i = 1, size(number_rules))])
    call suite%finish()
 
 contains
