@@ -87,7 +87,7 @@ enum caddon_flags {
   CNTC_fld_wx = 22, /* longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm] */
   CNTC_fld_wy = 23, /* lateral rigid slip, relative [-]; lateral rigid shift [mm] */
   CNTC_fld_power = 25, /* density of frictional power [W/mm2] */
-  CNTC_fld_wear = 26, /* depth that a passage or a shift wears off [L] */
+  CNTC_fld_wear = 26, /* wear depth of a passage or a shift [L] */
   /* Kinds of input files of cntc_readinpfile */
   CNTC_inp_vamp = 1984, /* not available */
   CNTC_inp_modul1 = 1988, /* input of wheel/rail contact */

@@ -99,7 +99,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.fld_wx       longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
 %   CNTC.fld_wy       lateral rigid slip, relative [-]; lateral rigid shift [mm]
 %   CNTC.fld_power    density of frictional power [W/mm2]
-%   CNTC.fld_wear     depth that a passage or a shift wears off [L]
+%   CNTC.fld_wear     wear depth of a passage or a shift [L]
 %
 % Kinds of input files of cntc_readinpfile
 %

@@ -1,4 +1,4 @@
-"""Arguments of the routines of the library, its named numbers, units and meanings of its results.
+"""Arguments of the routines of the library, its named numbers, units and meaning of results.
 
 Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 """
@@ -181,7 +181,7 @@ MAGIC_NUMBERS = {
     "fld_wx": 22,  # longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
     "fld_wy": 23,  # lateral rigid slip, relative [-]; lateral rigid shift [mm]
     "fld_power": 25,  # density of frictional power [W/mm2]
-    "fld_wear": 26,  # depth that a passage or a shift wears off [L]
+    "fld_wear": 26,  # wear depth of a passage or a shift [L]
     # Kinds of input files of cntc_readinpfile
     "inp_vamp": 1984,  # not available
     "inp_modul1": 1988,  # input of wheel/rail contact
@@ -221,7 +221,7 @@ FIELDS = {
     "uplsy": (("mm", "lateral plastic displacement"),),
     "ux": (("mm", "longitudinal displacement difference"),),
     "uy": (("mm", "lateral displacement difference"),),
-    "wear": (("mm", "depth that a passage or a shift wears off"),),
+    "wear": (("mm", "wear depth of a passage or a shift"),),
     "wx": (("-", "longitudinal rigid slip, relative"), ("mm", "longitudinal rigid shift"),),
     "wy": (("-", "lateral rigid slip, relative"), ("mm", "lateral rigid shift"),),
 }
@@ -266,7 +266,7 @@ TOTALS = {
     "max_temp1": ("degC", "highest surface temperature of body 1"),
     "max_temp2": ("degC", "highest surface temperature of body 2"),
     "max_tresca": ("N/mm2", "largest Tresca stress at the points below the surface"),
-    "max_wear": ("mm", "largest depth that a passage of the contact, or a shift, wears off"),
+    "max_wear": ("mm", "largest wear depth of a passage of the contact, or of a shift"),
     "mu_scal": ("-", "friction coefficient of the relative forces"),
     "mx_r_tr": ("N mm", "roll moment about the rail marker, track axes"),
     "mx_w_ws": ("N mm", "roll moment about the wheel marker, wheelset axes"),
@@ -287,7 +287,7 @@ TOTALS = {
     "roll_ws": ("rad", "roll angle of the wheelset"),
     "rotation": ("rad", "rotation"),
     "s_ws": ("mm", "position of the wheelset along the track"),
-    "shakedown": ("-", "largest pressure over its shakedown limit, above 1: plastic strain goes on"),
+    "shakedown": ("-", "largest pressure over its shakedown limit, above 1: plastic strain accumulates"),
     "shakedown_load": ("-", "largest pressure over yield stress in shear"),
     "shift_x": ("mm", "longitudinal shift, prescribed or computed"),
     "shift_y": ("mm", "lateral shift, prescribed or computed"),
@@ -296,7 +296,7 @@ TOTALS = {
     "traction": ("-", "tangential over normal force"),
     "vpitch_ws": ("rad/s", "pitch rate of the wheelset, prescribed or computed"),
     "wear_index": ("N/mm2", "T-gamma over the contact area"),
-    "worn_section": ("mm2", "area of the section that a passage of the contact wears off"),
+    "worn_section": ("mm2", "worn area of the section per passage of the contact"),
     "x_elem": ("mm", "contact reference in the coordinates of the elements"),
     "x_w": ("mm", "wheel marker, longitudinal"),
     "xcp_tr": ("mm", "contact reference along the track"),

@@ -338,7 +338,7 @@ class WheelRail(Element):
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
         buried = buried_ends(number)
         if buried:
-            where = " and ".join("another place along the track" if name == "beside" else f"the {name} end of the wheel profile"
+            where = " and ".join("another position along the track" if name == "beside" else f"the {name} end of the wheel profile"
                                  for name in buried)
             warnings.warn(f"{where}: wheel and rail overlap where no contact patch is, and carry no load there", ContactWarning,
                           stacklevel=2)

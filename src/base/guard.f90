@@ -9,9 +9,9 @@ module contact_base_guard
    type :: guard_end_list
       !> The work was done
       integer :: done = 0
-      !> It was abandoned for want of memory
+      !> It was abandoned for lack of memory
       integer :: no_memory = 1
-      !> A run-time library would have ended the process, mostly also for want of memory
+      !> A run-time library would have ended the process, mostly also for lack of memory
       integer :: gave_up = 2
    end type guard_end_list
    !> How guarded work ended

@@ -51,7 +51,7 @@ module contact_base_limits
 
 contains
 
-   !> Apply the limits of a confined run where none are set
+   !> Apply the limits of a confined run if none are set
    pure subroutine fill_limits(limits, run_seconds, output_bytes)
       !> Limits of a case; those already set are kept
       type(case_limits), intent(inout) :: limits

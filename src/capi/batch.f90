@@ -14,7 +14,7 @@ module contact_capi_batch
    public :: contact_batch_open, contact_batch_close, contact_batch_solve, contact_batch_column, contact_batch_field, &
       & contact_batch_field_values
 
-   !> Data behind the handle of the host
+   !> Data of the handle of the host
    type :: open_type
       type(case_batch), pointer :: batch => null()
       !> Number of threads of a calculation, and owner of the memory

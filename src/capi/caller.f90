@@ -317,7 +317,7 @@ contains
       class(caller), intent(in) :: self
       !> Index of the result
       integer, intent(in) :: k
-      !> Number of elements, if it is not an argument of its own
+      !> Number of elements, if it is not a separate argument
       integer(long), intent(in), optional :: n
       real(c_double), pointer :: buffer(:)
       integer(long) :: length

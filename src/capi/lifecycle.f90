@@ -150,7 +150,7 @@ contains
       if (.not. is_running()) return
       if (is_parallel(this)) return
       call stop_library(stopped)
-      if (.not. stopped) call complain(this, "another thread is at work, nothing is freed")
+      if (.not. stopped) call complain(this, "another thread is calculating, nothing is freed")
    end subroutine cntc_finalizelast
 
    !> Is the call refused because it is made inside a parallel region?

@@ -110,7 +110,7 @@ def element_fields():
 
 
 def quantities():
-    """Unit and meaning of element fields and of totals, from their lists in the sources; fields have one pair for each kind of motion"""
+    """Unit and meaning of element fields, one pair for each kind of motion, and of totals, from their lists in the sources"""
     fields, totals = {}, {}
     for name in ("src/patch/result.f90", "src/wheelrail/result.f90"):
         with open(os.path.join(TOP, name), encoding="utf-8") as file:
@@ -265,7 +265,7 @@ def version():
 def python_tables(constants, routines, undocumented):
     """Text of _signatures.py: the declarations for ctypes"""
     codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
-    lines = ['"""Arguments of the routines of the library, its named numbers, units and meanings of its results.', "", ORIGIN, '"""', "",
+    lines = ['"""Arguments of the routines of the library, its named numbers, units and meaning of results.', "", ORIGIN, '"""', "",
              f'VERSION = "{version()}"', "",
              "#: Arguments of each routine: name, > for a result, type: i int, I ints, d double, D doubles, s text",
              "SIGNATURES = {"]

@@ -82,7 +82,7 @@ contains
       if (requested_task >= task%along_u) sample%method = 1
       if (size(reals) >= 1) sample%step = reals(1)
       if (sample%method == 1 .and. .not. sample%step >= min_step) then
-         call complain(this, "the step of an even sampling is too small, the points of the spline are taken")
+         call complain(this, "the step of an even sampling is too small, the points of the spline are used")
          sample%method = 0
       end if
       if (size(reals) >= 2) sample%place = reals(2)
@@ -168,7 +168,7 @@ contains
          if (section%present) then
             curve = section%curve
          else
-            call complain(this, "the variable profile has no section at this place")
+            call complain(this, "the variable profile has no section at this position")
          end if
       else if (sample%method < 0) then
          ! without smoothing, pieces end at the input points

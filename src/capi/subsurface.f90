@@ -68,7 +68,7 @@ contains
 
    !> Option and lists of a block in the order of input files, each list after its length; ranges have three numbers instead
    subroutine arrange_as_in_files(a, numbers)
-      !> Call with the option as second integer; refused if a range has not three numbers
+      !> Call with the option as second integer; refused unless each range has three numbers
       type(caller), intent(inout) :: a
       !> Values in the units of the caller
       real(wp), allocatable, intent(out) :: numbers(:)

@@ -112,7 +112,7 @@ contains
          case ("cntc_setWheelsetPosition")
             e = max(1, e)
          case ("cntc_setWheelsetVelocity")
-            if (method == 1) call say(1, a%call_of, "method 1 is taken for 2")
+            if (method == 1) call say(1, a%call_of, "method 1 is treated as 2")
             if (is_roller) wheelset%vs = 0.0_wp
             if (e <= 1) e = max(2, method)
          case default

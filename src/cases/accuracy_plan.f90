@@ -242,7 +242,7 @@ contains
       side = 0.5_wp*sqrt(product(sides))
    end function mean_half_side
 
-   !> Sides of the contact before the first solution: of Hertz's ellipse where there is one, otherwise of the usual part of the
+   !> Sides of the contact before the first solution: of Hertz's ellipse if there is one, otherwise of the usual part of the
    !> potential contact [mm]; 0 if unknown
    subroutine contact_sides(spec, sides)
       type(case_spec), intent(in) :: spec

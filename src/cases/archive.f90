@@ -77,7 +77,7 @@ module contact_cases_archive
       procedure :: text => note_text
       !> Process the line: set the values of its variables, or read them
       procedure(end_line_interface), deferred :: end_line
-      !> A list of numbers on lines of its own
+      !> A list of numbers on separate lines
       procedure(list_interface), deferred :: list
       !> A choice or a number that exists in the readable format but not in input files, in the current group or in the case itself
       procedure :: own_choice => ignore_choice

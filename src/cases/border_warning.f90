@@ -125,8 +125,8 @@ contains
 
       y = buried%place(2)
       if (spec%wheel_rail%left) y = -y
-      words = "the " // end_names(number) // " end of the wheel profile stands " // real_text(buried%depth) // " mm within the &
-         &rail where no contact patch is, at x = " // place_text(buried%place(1)) // ", y = " // place_text(y) // ", z = " // &
+      words = "the " // end_names(number) // " end of the wheel profile is " // real_text(buried%depth) // " mm inside the &
+         &rail, outside all contact patches, at x = " // place_text(buried%place(1)) // ", y = " // place_text(y) // ", z = " // &
          & place_text(buried%place(3)) // " mm"
    end function buried_words
 

@@ -99,7 +99,7 @@ contains
       if (allocated(error) .or. .not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) then
-         ! an incomplete solution is no previous time step
+         ! an incomplete solution cannot be a previous time step
          if (error%kind == error_kind%time) call forget(session, result)
          return
       end if

@@ -56,9 +56,9 @@ module contact_cases_spec
 
    !> Prescribed approach or normal force, creepages or tangential forces
    type :: kinematics_spec
-      !> Approach [mm] and normal force [N]; normal_control says which one is prescribed
+      !> Approach [mm] and normal force [N]; normal_control selects the prescribed one
       real(wp) :: pen = 0.0_wp, fn = 0.0_wp
-      !> Relative tangential forces Fx/(mu_scal Fn), Fy/(mu_scal Fn) [-]; force_control says whether they are prescribed
+      !> Relative tangential forces Fx/(mu_scal Fn), Fy/(mu_scal Fn) [-]; force_control: whether they are prescribed
       real(wp) :: fx = 0.0_wp, fy = 0.0_wp
       !> Creepages [-] (rolling) or shifts [mm]; spin [rad/mm] or rotation [rad]
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp

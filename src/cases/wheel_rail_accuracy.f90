@@ -74,7 +74,7 @@ contains
          end do
       end if
       call log%write_deferred()
-      ! solutions on these elements are no initial estimates for the elements of the next case
+      ! solutions on these elements cannot be initial estimates for the elements of the next case
       if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
    end subroutine solve_wheel_on_rail
 

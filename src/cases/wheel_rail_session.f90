@@ -196,7 +196,7 @@ contains
          associate (height => spec%wheel_rail%track%gaught)
             if (spec%wheel_rail%new_rail_profile .and. height > z(2) - z(1)) call log%warning("GAUGHT = " // &
                & real_text(height) // " mm, but the profile of the rail is only " // real_text(z(2) - z(1)) // &
-               & " mm high: its gauge end is taken for the gauge point")
+               & " mm high: its gauge end is used as the gauge point")
          end associate
          if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*z(2)) then
             call fatal_error(error, "NOMRADR = " // real_text(spec%wheel_rail%track%nomradr) // " mm is less than the depth of &

@@ -1,4 +1,4 @@
-!> The program: one call, and the only place that ends the process
+!> The program: one call, and the only statement that ends the process
 program contact
    use contact_cli_arguments, only : run_command_line
    use contact_cli_process, only : fill_streams

@@ -9,7 +9,7 @@ module contact_cli_report
 
    public :: is_report, run_report
 
-   !> Environment variable with the folder of the Python package `contact`, if it is not found beside the program
+   !> Environment variable with the folder of the Python package `contact`, if it is not found in the folder of the program
    character(len=*), parameter :: variable = "CONTACT_PYTHON"
    character(len=*), parameter :: package_file = "/contact/__init__.py"
    !> Commands implemented in Python; each is a part of the package with the same name

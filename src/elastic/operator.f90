@@ -30,7 +30,7 @@ module contact_elastic_operator
       type(fft_plan), private :: normal_inverse_plan, inverse_plan
       !> Both fields at once on small windows, for products and for inverses
       type(paired_plan), private :: pair, inverse_pair, normal_inverse_pair
-      !> Is the window small? Children that use the spectra xx and yy by themselves say no
+      !> Is the window small? False for children that use the spectra xx and yy by themselves
       logical :: small = .false.
       !> Spectra divided by the padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
       real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)

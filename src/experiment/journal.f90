@@ -1,4 +1,4 @@
-!> Journal of a run: a file beside the results that records its progress, for `--resume`
+!> Journal of a run: a file in the folder of the results that records its progress, for `--resume`
 !>
 !> EXPNAM.unfinished exists during a run, and remains if the run ends before all cases are finished. Its first line contains the
 !> settings. Each further line is a checkpoint at which all files contain all cases so far: the positions of their ends, the

@@ -1,7 +1,7 @@
 !> Lock of an experiment: one run at a time may write its files
 !>
-!> The lock is a file beside the results that is kept open and locked. The system releases it when the process ends for any
-!> reason, so that a file left by a killed run does not block later ones. Incomplete files of that run are deleted.
+!> The lock is a file in the folder of the results that is kept open and locked. The system releases it when the process ends for
+!> any reason, so that a file left by a killed run does not block later ones. Incomplete files of that run are deleted.
 module contact_experiment_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error

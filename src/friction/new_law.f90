@@ -1,4 +1,4 @@
-!> Factory of friction laws: the only place that maps choices to laws
+!> Factory of friction laws: the only procedure that maps choices to laws
 module contact_friction_new_law
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error

@@ -1,6 +1,6 @@
 !> An HDF5 file of which a complete copy exists at all times: opening and closing, properties, attributes and groups
 !>
-!> HDF5 writes changes in an order of its own, so a file that is being written may be unreadable at any moment. It therefore has a
+!> HDF5 writes changes in an unspecified order, so a file that is being written may be unreadable at any moment. It therefore has a
 !> temporary name until it is closed. From time to time it is flushed and copied, and the copy is renamed to the name of the
 !> results in one step: the file of that name is readable at all times, however the program ends. Small arrays are stored in the
 !> headers of their objects, large ones are compressed.

@@ -50,7 +50,7 @@ module contact_hdf5_file
       integer(hid_t), private :: parents(max_depth) = -1
       integer, private :: depth = 0
       character(len=:), allocatable, private :: place
-      !> Name and values of the open group of values; are they columns, are only texts stored beside the columns?
+      !> Name and values of the open group of values; are they columns, are only texts stored with the columns?
       character(len=:), allocatable, private :: leaf
       type(value_list), private :: values
       logical, private :: as_columns = .false., only_texts = .false.

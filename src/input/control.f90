@@ -37,7 +37,7 @@ contains
       type(control_words), intent(out) :: words
       !> 1 or 3
       integer, intent(in) :: module_number
-      !> On entry the previous case; its effective choices remain if a digit says "keep"
+      !> On entry the previous case; its effective choices remain if a digit is "keep"
       type(case_spec), intent(inout) :: spec
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: values(2)
@@ -307,7 +307,7 @@ contains
          if (module_number == 3 .and. name == "C1") cycle
          digit = kept_digit(words%digits, spec, name, module_number)
          if (is_built(name, digit, module_number) .or. .not. is_known(name, digit, module_number)) cycle
-         text = trim(digit_text(name, digit, module_number)) // ", is known but not built in this version"
+         text = trim(digit_text(name, digit, module_number)) // ", is not implemented in this version"
          if (module_number == 1) text = text // " for wheel on rail" // trim(alternative(spec, name))
          call add_for_digit(problems, words, severity%unsupported, trim(name), trim(name) // " = " // integer_text(digit) // ", " &
             & // text)

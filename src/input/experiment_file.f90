@@ -264,8 +264,8 @@ contains
          call self%read_module_line(error)
          if (allocated(error)) return
          if (self%module_number == 0) then
-            if (.not. self%lexer%at_end()) call this%problems%add(severity%warning, "MODULE = 0 ends the input; what stands below &
-               &is not read", self%lexer%line)
+            if (.not. self%lexer%at_end()) call this%problems%add(severity%warning, "MODULE = 0 ends the input; text below it is &
+               &not read", self%lexer%line)
             return
          end if
       end if

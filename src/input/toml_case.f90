@@ -34,7 +34,7 @@ module contact_input_toml_case
       & "stress_output", "stress_points"]
    !> Groups with derived data that can be computed anew
    character(len=8), parameter :: renewable(3) = [character(len=8) :: "grid", "geometry", "material"]
-   !> Keys of a case that are no choices
+   !> Keys of a case that are not choices
    character(len=14), parameter :: plain_keys(*) = [character(len=14) :: "module", "result_element", "contact_patch", "title", &
       & "solve", "gap_weight", "renew"]
 
@@ -158,7 +158,7 @@ contains
          end associate
       end do
       if (len(missing) > 0) then
-         call a%add_problem(severity%error, a%case_node, "the first case must say: " // missing(3:))
+         call a%add_problem(severity%error, a%case_node, "the first case must give: " // missing(3:))
          is_good = .false.
       end if
    end subroutine read_choices
@@ -216,7 +216,7 @@ contains
       end associate
    end subroutine read_word
 
-   !> Digits that specify which groups a case gives, keeps and renews, and those that are no choices
+   !> Digits that specify which groups a case gives, keeps and renews, and those that are not choices
    subroutine set_group_digits(a, module_number, previous, has_previous, words)
       type(toml_reader), intent(inout) :: a
       integer, intent(in) :: module_number

@@ -72,7 +72,7 @@ contains
          key = self%document%key_of(k)
          associate (node => self%document%nodes(k))
             if (all(top_keys /= key)) then
-               message = '"' // printable(key) // '" stands outside of a case'
+               message = '"' // printable(key) // '" is outside of a case'
                place = nearest_word(key, top_keys)
                if (place > 0) message = message // '; did you mean "' // trim(top_keys(place)) // '"?'
                call fatal_error(error, message // "; a case begins with [[case]], and its groups are tables such as " // &
@@ -223,7 +223,7 @@ contains
       dot = index(name, ".")
    end function index_of_dot
 
-   !> Change the value of a number; a number that was written as an integer becomes real if the value is no integer
+   !> Change the value of a number; a number that was written as an integer becomes real if the value is not an integer
    pure subroutine set_number(self, index, value)
       !> Cases of a text
       class(toml_cases), intent(inout) :: self

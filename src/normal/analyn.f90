@@ -22,7 +22,7 @@ module contact_normal_analyn
    !> Gaps whose difference is smaller than this fraction of the overlap are regarded as equal [-]: round-off makes one of two
    !> mirrored elements the deeper one
    real(wp), parameter :: equally_small = 1.0e-9_wp
-   !> Smaller overlaps are no contact [mm]; only prevents underflow
+   !> Smaller overlaps are not regarded as contact [mm]; only prevents underflow
    real(wp), parameter :: min_overlap = 1.0e-30_wp
    !> Maximum number of samples on either side for the curvature along a row; sampling ends where the overlap has decreased to
    !> this fraction

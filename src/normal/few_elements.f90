@@ -352,7 +352,7 @@ contains
       integer, intent(in) :: total
       !> Table of coefficients, even in both directions, as a vector
       real(wp), intent(in) :: nn(total)
-      !> Place in it of the element on itself, plus the position of the element; number of the others, and their positions
+      !> Position in it of the element on itself, plus the position of the element; number of the others, and their positions
       integer, intent(in) :: from, n, at(n)
       !> Coefficients [mm3/N]
       real(wp), intent(inout) :: values(n)

@@ -24,7 +24,7 @@ module contact_normal_gradient_loops
       end subroutine mean_gap_piece
 
       !> Residuals pen - h - u, without what is negative where there is no pressure; the largest violation of the contact
-      !> conditions, which is no number if one of them is
+      !> conditions, NaN if one of them is
       real(c_double) function residuals_piece(n, pen, h, u, p, r) bind(c, name="contact_gradient_residuals")
          import :: c_double, c_int
          !> Number of elements
@@ -37,7 +37,7 @@ module contact_normal_gradient_loops
          real(c_double), intent(inout) :: r(n)
       end function residuals_piece
 
-      !> Elements that have pressure or want it, and may have it; the residual becomes 0 in the others
+      !> Elements that have pressure or should get it, and are not excluded; the residual becomes 0 in the others
       pure subroutine choose_free_piece(n, p, h, highest, free, r) bind(c, name="contact_gradient_choose_free")
          import :: c_double, c_int
          !> Number of elements
@@ -109,7 +109,7 @@ module contact_normal_gradient_loops
 
 contains
 
-   !> Mean of the distances after deformation, over elements with pressure; 0 where there is none
+   !> Mean of the distances after deformation, over elements with pressure; 0 if there are none
    real(wp) function mean_gap(n, h, u, p) result(mean)
       !> Number of elements
       integer, intent(in) :: n
@@ -133,7 +133,7 @@ contains
    end function mean_gap
 
    !> Residuals pen - h - u, without what is negative where there is no pressure; the largest violation of the contact
-   !> conditions, which is no number if one of them is
+   !> conditions, NaN if one of them is
    real(wp) function residuals(n, pen, h, u, p, r) result(worst)
       !> Number of elements
       integer, intent(in) :: n
@@ -159,13 +159,13 @@ contains
       !$omp end parallel do
       worst = 0.0_wp
       do k = 1, pieces_of(n)
-         ! true for what is no number, which stays
+         ! true for NaN, which is kept
          if (.not. part(k) <= worst) worst = part(k)
          if (.not. worst <= huge(worst)) exit
       end do
    end function residuals
 
-   !> Elements that have pressure or want it, and may have it; the residual becomes 0 in the others
+   !> Elements that have pressure or should get it, and are not excluded; the residual becomes 0 in the others
    subroutine choose_free(n, p, h, highest, free, r)
       !> Number of elements
       integer, intent(in) :: n

@@ -16,7 +16,7 @@ module contact_normal_kpec
 
    public :: kpec_shape
 
-   !> Smaller overlaps are no contact [mm]; only prevents underflow
+   !> Smaller overlaps are not regarded as contact [mm]; only prevents underflow
    real(wp), parameter :: min_overlap = 1.0e-30_wp
    !> Level at which the extent of the overlap is measured, as a fraction of the approach [-]
    real(wp), parameter :: half_way = 0.5_wp

@@ -98,7 +98,7 @@ contains
       end do
    end subroutine pressure_responses
 
-   !> Places of the elements with pressure
+   !> Positions of the elements with pressure
    subroutine note_contact(p, store)
       !> [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
@@ -116,7 +116,7 @@ contains
       end do
    end subroutine note_contact
 
-   !> Values of a field at places
+   !> Values of a field at positions
    pure subroutine gather(place, field, v)
       !> Column and row, shape (2, n)
       integer, contiguous, intent(in) :: place(:, :)
@@ -131,7 +131,7 @@ contains
       end do
    end subroutine gather
 
-   !> Values at places put into a field
+   !> Store values at positions in a field
    pure subroutine spread_out(place, v, field)
       !> Column and row, shape (2, n)
       integer, contiguous, intent(in) :: place(:, :)

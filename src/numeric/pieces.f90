@@ -1,7 +1,7 @@
 !> Long vectors in pieces that threads share
 !>
 !> Pieces do not depend on the number of threads, nor does the order in which their sums are added: results are the same to the last
-!> digit whatever the number of threads is. A parallel region asks for memory, even one of a single thread; shorter vectors,
+!> digit whatever the number of threads is. A parallel region requests memory, even one of a single thread; shorter vectors,
 !> which are done before threads are awake, are one piece and have none.
 module contact_numeric_pieces
    use contact_base_kinds, only : wp
@@ -35,7 +35,7 @@ contains
       if (n > worth_threads) pieces = (n + whole_piece(n) - 1)/whole_piece(n)
    end function pieces_of
 
-   !> Place of the first number of a piece
+   !> Position of the first number of a piece
    elemental integer function first_of(n, piece)
       !> Length of the vector, and number of the piece
       integer, intent(in) :: n, piece

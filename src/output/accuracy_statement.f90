@@ -20,7 +20,7 @@ contains
       character(len=:), allocatable :: line
 
       call log%result("")
-      line = " ACCURACY ASKED FOR: " // short(report%required) // " OF THE FORCES, "
+      line = " REQUIRED ACCURACY: " // short(report%required) // " OF THE FORCES, "
       if (report%is_met) then
          line = line // "REACHED"
       else

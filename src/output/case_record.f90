@@ -137,7 +137,7 @@ contains
       call describe_list(record, "totals", totals)
       if (allocated(pair%errors)) call describe_errors(record, pair%errors, totals, "")
       if (allocated(pair%accuracy)) call describe_accuracy(record, pair%accuracy)
-      if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
+      if (pair%beside%depth > 0.0_wp) call record%text("beside", "another position along the track where wheel and rail &
          &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
       if (.not. any(pair%buried%depth > 0.0_wp)) return
       call record%open_group("buried")

@@ -22,7 +22,7 @@ module contact_output_unwritten
 
 contains
 
-   !> The settings of a case that its input file cannot express, each at its own place of the list
+   !> The settings of a case that its input file cannot express, each at its own position in the list
    pure function unwritten_settings(spec) result(list)
       !> The case
       type(case_spec), intent(in) :: spec

@@ -164,7 +164,7 @@ contains
    !> Difference per element at an element of a line: exact for polynomials of degree four, of degree two next to the ends; huge if
    !> it is not known
    pure real(wp) function slope(line, i)
-      !> Values along the line, huge where there is none
+      !> Values along the line, huge if there are none
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
       integer :: n

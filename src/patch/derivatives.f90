@@ -47,11 +47,11 @@ module contact_patch_derivatives
 
 contains
 
-   !> What in the settings of a patch the derivatives do not hold for, blank for nothing
+   !> Reason why there are no derivatives of a patch, blank if there are
    pure subroutine obstacle_to_derivatives(problem, reason)
       !> Method, friction and bodies of the patch
       type(patch_problem), intent(in) :: problem
-      !> In words that follow "not built for"
+      !> In words that follow "no derivatives: "
       character(len=:), allocatable, intent(out) :: reason
 
       reason = ""
@@ -258,12 +258,13 @@ contains
 
    !> Changes of the distance of the surfaces in the elements ahead of the leading ones
    !>
-   !> In contact displacements follow the undeformed distance, which goes on ahead as a parabola through the last three elements.
+   !> In contact displacements follow the undeformed distance, which is extrapolated ahead by a parabola through the last three
+   !> elements.
    subroutine gap_changes(response, box, t, window, gap)
       !> Change of the pressures, shape of the grid
       real(wp), contiguous, intent(in) :: response(:, :)
       type(bounding_box), intent(in) :: box
-      !> Its edge terms tell where distances are known
+      !> Its edge terms show where distances are known
       type(tangential_problem), intent(in) :: t
       !> Compliance of the grid
       class(compliance), intent(inout) :: window

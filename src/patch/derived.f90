@@ -301,7 +301,7 @@ contains
 
    !> Store friction data that particles carry along, if later time steps depend on them
    subroutine remember_friction(problem, result, state)
-      !> The case; `remembers_friction` says whether they are needed
+      !> The case; `remembers_friction`: whether they are needed
       type(patch_problem), intent(in) :: problem
       !> Coefficients of friction and slip of the solution
       type(patch_result), intent(in) :: result

@@ -272,7 +272,7 @@ contains
       parts = -[whole*scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), &
          & (scale%energy_change(2) - (whole - 1.0_wp)*scale%energy_change(1)) &
          & *merge(1.0_wp/(coarsening**order - 1.0_wp), part_of(scale, order), is_layer(scale))]
-      ! in steps the levels have errors of the same sign, whose difference says nothing
+      ! in steps the levels have errors of the same sign, so their difference is not an estimate
       if (scale%steps) parts(2) = 0.0_wp
       floor = [abs(whole*scale%energy(1))*scale%across**(-2), abs(scale%energy(2))*floor_of_traction_energy(scale)]
       more = merge(energy_of_steps(scale%sticking), energy_of_forces, is_long_step(scale))*traction_error(scale) &

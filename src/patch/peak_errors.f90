@@ -180,7 +180,7 @@ contains
    pure type(peak_shape) function shape_of(line, i) result(shape)
       !> Pressures [N/mm2], zero before the first and after the last one
       real(wp), intent(in) :: line(:)
-      !> Place of the peak
+      !> Position of the peak
       integer, intent(in) :: i
       real(wp) :: decrease(2)
       integer :: first, last

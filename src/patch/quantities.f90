@@ -47,7 +47,7 @@ module contact_patch_quantities
    type(error_law_list), parameter :: error_law = error_law_list()
 
    type :: error_scale_list
-      !> Its own value, or what its law says
+      !> Its own value, or that of its law
       integer :: own = 0
       !> Maximum frictional force, maximum frictional moment
       integer :: force = 1

@@ -58,7 +58,7 @@ contains
 
       is_coarse = .false.
       if (result%ncon == 0) return
-      ! contact with so many elements cannot be narrow
+      ! contact with this number of elements cannot be narrow
       if (result%ncon >= enough_elements*max(result%grid%mx, result%grid%my)) return
       least = min_across(result%division)
       is_coarse = least > 0 .and. least < enough_elements

@@ -318,15 +318,15 @@ contains
          call list%add("max_power", "W/mm2", "largest density of frictional power", wear%max_power)
       end if
       if (wear%has_archard .and. contact%motion /= motion_choice%none) then
-         call list%add("max_wear", "mm", "largest depth that a passage of the contact, or a shift, wears off", wear%depth)
-         if (is_rolling(contact%motion)) call list%add("worn_section", "mm2", "area of the section that a passage of the contact &
-            &wears off", wear%section)
+         call list%add("max_wear", "mm", "largest wear depth of a passage of the contact, or of a shift", wear%depth)
+         if (is_rolling(contact%motion)) call list%add("worn_section", "mm2", "worn area of the section per passage of &
+            &the contact", wear%section)
       end if
       if (contact%ncon > 0) then
          call list%add("traction", "-", "tangential over normal force", wear%traction)
          if (wear%has_yield) then
             call list%add("shakedown_load", "-", "largest pressure over yield stress in shear", wear%load)
-            call list%add("shakedown", "-", "largest pressure over its shakedown limit, above 1: plastic strain goes on", &
+            call list%add("shakedown", "-", "largest pressure over its shakedown limit, above 1: plastic strain accumulates", &
                & wear%shakedown)
             call list%add("fatigue_index", "-", "surface fatigue index, above 0: fatigue of the surface is expected", wear%fatigue)
          end if
@@ -402,7 +402,7 @@ contains
       call add(20, "temp1", "degC", "surface temperature of body 1", self%temp1, label="temperature 1", figures=4)
       call add(21, "temp2", "degC", "surface temperature of body 2", self%temp2, label="temperature 2", figures=4)
       call add(25, "power", "W/mm2", "density of frictional power", self%power, label="frictional power density")
-      call add(26, "wear", "mm", "depth that a passage or a shift wears off", self%wear_depth, label="wear")
+      call add(26, "wear", "mm", "wear depth of a passage or a shift", self%wear_depth, label="wear")
 
    contains
 

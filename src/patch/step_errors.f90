@@ -20,7 +20,7 @@ module contact_patch_step_errors
    !> levels, a lower bound of the error
    real(wp), parameter :: power_floor = 0.4_wp, least_power = 0.01_wp, power_exponent = 0.7_wp, power_share = 0.2_wp
    !> Ratio of the relative error of the elastic energy of tractions to that of the tractions; the same in long steps in full
-   !> adhesion and in sliding, where tractions are larger in all places; largest fraction in adhesion with the latter (kinds
+   !> adhesion and in sliding, where tractions are larger at all positions; largest fraction in adhesion with the latter (kinds
    !> transient and steps, seeds 61001, 61002 and 95001)
    real(wp), parameter :: energy_of_forces = 0.6_wp, adhesive_energy = 0.3_wp, sliding_energy = 1.3_wp, slides = 0.4_wp
 

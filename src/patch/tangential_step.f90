@@ -329,7 +329,7 @@ contains
          call solve_by_default(problem, method, workspace, log, report)
       else if (method /= classical_method%tang_cg .and. .not. workspace%box%has_table()) then
          call log%warning("no half-space coefficients (material.influence = ""conformal"" or ""tabulated""): solver &
-            &Newton-Krylov instead of the one that was asked for (iteration.solver = ""convex_gs"", ""gauss_seidel"" or &
+            &Newton-Krylov instead of the requested one (iteration.solver = ""convex_gs"", ""gauss_seidel"" or &
             &""gd_steady"")")
          call solve_by_default(problem, method, workspace, log, report)
       else

@@ -47,7 +47,7 @@ contains
 
    !> Yield limits and plastic displacements after the step; they do not change outside the contact area
    subroutine carry_yield(problem, box, solution, state)
-      !> `remembers_yield` says whether they are needed
+      !> `remembers_yield`: whether they are needed
       type(patch_problem), intent(in) :: problem
       !> Position of the solution in the grid; empty without contact
       type(bounding_box), intent(in) :: box

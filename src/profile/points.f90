@@ -62,7 +62,7 @@ contains
       end do
    end function turning_angles
 
-   !> The first spike, where the line goes out and returns beside itself; 0 if there is none
+   !> The first spike, where the line goes out and returns along itself; 0 if there is none
    !>
    !> At a spike the distance between the points before and after it is shorter than half of either of its sides: its angle is
    !> less than 29 degrees. This is not so for corners and overlapping sections.

@@ -275,7 +275,7 @@ contains
          line = 0
          if (allocated(file%line)) line = file%line(i)
          call fatal_error(error, "point " // integer_text(i) // " at y = " // real_text(file%y(i)) // ", z = " // &
-            & real_text(file%z(i)) // " is the end of a spike: the line goes there and comes back beside itself, as no surface &
+            & real_text(file%z(i)) // " is the end of a spike: the line goes there and returns along itself, as no surface &
             &does; expected a point near its neighbours, or ERRHND = -2 to take the points as they are", file=request%file, &
             & line=line)
       end subroutine refuse_spike

@@ -129,7 +129,7 @@ contains
       report%residual = maxval(abs(solution%force - problem%force))
    end subroutine find_both
 
-   !> Newton's method with finite differences; gives up without progress and reports its residual
+   !> Newton's method with finite differences; stops without progress and reports its residual
    subroutine newton(problem, creep, solution, report)
       type(simplified_problem), intent(in) :: problem
       real(wp), intent(inout) :: creep(2)

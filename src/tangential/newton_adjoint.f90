@@ -177,7 +177,7 @@ contains
       type(search_space), intent(in) :: space
       !> Elements of the window
       integer, intent(in) :: elements
-      !> Unknowns, and behind them what -r B e is along tractions
+      !> Unknowns, followed by the components of -r B e along tractions
       real(wp), contiguous, intent(in) :: x(:)
       !> c
       real(wp), intent(in) :: weight(elements, 2)

@@ -189,7 +189,7 @@ contains
       end do
    end subroutine find_parts
 
-   !> Take the others away from a piece of the next vector
+   !> Subtract the others from a piece of the next vector
    subroutine remove_parts(n, j, rows, v, one, piece, part, left)
       !> Length of the vectors that counts, and their number
       integer, intent(in) :: n, j

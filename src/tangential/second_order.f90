@@ -27,7 +27,7 @@ module contact_tangential_second_order
       real(wp), allocatable :: gap(:, :)
       !> Their terms xx, yy, xy [mm/(N/mm2)], shape (3, n)
       real(wp), allocatable :: kappa(:, :)
-      !> Terms so large that the inverse of the whole operator says nothing about the element, shape (n)
+      !> Terms so large that the inverse of the whole operator does not represent the element, shape (n)
       logical, allocatable :: stiff(:)
       !> Weight of a row of the equations [-], shape (mx, my)
       real(wp), allocatable :: weight(:, :)
@@ -50,12 +50,12 @@ module contact_tangential_second_order
    !> Tractions grow as sqrt(n + d0) behind the edge, n elements from the first one; e0 = exp(l0) scales a term there;
    !> 3/2 - l1 is the ratio of the second to the first traction. l0, l1: Fourier coefficients of the logarithm of the even factor
    real(wp), parameter :: d0 = 0.825347_wp, e0 = 0.862164_wp, plain_ratio = 1.425993_wp
-   !> Place of the edge that the ratio of pressures is first judged with, and passes that improve it [elements]; chosen
+   !> Position of the edge for the first evaluation of the ratio of pressures [elements], passes that improve it; chosen
    real(wp), parameter :: first_place = 0.33_wp
    integer, parameter :: passes = 3
-   !> Place of the edge in the mean, where nothing tells it [elements]
+   !> Mean position of the edge, used where it is not known [elements]
    real(wp), parameter :: usual_place = 0.5_wp
-   !> Bounds of what pressures that are no roots of a distance would give: of the term, of the place and of the other end; chosen
+   !> Bounds for pressures that are not roots of a distance: of the term, of the position and of the other end; chosen
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
    real(wp), parameter :: outermost = 1.7_wp
@@ -97,7 +97,7 @@ contains
       real(wp), intent(in) :: layer
       !> Gets terms and weights
       type(second_order), intent(inout) :: second
-      !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
+      !> Row, element and position of each edge, in elements ahead of the first column; term relative to that of the kernel
       integer, allocatable :: at(:, :), first(:)
       integer, allocatable :: length(:)
       real(wp), allocatable :: place(:), share(:)
@@ -179,7 +179,7 @@ contains
    !> factorisation gives terms P f, f = t/(1 - t), t = Z - place, with P and Z in place of e0 and d0. Along and across the edge r
    !> is different.
    pure function layer_terms(share, flexibility, nu, layer, normal) result(terms)
-      !> Term without layer relative to that of the kernel [-], which tells the place of the edge
+      !> Term without layer relative to that of the kernel [-], which determines the position of the edge
       real(wp), intent(in) :: share
       !> Of an element to tractions along the edge, 2/G h n_x [mm/(N/mm2)]; to those across it 1 - nu times that
       real(wp), intent(in) :: flexibility, nu
@@ -244,7 +244,7 @@ contains
       terms(2) = -terms(1)
    end function oblique_terms
 
-   !> Arrays for so many terms; weights of 1
+   !> Arrays for this number of terms; weights of 1
    subroutine fit(second, mx, my, n)
       type(second_order), intent(inout) :: second
       integer, intent(in) :: mx, my, n
@@ -320,10 +320,10 @@ contains
 
    !> Slope of the edge, elements along x per row: mean of the differences to the nearest edges of both neighbouring rows
    pure real(wp) function edge_slope(place, first, iy, here) result(slope)
-      !> Places of all edges, and the number of the first one of each row; one more row has none
+      !> Positions of all edges, and the index of the first one of each row; one more row has none
       real(wp), intent(in) :: place(:)
       integer, intent(in) :: first(:)
-      !> Row and place of this edge
+      !> Row and position of this edge
       integer, intent(in) :: iy
       real(wp), intent(in) :: here
       real(wp) :: nearest

@@ -104,7 +104,7 @@ contains
       length = norm2(share(1)*slip(mean%behind, iy, :) + share(2)*slip(ix, iy, :) + share(3)*slip(mean%ahead, iy, :))
    end function mean_length
 
-   !> Change of the angle by the shares of the slip behind, here and ahead in the mean
+   !> Change of the angle due to the weights of the slip behind, here and ahead in the mean
    pure subroutine add_by_shares(mean, to_mean, behind, here, ahead, by)
       !> That of the element, with neighbours behind
       type(local_mean), intent(in) :: mean

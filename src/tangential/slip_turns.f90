@@ -186,7 +186,7 @@ contains
       self%n = k
    end subroutine linearise_turns
 
-   !> Arrays for a window of so many elements
+   !> Arrays for a window with this number of elements
    subroutine fit_turns(self, window)
       class(slip_turns), intent(inout) :: self
       integer, intent(in) :: window
@@ -258,7 +258,7 @@ contains
       end do
    end subroutine find_angles
 
-   !> slip := slip + what self%angle has to do with the slip behind, here and ahead
+   !> slip := slip + the derivative self%angle applied to the slip behind, here and ahead
    pure subroutine add_by_angles(self, slip)
       class(slip_turns), intent(in) :: self
       real(wp), intent(inout) :: slip(self%window, 2)

@@ -17,7 +17,7 @@ module contact_text_bounds
 
    !> Bounds of one number
    type :: number_bounds
-      !> Name in the input files; one name serves for GG1 and GG2, as trailing digits are significant only if they stand in the
+      !> Name in the input files; one name serves for GG1 and GG2, as trailing digits are significant only if they are in the
       !> table
       character(len=11) :: name
       !> Unit; "integer" for integer numbers
@@ -498,7 +498,7 @@ contains
 
    !> Row of a name in the table, 0 if there is none
    !>
-   !> An index in brackets is ignored. Trailing digits and the trailing letter of a body are significant only if the name stands
+   !> An index in brackets is ignored. Trailing digits and the trailing letter of a body are significant only if the name is
    !> in the table with them: B(3) is B, GG2 is GG, NOMRADW is NOMRAD.
    pure integer function bounds_of(name) result(row)
       !> Name as in messages and in the manual

@@ -5,7 +5,7 @@ module contact_text_line_words
 
    public :: find_word, printable, quote, single_quotes, word_place
 
-   !> Place of a word
+   !> Position of a word
    type :: word_place
       !> First and last character in the text, without the quotes around it; first = 0 when there is none
       integer :: first = 0, last = 0
@@ -41,7 +41,7 @@ contains
       if (text(k:k) == quote) then
          place%quoted = .true.
          place%first = k + 1
-         ! two quotes in succession stand for a quote within the text
+         ! two quotes in succession represent a quote within the text
          do k = place%first, len(text)
             if (text(k:k) /= quote) cycle
             place%closed = .not. place%closed

@@ -113,7 +113,7 @@ contains
          else if (is_quote(p)) then
             call keep_string(p, document, parts(n)%first, parts(n)%last)
          else
-            call fail(p, trim(shown(p)) // " stands where a key should be; a key consists of letters, figures, - and _, " // &
+            call fail(p, trim(shown(p)) // " found where a key is expected; a key consists of letters, figures, - and _, " // &
                & "or is in quotes")
          end if
          if (allocated(p%error)) return
@@ -152,7 +152,7 @@ contains
       else if (document%nodes(below)%kind == toml_kind%table) then
          table = below
       else
-         call fail_duplicate(p, document, part, below, "is no table and has no keys")
+         call fail_duplicate(p, document, part, below, "is not a table and has no keys")
       end if
    end subroutine enter
 
@@ -194,12 +194,12 @@ contains
       call parse_key(p, document, parts, n)
       if (allocated(p%error)) return
       if (.not. took(p, "]")) then
-         call fail(p, trim(shown(p)) // ' stands where the "]" of the header should be')
+         call fail(p, trim(shown(p)) // ' found where the "]" of the header is expected')
          return
       end if
       if (is_array) then
          if (.not. took(p, "]")) then
-            call fail(p, trim(shown(p)) // ' stands where the second "]" of the header should be')
+            call fail(p, trim(shown(p)) // ' found where the second "]" of the header is expected')
             return
          end if
       end if
@@ -221,7 +221,7 @@ contains
             call place_node(parts(n))
             call document%add(table, node, below)
          else if (.not. document%nodes(below)%has_tables) then
-            call fail_duplicate(p, document, parts(n), below, "is no array of tables")
+            call fail_duplicate(p, document, parts(n), below, "is not an array of tables")
             return
          end if
          node = toml_node(kind=toml_kind%table)
@@ -274,7 +274,7 @@ contains
       call parse_key(p, document, parts, n)
       if (allocated(p%error)) return
       if (.not. took(p, "=")) then
-         call fail(p, trim(shown(p)) // ' stands where the "=" behind a key should be')
+         call fail(p, trim(shown(p)) // ' found where the "=" after a key is expected')
          return
       end if
       call skip_blanks(p)
@@ -286,7 +286,7 @@ contains
          made(k) = below
          if (document%nodes(below)%is_frozen) call fail_duplicate(p, document, parts(k), below, "is complete, nothing can be added")
          if (document%nodes(below)%is_explicit) call fail_duplicate(p, document, parts(k), below, &
-            & "has a header of its own, under which its keys belong")
+            & "has its own header, under which its keys belong")
          if (allocated(p%error)) return
       end do
       index = document%child(below, document%store(parts(n)%first:parts(n)%last))
@@ -319,7 +319,7 @@ contains
       node%line = p%line
       node%column = p%at - p%line_first + 1
       if (p%at > len(p%text) .or. is_line_end(p)) then
-         call fail(p, trim(shown(p)) // " stands where a value should be")
+         call fail(p, trim(shown(p)) // " found where a value is expected")
          return
       end if
       select case (p%text(p%at:p%at))
@@ -359,7 +359,7 @@ contains
          if (allocated(p%error)) return
          if (took(p, ",")) cycle
          if (took(p, "]")) exit
-         call fail(p, trim(shown(p)) // ' stands where "," or "]" should be, in the array that begins in line ' // &
+         call fail(p, trim(shown(p)) // ' found where "," or "]" is expected, in the array that begins in line ' // &
             & integer_text(document%nodes(array)%line))
          return
       end do
@@ -385,7 +385,7 @@ contains
             call skip_blanks(p)
             if (took(p, "}")) exit
             if (took(p, ",")) cycle
-            call fail(p, trim(shown(p)) // ' stands where "," or "}" should be; an inline table ends on the line where it begins')
+            call fail(p, trim(shown(p)) // ' found where "," or "}" is expected; an inline table ends on the line where it begins')
             return
          end do
       end if
@@ -450,7 +450,7 @@ contains
          node%text_first = start
          node%text_last = last
          if (len(word) == 0) then
-            call fail(p, trim(shown(p)) // " stands where a value should be")
+            call fail(p, trim(shown(p)) // " found where a value is expected")
          else if (word == "true" .or. word == "false") then
             node%kind = toml_kind%logical
             node%l = word == "true"
@@ -458,7 +458,7 @@ contains
             if (word == "inf" .or. word == "nan") then
                call parse_number(p, word, node)
             else
-               call fail(p, '"' // printable(word) // '" is no value; a text needs quotes, "' // printable(word) // '"')
+               call fail(p, '"' // printable(word) // '" is not a value; a text needs quotes, "' // printable(word) // '"')
             end if
          else
             call parse_number(p, word, node)

@@ -167,7 +167,7 @@ contains
       call skip_comment(p)
       if (allocated(p%error) .or. p%at > len(p%text)) return
       if (.not. is_line_end(p)) then
-         call fail(p, trim(shown(p)) // " stands where the line should end; each key or header has a line of its own")
+         call fail(p, trim(shown(p)) // " found where the end of the line is expected; each key or header needs a separate line")
          return
       end if
       call next_line(p)

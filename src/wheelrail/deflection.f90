@@ -34,7 +34,7 @@ contains
       real(wp), intent(out) :: z
       !> Receives a warning if no deflection balances the forces
       type(log_type), intent(inout) :: log
-      !> Its status says whether the forces are in balance
+      !> Its status: whether the forces are in balance
       type(wheel_rail_result), intent(inout) :: result
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error

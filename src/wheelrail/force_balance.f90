@@ -62,7 +62,7 @@ module contact_wheelrail_force_balance
       !> Number of trials since the bracket was last halved, and its width then
       integer, private :: slow = 0
       real(wp), private :: old_width = huge(1.0_wp)
-      !> Number of trials above the prescribed force, while none is below it
+      !> Number of trials above the prescribed force as long as none is below it
       integer, private :: from_above = 0
    contains
       !> Start a search

@@ -155,7 +155,7 @@ contains
          call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
-         ! a case of its own does not depend on the penetration of previous cases
+         ! an independent case does not depend on the penetration of previous cases
          if (.not. problem%in_loop) geometry%reach = first_reach
          if (present(depth)) geometry%reach = max(geometry%reach, depth)
          call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &

@@ -69,7 +69,7 @@ contains
       real(wp), intent(out) :: z
       !> Receives a line per trial, and warnings
       type(log_type), intent(inout) :: log
-      !> Its status says whether force and friction were found
+      !> Its status: whether force and friction were found
       type(wheel_rail_result), intent(inout) :: result
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
@@ -122,7 +122,7 @@ contains
             if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
             if (problem%force_prescribed .and. target < -no_force) then
                call result%status%record_missed_force("vertical force", target, 0.0_wp, "FZ < 0 pulls at the wheel, which contact &
-                  &cannot: the wheel stands at first touch without any force")
+                  &cannot: the wheel is placed at first contact, without force")
                call log%warning(result%status%reason)
             end if
          end if
@@ -282,7 +282,7 @@ contains
             call log%warning(result%status%reason)
          else if (abs(result%force_error) > tolerance) then
             write(missed, "(ES8.1)") abs(result%force_error)/target
-            call log%warning("the vertical force is met within " // trim(adjustl(missed)) // " of what is asked for, not within &
+            call log%warning("the vertical force is met within " // trim(adjustl(missed)) // " of the prescribed value, not within &
                &EPS: grids follow the contact in whole elements, and the force has steps of that size")
          end if
       end associate

@@ -113,8 +113,8 @@ contains
       associate (given => problem%rail_surface%u_range, grid => slot%problem%grid)
          s = problem%spec%wheelset%s + slot%plane%origin(1) + grid%xl + [0.0_wp, grid%mx*grid%dx]
          if (.not. problem%rail_surface%part_beyond(s) > 0.0_wp) return
-         write(text, "(4(A,F0.2),A)") ": its elements stand from S = ", s(1), " to ", s(2), " mm along the track, the &
-            &slices of the rail from ", given(1), " to ", given(2), " mm. Beyond them it goes on as at the nearest one."
+         write(text, "(4(A,F0.2),A)") ": its elements extend from S = ", s(1), " to ", s(2), " mm along the track, the &
+            &slices of the rail from ", given(1), " to ", given(2), " mm. Beyond them the rail is that of the nearest one."
       end associate
       call log%warning(name // trim(text))
    end subroutine warn_beyond_slices

@@ -15,7 +15,7 @@ module contact_wheelrail_wheel_rows
 
    public :: wheel_rows
 
-   !> Number of points of a row for a polynomial: as many as are computed at once
+   !> Number of points of a row for a polynomial: the number computed at a time
    integer, parameter :: terms = together
    !> Maximum of the last two terms of a polynomial that is as accurate as the heights themselves [mm]
    real(wp), parameter :: negligible = 1.0e-10_wp

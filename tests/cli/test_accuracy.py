@@ -366,7 +366,7 @@ class Accuracy(Runs):
     def test_next_case(self):
         """A case that keeps the grid of one with an accuracy has the grid of the file, and requests no accuracy if it says so"""
         words, _ = self.solve("a.inp", rolling() + rolling(), "--accuracy", "1e-2")
-        self.assertEqual(len(re.findall("ACCURACY ASKED FOR", words)), 2)
+        self.assertEqual(len(re.findall("REQUIRED ACCURACY", words)), 2)
 
 
 def plain(value):

@@ -334,8 +334,8 @@ class Failures(Cli):
         self.fails(self.run_program("3", "ball"), "D_SEP = 3. is smaller than D_COMB = 4.")
         self.write("ball.inp", (first % "8.").replace("0022033", "0082033"))
         for mode in "2", "3":
-            self.fails(self.run_program(mode, "ball"), "ball.inp:3:13: ", "D = 8", "not built in this version for wheel on rail",
-                       "use D = 2 or 7")
+            self.fails(self.run_program(mode, "ball"), "ball.inp:3:13: ", "D = 8",
+                       "not implemented in this version for wheel on rail", "use D = 2 or 7")
         self.assertNotIn("TOTAL FORCES", self.read("ball.out"))
 
     def test_unknown_module(self):

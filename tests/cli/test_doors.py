@@ -335,13 +335,13 @@ class Words(Doors):
         run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n\n% a comment\n")
         self.assertNotIn("WARNING", out)
         run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n3\n" + KEPT3 + "0\n")
-        self.assertIn("MODULE = 0 ends the input; what stands below is not read", out)
+        self.assertIn("MODULE = 0 ends the input; text below it is not read", out)
         self.assertEqual(run.returncode, 0)
 
     def test_gauge_point_below_the_profile(self):
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         self.assertNotIn("gauge end", self.run_text(text)[1])
-        self.assertIn("its gauge end is taken for the gauge point",
+        self.assertIn("its gauge end is used as the gauge point",
                       self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1])
 
     def test_no_results(self):

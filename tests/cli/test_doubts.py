@@ -307,9 +307,9 @@ class EndsAheadOfTheAxle(Program):
                 cases, warnings, _ = self.run_text(self.pair(end, yaw, left, roller, location, outside=outside))
                 name = "outer" if outside else "inner"
                 depth, place = self.depth(end, -yaw if left else yaw, 0.05, roller)
-                messages = [line for line in warnings if "within the rail where no contact patch is" in line]
+                messages = [line for line in warnings if "inside the rail, outside all contact patches" in line]
                 self.assertEqual(len(messages), 1, warnings)
-                found = re.search(r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z",
+                found = re.search(r"the (\w+) end of the wheel profile is (\S+) mm inside .* at x = (\S+), y = (\S+), z",
                                   messages[0])
                 self.assertEqual(found.group(1), name)
                 self.assertIn(found.group(0), " Warning: " + cases[0]["buried"][name])

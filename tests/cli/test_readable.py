@@ -192,10 +192,10 @@ class Readable(unittest.TestCase):
         errors = self.complaints("[case]\nx = 1\n")
         self.assertIn("a.toml:1:1: case is a table; each case begins with [[case]], in double brackets", errors)
         errors = self.complaints(HEAD + REST + "[cas.grid]\n")
-        self.assertIn('"cas" stands outside of a case; did you mean "case"?', errors)
+        self.assertIn('"cas" is outside of a case; did you mean "case"?', errors)
         errors = self.complaints(HEAD + REST + "[case.springs]\n")
         self.assertIn('"springs" has no meaning in this case', errors)
-        self.assertIn('the first case must say: motion', self.complaints('[[case]]\nmodule = 3\nnormal = "force"\n' + REST))
+        self.assertIn('the first case must give: motion', self.complaints('[[case]]\nmodule = 3\nnormal = "force"\n' + REST))
         self.assertIn("the first case must have the key module", self.complaints("[[case]]\n" + REST))
         # after an invalid case the next ones can still keep values
         errors = self.complaints('[[case]]\nmodule = "wheel_rail"\nmotion = "x"\n[[case]]\n[case.position]\nfz = 1\n[[case]]\n')

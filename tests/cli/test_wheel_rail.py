@@ -256,7 +256,7 @@ class Forces(Case):
         for fz, result, report in zip(3*forces, results, re.split(r"\n Case +\d+", out)[1:]):
             self.assertEqual(result["status"], "solved")
             difference = abs(result["totals"]["fz_tr"]["value"] - fz)/fz
-            warning = re.search(r"vertical force is met within +(\S+) of what is asked for, not within EPS", report)
+            warning = re.search(r"vertical force is met within +(\S+) of the prescribed value, not within EPS", report)
             if warning:
                 count += 1
                 self.assertAlmostEqual(float(warning.group(1)), difference, delta=0.06*difference)

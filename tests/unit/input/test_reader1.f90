@@ -224,7 +224,7 @@ contains
       call read_text(new_case(word2="0082033"), spec, problems, error)
       call suite%equal(problems%number_of(severity%unsupported), 1, "an oblique view is refused")
       call has_problem(suite, problems, "test:2:1: D = 8, contact locus in an oblique view that fits few profiles, " // &
-         & "is known but not built", &
+         & "is not implemented", &
          & "by its name, with its position", severity%unsupported)
       call read_text(new_case(word2="0024033", friction="0.3 0.3;0 4"), spec, problems, error)
       call has_problem(suite, problems, "C = 4, the angle correction for conformal contact, has no effect with D = 2", &

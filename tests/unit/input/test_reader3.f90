@@ -123,7 +123,7 @@ contains
       call read_case(lexer, 3, previous, .true., 2, spec, problems, error)
    end subroutine read_two
 
-   !> Exactly one error, or warning, with a phrase; choices that are not built do not count
+   !> Exactly one error, or warning, with a phrase; choices that are not implemented are not counted
    subroutine one_problem(suite, kind, phrase, problems, error, what)
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: kind
@@ -179,7 +179,7 @@ contains
       call one_problem(suite, severity%warning, phrase, problems, error, changes)
    end subroutine dubious
 
-   !> Nothing wrong in a first case, not built choices excepted
+   !> Nothing wrong in a first case, except choices that are not implemented
    subroutine right(suite, changes)
       type(test_suite), intent(inout) :: suite
       character(len=*), intent(in) :: changes

@@ -69,16 +69,16 @@ contains
       call is_refused(suite, "a = 1979-05-27", "x.toml:1:5: ""1979-05-27"" is a date; dates and times have no meaning here")
       call is_refused(suite, "a = nan", 'x.toml:1:5: "nan" is no number that a case can have')
       call is_refused(suite, "a = 0x10", 'x.toml:1:5: "0x10" is not decimal; write 255, not 0xff')
-      call is_refused(suite, "a = coulomb", 'x.toml:1:5: "coulomb" is no value; a text needs quotes, "coulomb"')
+      call is_refused(suite, "a = coulomb", 'x.toml:1:5: "coulomb" is not a value; a text needs quotes, "coulomb"')
       call is_refused(suite, "a = 460mm", 'x.toml:1:5: "460mm" is no number; with a unit it needs quotes and a blank, "460 mm"')
       call is_refused(suite, "a = .5", 'x.toml:1:5: ".5" is no number, a figure must stand before the point')
-      call is_refused(suite, "a = [1 2]", 'x.toml:1:8: "2" stands where "," or "]" should be, in the array that begins in line 1')
+      call is_refused(suite, "a = [1 2]", 'x.toml:1:8: "2" found where "," or "]" is expected, in the array that begins in line 1')
       call is_refused(suite, "[a]" // nl // "[a]", 'x.toml:2:2: "a" cannot be opened a second time; it was given in line 1')
       call is_refused(suite, "a = 'x", "x.toml:1:5: the text has no closing quote on its line")
       call is_refused(suite, "a = " // repeat("[", 10000), &
          & "x.toml:1:25: arrays and inline tables are nested more than 20 deep")
       call is_refused(suite, "a = 1 b", &
-         & 'x.toml:1:7: "b" stands where the line should end; each key or header has a line of its own')
+         & 'x.toml:1:7: "b" found where the end of the line is expected; each key or header needs a separate line')
       call is_refused(suite, "a = 1e999", 'x.toml:1:5: "1e999" is too large for a number')
    end subroutine refusals
 
