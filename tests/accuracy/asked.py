@@ -37,9 +37,12 @@ def timed(*what):
 
 
 def exact_totals(c, records):
-    """Extrapolated totals of both reference grids, and largest relative difference of the finer one from them."""
+    """Extrapolated totals of both reference grids, and largest relative difference of the finer one from them.
+
+    Grids of different schemes have no common limit: a grid on which the second order fell back to the first is no reference.
+    """
     middle, fine = (patch_of(r, 1) for r in ({1: records[0]}, {1: records[1]}))
-    if None in (middle, fine):
+    if None in (middle, fine) or middle["order"] != fine["order"]:
         return None
     exact, doubt = dict(fine["totals"]), 0.0
     for name in COUNTED:
