@@ -5,14 +5,14 @@
 !> specification, so that outputs describe what was solved.
 module contact_cases_accuracy
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use contact_base_accuracy_report, only : accuracy_report
+   use contact_base_accuracy_report, only : accuracy_report, longest_reason
    use contact_base_choices, only : motion
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_grid, only : is_worth, level_grid, next_counts, no_direction, set_elements, &
-      & stay_below
+   use contact_cases_accuracy_grid, only : is_cut_off, is_worth, level_grid, next_counts, no_direction, &
+      & set_elements, stay_below
    use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, use_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
@@ -37,6 +37,8 @@ module contact_cases_accuracy
    !> A finer grid of a case that continues others is designed for this fraction of the accuracy: later cases may need it, and each
    !> repetition solves all cases again; chosen
    real(wp), parameter :: series_share = 0.85_wp
+   !> Reason of an accuracy that is not reached although finer elements were tried
+   character(len=*), parameter :: no_progress = "finer elements did not help"
 
 contains
 
@@ -182,6 +184,8 @@ contains
       type(accuracy_law) :: law
       type(level_grid) :: grid, next
       real(wp) :: expected, before
+      !> Estimate and number of elements of each grid
+      real(wp) :: trail(2, most_levels)
       integer :: fixed(2), cases
       logical :: is_solved, is_lost, near, tightened
 
@@ -217,22 +221,16 @@ contains
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          next = grid
          call tighten(result, report, next%eps, tightened)
-         near = is_near_enough(report%estimated, expected, report%required)
+         near = is_near_enough(report%estimated, expected, law%share*report%required)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)
          if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
-            & merge(series_share, 1.0_wp, has_history(spec))*report%required, fixed, next%counts)
+            & merge(series_share, 1.0_wp, has_history(spec))*law%share*report%required, fixed, next%counts)
          call stay_below(most_elements(spec%limits), fixed, next%counts)
-         if (.not. (tightened .or. is_worth(grid%counts, next%counts))) then
-            report%reason = "more than " // integer_text(int(most_elements(spec%limits))) // " elements are not allowed"
-            exit
-         end if
-         if (.not. time_is_left(spec%limits, cases*report%last_seconds, product(real(next%counts, wp)/grid%counts))) then
-            report%reason = "there is no time left for " // integer_text(next%counts(1)) // " x " // &
-               & integer_text(next%counts(2)) // " elements"
-            exit
-         end if
+         trail(:, report%levels) = [report%estimated, product(real(grid%counts, wp))]
+         report%reason = obstacle(spec, result, report, trail(:, :report%levels), next%counts, fixed, tightened, cases)
+         if (report%reason /= "") exit
          expected = 0.0_wp
          before = report%estimated
          if (report%estimated >= 0.0_wp) expected = report%estimated*(minval(real(grid%counts, wp)/next%counts))**law%falls
@@ -245,6 +243,59 @@ contains
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(best, before, report, result)
       call complete_report(session, spec, result, report, solved, log)
    end subroutine refine
+
+   !> Reason against another grid, blank if there is none
+   function obstacle(spec, result, report, trail, counts, fixed, tightened, cases) result(reason)
+      !> Case, with its limits
+      type(case_spec), intent(in) :: spec
+      !> Result of the last grid
+      type(patch_result), intent(in) :: result
+      !> Report, with the prescribed accuracy and the time of the last grid
+      type(accuracy_report), intent(in) :: report
+      !> Estimate, negative for none, and number of elements of each grid so far, shape (2, grids)
+      real(wp), intent(in) :: trail(:, :)
+      !> Numbers of elements of the next grid; those that must not change, 0 for others
+      integer, intent(in) :: counts(2), fixed(2)
+      !> Does the next grid have a smaller tolerance?
+      logical, intent(in) :: tightened
+      !> Number of cases that are solved on the next grid
+      integer, intent(in) :: cases
+      character(len=longest_reason) :: reason
+
+      reason = ""
+      if (size(trail, 2) > 1 .and. is_cut_off(result, report%required, most_elements(spec%limits), fixed)) then
+         reason = "the potential contact cuts off a part of the contact"
+      else if (has_stalled(trail, fixed)) then
+         reason = no_progress
+      else if (.not. (tightened .or. is_worth([result%grid%mx, result%grid%my], counts))) then
+         reason = "more than " // integer_text(int(most_elements(spec%limits))) // " elements are not allowed"
+         if (all(fixed > 0)) reason = "one or two elements along both sides represent plane strain and are kept"
+      else if (.not. time_is_left(spec%limits, cases*report%last_seconds, &
+         & product(real(counts, wp))/trail(2, size(trail, 2)))) then
+         reason = "there is no time left for " // integer_text(counts(1)) // " x " // integer_text(counts(2)) // " elements"
+      end if
+   end function obstacle
+
+   !> Have estimates hardly decreased on the last three grids, although elements have become much smaller?
+   pure logical function has_stalled(trail, fixed)
+      !> Estimate, negative for none, and number of elements of each grid so far, shape (2, grids)
+      real(wp), intent(in) :: trail(:, :)
+      !> Numbers of elements that must not change, 0 for others
+      integer, intent(in) :: fixed(2)
+      !> Minimum factor of the number of elements across, and of the estimate. An error of the order 1/2, the lowest one, decreases
+      !> to 0.7 with twice the number
+      real(wp), parameter :: least_growth = 2.0_wp, no_decrease = 0.8_wp
+      real(wp) :: growth
+      integer :: k
+
+      k = size(trail, 2)
+      has_stalled = .false.
+      if (k < 3) return
+      growth = trail(2, k)/trail(2, k - 2)
+      if (all(fixed == 0)) growth = sqrt(growth)
+      has_stalled = growth >= least_growth .and. minval(trail(1, k - 2:k)) > 0.0_wp &
+         & .and. trail(1, k) > no_decrease*maxval(trail(1, k - 2:k - 1))
+   end function has_stalled
 
    !> Reduce the tolerance of the next grid, or of the same one, if iterations stopped too early for the accuracy
    subroutine tighten(result, report, eps, tightened)
@@ -300,7 +351,7 @@ contains
       if (report%is_met) then
          report%reason = ""
       else if (report%reason == "") then
-         report%reason = "finer elements did not help"
+         report%reason = no_progress
          if (allocated(result%errors)) then
             if (result%errors%reason /= "") report%reason = "there is no estimate: " // result%errors%reason
          end if

@@ -11,7 +11,7 @@ module contact_cases_accuracy_grid
    implicit none (type, external)
    private
 
-   public :: first_counts, is_worth, level_grid, next_counts, no_direction, set_elements, stay_below
+   public :: first_counts, is_cut_off, is_worth, level_grid, next_counts, no_direction, set_elements, stay_below
 
    !> A grid and its solver tolerance
    type :: level_grid
@@ -84,6 +84,25 @@ contains
       counts = ceiling([result%grid%mx, result%grid%my]*size/sides)
       where (fixed > 0) counts = fixed
    end subroutine next_counts
+
+   !> Does the potential contact area cut off so much of the contact that the finest grid cannot reach the accuracy?
+   !>
+   !> The estimate is the force of the elements at the border, which is proportional to their size.
+   pure logical function is_cut_off(result, required, most, fixed)
+      !> Solution with estimated errors
+      type(patch_result), intent(in) :: result
+      !> Accuracy, and maximum number of elements [-]
+      real(wp), intent(in) :: required, most
+      !> Numbers of elements that must not change, 0 for others
+      integer, intent(in) :: fixed(2)
+      real(wp) :: finest
+
+      is_cut_off = .false.
+      if (.not. allocated(result%errors)) return
+      finest = result%grid%npot()/most
+      if (all(fixed == 0)) finest = sqrt(finest)
+      is_cut_off = finest*result%errors%window > required
+   end function is_cut_off
 
    !> Reduce the numbers of elements if there are more than allowed
    pure subroutine stay_below(most, fixed, counts)

@@ -38,20 +38,21 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: without_estimate = 2.5_wp
 
    !> Typical estimate for n elements across the contact: factor times n^-order; order by which estimates of one contact decrease
-   !> from grid to grid; lower bound of estimates, bound/n
+   !> from grid to grid; lower bound of estimates, bound/n; part of the accuracy that estimates must meet, below 1 where they are
+   !> often smaller than the error
    type :: accuracy_law
-      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp
+      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, share = 1.0_wp
    end type accuracy_law
    !> Forces in steady rolling by the first and by the second order, and all other results; from tests/accuracy: upper quartiles of
    !> estimates, and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order
    !> without spin, and of shifts and pressures: 31001 to 31004 and 41001)
    type(accuracy_law), parameter :: first_order = accuracy_law(0.16_wp, 1.0_wp, 1.0_wp), &
       & second_order = accuracy_law(0.21_wp, 2.0_wp, 2.1_wp), normal_order = accuracy_law(0.22_wp, 2.0_wp, 2.0_wp)
-   !> The second order where forces are prescribed, where friction falls with slip, of unlike bodies, and of bodies that relax (the
-   !> same seeds)
+   !> The second order where forces are prescribed, where friction falls with slip, of unlike bodies, of bodies that relax (the same
+   !> seeds), and with an elastic layer (kinds layer and layer_spin of seed 77001)
    type(accuracy_law), parameter :: by_forces = accuracy_law(0.45_wp, 2.0_wp, 2.1_wp), &
       & falling = accuracy_law(0.32_wp, 2.0_wp, 2.1_wp), unlike = accuracy_law(0.21_wp, 2.0_wp, 1.2_wp), &
-      & relaxing = accuracy_law(0.33_wp, 2.0_wp, 1.5_wp)
+      & relaxing = accuracy_law(0.33_wp, 2.0_wp, 1.5_wp), layered = accuracy_law(0.33_wp, 2.0_wp, 1.6_wp, share=0.7_wp)
    !> Spin adds this factor for each radian by which the direction of slip turns across the contact; turn if spin is one times the
    !> creepage, its maximum, and turn if creepages or spin follow from the solution [rad] (the same seeds)
    real(wp), parameter :: by_turn = 0.1_wp, turn_of_equal = 2.0_wp, largest_turn = 3.1_wp, usual_turn = 1.0_wp
@@ -74,12 +75,12 @@ module contact_cases_accuracy_plan
    !> take longer than it saves
    real(wp), parameter :: first_share = 0.75_wp, quick_across = 28.0_wp
    !> Fraction of the accuracy that the next grid is designed for; fraction at which it is regarded as reached, since estimates may
-   !> be too small
-   real(wp), parameter :: aim = 0.65_wp, enough = 0.65_wp
+   !> be too small. Of seed 88001, 204 contacts of seven kinds: with 0.65 a tenth more time, and 0.8 instead of 1.2 % misses
+   real(wp), parameter :: aim = 0.65_wp, enough = 0.75_wp
    !> If the error predicted from the previous grid is not larger, both are samples of one error. Their mean is used, in logarithms,
    !> with this weight of the previous grid; fraction of the accuracy at which the mean is sufficient, and maximum fraction for the
-   !> estimate alone; of seed 7101
-   real(wp), parameter :: weight_before = 0.3_wp, enough_of_both = 0.75_wp, enough_alone = 0.85_wp
+   !> estimate alone; of seeds 7101 and 88001
+   real(wp), parameter :: weight_before = 0.3_wp, enough_of_both = 0.85_wp, enough_alone = 0.9_wp
    !> Minimum and maximum factor of the number of elements across from one grid to the next; chosen
    real(wp), parameter :: least_factor = 1.2_wp, largest_factor = 5.0_wp
    !> Weight of the error predicted from the previous grid: differences of levels may be small by chance
@@ -191,7 +192,8 @@ contains
          return
       end if
       if (spec%kernel == kernel_model%piecewise_constant .and. any(spec%material_model == [material_model%elastic, &
-         & material_model%viscoelastic]) .and. spec%pressure == pressure_model%full) law = second_order
+         & material_model%viscoelastic, material_model%interfacial_layer]) .and. spec%pressure == pressure_model%full) &
+         & law = second_order
       material = combine(spec%material%poiss, spec%material%gg)
       driven = min(1.0_wp, abs(material%ak)/max(expected_friction(spec), tiny(driven)))
       if (law%order > first_order%order) then
@@ -199,6 +201,7 @@ contains
          if (spec%force /= force_control%creepages) law = by_forces
          if (material%coupled()) law = unlike
          if (spec%material_model == material_model%viscoelastic) law = relaxing
+         if (spec%material_model == material_model%interfacial_layer) law = layered
          law%factor = law%factor + by_turn*expected_turn(spec)
          if (material%coupled()) then
             law%factor = law%factor + by_difference*driven
@@ -306,9 +309,11 @@ contains
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: required
+      real(wp) :: goal
 
-      across = (law%factor/(aim*required))**(1.0_wp/law%order)
-      across = max(min(across, max(quick_across, first_share*across)), law%bound/(aim*required))
+      goal = aim*law%share*required
+      across = (law%factor/goal)**(1.0_wp/law%order)
+      across = max(min(across, max(quick_across, first_share*across)), law%bound/goal)
       across = min(across, merge(most_across, most_across_first_order, law%order > 1.0_wp))
       across = usual_number(max(least_across, across))
    end function first_across
@@ -319,8 +324,10 @@ contains
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: required
+      real(wp) :: goal
 
-      across = max(first_across(law, required), (law%factor/(aim*required))**(1.0_wp/law%order), law%bound/(aim*required))
+      goal = aim*law%share*required
+      across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), law%bound/goal)
    end function expected_across
 
    !> Is an estimate small enough?

@@ -132,10 +132,11 @@ contains
          if (result%status%is_solved()) report%estimated = error_of_pair(session%memory)
          report%order = order_of(session%memory)
          report%sides = sides
-         if (is_near_enough(report%estimated, expected, report%required)) exit
+         if (is_near_enough(report%estimated, expected, law%share*report%required)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(session%memory) /= 2) law = first_order_alone(law)
-         call next_sides(spec, session%memory, report, observed_order(law, report%estimated, before, expected), sides, next)
+         call next_sides(spec, session%memory, law%share*report%required, report%estimated, &
+            & observed_order(law, report%estimated, before, expected), sides, next)
          if (.not. product(sides/next) >= worth**2) then
             report%reason = "smaller elements would be more than NPOT_MAX or the limits allow"
             exit
@@ -198,12 +199,12 @@ contains
    end function lowest_order_of_errors
 
    !> Sides of the next elements, from the patch with the largest normal force
-   pure subroutine next_sides(spec, memory, report, order, sides, next)
+   pure subroutine next_sides(spec, memory, required, estimated, order, sides, next)
       !> Case, with its limits
       type(case_spec), intent(in) :: spec
       type(wheel_rail_memory), intent(in) :: memory
-      !> Report, with the estimate and the prescribed accuracy
-      type(accuracy_report), intent(in) :: report
+      !> Accuracy that the estimate must meet, and the present estimate, negative for none [-]
+      real(wp), intent(in) :: required, estimated
       !> Order of the error
       real(wp), intent(in) :: order
       !> Present sides [mm]
@@ -223,8 +224,8 @@ contains
          if (result%ncon == 0) return
          box = contact_box(result%division)
          across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
-         call shorten_aspect(across*[result%grid%dx, result%grid%dy], finer_across(minval(across), report%estimated, &
-            & report%required, order), next)
+         call shorten_aspect(across*[result%grid%dx, result%grid%dy], finer_across(minval(across), estimated, &
+            & required, order), next)
          next = min(next, sides)
       end associate
       ! a few elements across need a small step in one direction only, which alone is not worth another grid

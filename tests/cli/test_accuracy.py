@@ -190,6 +190,23 @@ class Accuracy(Runs):
         accuracy = self.solve("a.inp", rolling(influence=3), "--accuracy", "1e-4", "--limit-time=0.3")[1]["patches"][0]["accuracy"]
         self.assertRegex(accuracy["reason"], "no time left|time limit")
 
+    def test_no_finer_grid(self):
+        """The search ends after few grids, with the reason, where finer ones cannot help: a window that holds a part of the contact
+        only, one element along both sides, a roller that is shorter than its contact is wide, whose length is one element"""
+        small = rolling().replace("-3 IPOTCN", WINDOWS[0]).replace("14 14 3 5 1.2 MX MY AA BB SCALE",
+                                                                   "1 1 IBASE IPLAN\n0.0005 0 0.00022 0 0 0 B")
+        roller = rolling().replace("-3 IPOTCN", "-5 IPOTCN")
+        ends = {"window": (small, "cuts off a part of the contact", 2),
+                "single": (roller.replace("14 14 3 5", "1 1 3 1"), "one or two elements along both sides", 1),
+                "roller": (roller.replace("14 14 3 5", "40 1 3 1"), "finer elements did not help", 3)}
+        for name, (text, reason, grids) in ends.items():
+            with self.subTest(name):
+                _, record = self.solve(f"{name}.inp", text, "--accuracy", "1e-3")
+                accuracy = record["patches"][0]["accuracy"]
+                self.assertFalse(accuracy["reached"])
+                self.assertIn(reason, accuracy["reason"])
+                self.assertLessEqual(accuracy["grids"], grids)
+
     def test_short_times(self):
         """The first grid is so coarse that it ends in time: for any accuracy, there is a result with its error"""
         source = random.Random(15)

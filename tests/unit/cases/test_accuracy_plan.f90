@@ -1,6 +1,6 @@
 !> How an accuracy is sought: when a grid will do, and the order that estimates of two grids show
 program test_accuracy_plan
-   use contact_base_choices, only : force_control, grid_form, motion, normal_control, time_link
+   use contact_base_choices, only : force_control, grid_form, material_model, motion, normal_control, time_link
    use contact_base_kinds, only : wp
    use contact_cases_accuracy_grid, only : is_worth, level_grid
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, finer_across, &
@@ -86,6 +86,10 @@ contains
       spec%force = force_control%fx_and_fy
       call suite%check(expected_across(expected_law(spec), sharp) > plain, "forces prescribed")
       spec%force = force_control%creepages
+      spec%material_model = material_model%interfacial_layer
+      call suite%check(expected_across(expected_law(spec), sharp) > plain, "an elastic layer")
+      call suite%check(expected_across(expected_law(spec), sharp) < 2.0_wp*plain, "an elastic layer has the second order, too")
+      spec%material_model = material_model%elastic
       spec%material%gg = [82000.0_wp, 20000.0_wp]
       call suite%check(expected_across(expected_law(spec), sharp) > plain, "unlike bodies")
       allocate(spec%friction%sets(1))
