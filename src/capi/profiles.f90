@@ -11,7 +11,7 @@ module contact_capi_profiles
    use contact_capi_messages, only : complain, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
    use contact_capi_caller, only : caller
-   use contact_cases_wheel_rail_session, only : load_profile, prepare_first_case
+   use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
    use contact_profile_request, only : profile_request, profile_side
@@ -155,10 +155,7 @@ contains
       call load_profile(profiles, profile, side, folder, wanted, given%curve, given%surface, log, error)
       given%detail = 0
       if (allocated(given%written_as)) deallocate(given%written_as)
-      if (.not. allocated(error)) then
-         call prepare_first_case()
-         return
-      end if
+      if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)
       call complain(this, full_text(error), library_code%profile)
    end subroutine read_given_profile

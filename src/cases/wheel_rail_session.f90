@@ -18,7 +18,6 @@ module contact_cases_wheel_rail_session
    use contact_cases_stress_errors, only : estimate_stress_errors
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_elastic_model, only : influence_table
-   use contact_fft_kept_plans, only : start_planner
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
    use contact_patch_wear, only : derive_wear
@@ -35,7 +34,7 @@ module contact_cases_wheel_rail_session
    implicit none (type, external)
    private
 
-   public :: wheel_rail_session, check_files, load_profile, prepare_first_case, release_wheel_rail_session, solve_wheel_rail_case
+   public :: wheel_rail_session, check_files, load_profile, release_wheel_rail_session, solve_wheel_rail_case
 
    !> Data of one wheel on one rail
    type :: wheel_rail_session
@@ -158,11 +157,6 @@ contains
          end do
       end associate
    end subroutine keep_profiles
-
-   !> Perform the initialisation that the first case of a process would have to wait for, and that does not depend on the case
-   subroutine prepare_first_case()
-      call start_planner()
-   end subroutine prepare_first_case
 
    !> Release the memory of a session that is allocated outside Fortran; must be called before the session is destroyed
    subroutine release_wheel_rail_session(session)

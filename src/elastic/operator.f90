@@ -4,18 +4,16 @@
 !> (xn, yn), and one real array per kernel is stored. In steady rolling the displacement difference between two time steps has
 !> the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
 !>
-!> Small windows transform both tangential fields at once. With X = F(a + i b), and s and d half the sum and half the difference
-!> of the spectra xx and yy, the product with the block of xx, yy, xy is s X(k) + (d + i xy) conj(X(-k)), because these spectra
-!> are equal at k and -k. In this case xx and yy contain s and d, and the difference between two time steps is taken before the
-!> transform. Approximate inverses have a shorter period: padding by a quarter of the window is as good as by a whole one.
+!> Small windows transform both tangential fields at once (contact_fft_paired). In this case xx and yy contain half the sum and half
+!> the difference of the spectra, and the difference between two time steps is taken before the transform. Approximate inverses
+!> have a shorter period: padding by a quarter of the window is as good as by a whole one.
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_elastic_coefficients, only : fill_coefficients, own_coefficients
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_even, multiply_paired, replace_by_mean, &
-      & spectrum_floor
+   use contact_elastic_spectra, only : invert_block, make_spectrum, replace_by_mean, spectrum_floor
    use contact_fft_paired, only : paired_plan
    use contact_fft_plan, only : fast_line_size, fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
@@ -242,9 +240,7 @@ contains
          if (operator%small) then
             call need_normal(operator)
             call operator%pair%prepare(operator%mx, operator%my, operator%plan%px, operator%plan%py)
-            call operator%pair%forward(p)
-            call multiply_even(operator%nn, operator%pair%spectrum)
-            call operator%pair%backward(u)
+            call operator%pair%convolve_even(operator%nn, p, u)
             operator%products = operator%products + 2
             operator%transforms = operator%transforms + 4
             return
@@ -272,9 +268,7 @@ contains
             associate (plan => operator%normal_inverse_plan)
                call operator%normal_inverse_pair%prepare(operator%mx, operator%my, plan%px, plan%py)
             end associate
-            call operator%normal_inverse_pair%forward(r)
-            call multiply_even(operator%inn, operator%normal_inverse_pair%spectrum)
-            call operator%normal_inverse_pair%backward(z)
+            call operator%normal_inverse_pair%convolve_even(operator%inn, r, z)
             operator%transforms = operator%transforms + 4
             return
          end if
@@ -293,9 +287,7 @@ contains
 
       call need_tangential(self)
       if (self%small) then
-         call self%pair%forward(p)
-         call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
-         call self%pair%backward(u)
+         call self%pair%convolve(self%xx, self%yy, self%xy, p, u, ahead=0)
       else
          call self%plan%convolve_pair(self%xx, self%yy, self%xy, p, u)
       end if
@@ -310,9 +302,7 @@ contains
 
       call need_tangential(self)
       if (self%small) then
-         call self%pair%forward(p, ahead=self%direction)
-         call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
-         call self%pair%backward(u)
+         call self%pair%convolve(self%xx, self%yy, self%xy, p, u, ahead=self%direction)
       else
          call self%plan%convolve_pair(self%xx, self%yy, self%xy, p, u, self%difference)
       end if
@@ -327,9 +317,7 @@ contains
 
       call need_tangential(self)
       if (self%small) then
-         call self%inverse_pair%forward(r)
-         call multiply_paired(self%ixx, self%iyy, self%ixy, self%inverse_pair%spectrum)
-         call self%inverse_pair%backward(z)
+         call self%inverse_pair%convolve(self%ixx, self%iyy, self%ixy, r, z, ahead=0)
       else
          call self%inverse_plan%convolve_pair(self%ixx, self%iyy, self%ixy, r, z)
       end if

@@ -4,12 +4,11 @@
 !> small windows are described in contact_elastic_operator.
 module contact_elastic_spectra
    use contact_base_kinds, only : wp
-   use contact_fft_lines, only : multiply_opposites, turn_one
    use contact_fft_plan, only : fft_plan
    implicit none (type, external)
    private
 
-   public :: invert_block, make_spectrum, multiply_even, multiply_paired, spectrum_floor, replace_by_mean
+   public :: invert_block, make_spectrum, spectrum_floor, replace_by_mean
 
    !> Lower bound of spectra used as divisors, relative to their maximum. A complete period has a positive spectrum; the bound
    !> protects against round-off for elements of extreme aspect ratio
@@ -114,70 +113,4 @@ contains
       xx = 0.5_wp*(xx + yy)
       yy = difference
    end subroutine replace_by_mean
-
-   !> Position of frequency -k in a period of length n
-   elemental integer function opposite(k, n)
-      integer, intent(in) :: k, n
-      opposite = merge(1, n + 2 - k, k == 1)
-   end function opposite
-
-   !> Product of a spectrum of two fields and a symmetric 2 by 2 block, times a factor per column
-   !>
-   !> The spectrum of two real fields mixes opposite frequencies, which are therefore processed together.
-   pure subroutine multiply_paired(mean, half, mixed, spectrum, factor)
-      !> Half the sum and half the difference of the spectra xx and yy, and xy, shape (py, px/2 + 1)
-      real(wp), contiguous, intent(in) :: mean(:, :), half(:, :), mixed(:, :)
-      !> Shape (py, px)
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      !> One per column, shape (px/2 + 1), for the difference between two time steps; absent: 1
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-      complex(wp) :: turn
-      integer :: l, j, n, px, py
-
-      py = size(spectrum, 1)
-      px = size(spectrum, 2)
-      do l = 1, px/2 + 1
-         j = opposite(l, px)
-         if (j == l) then
-            ! the first one or two rows are their own opposites
-            n = py/2 + 1
-            call multiply_own(mean(1, l), half(1, l), mixed(1, l), spectrum(1, l))
-            if (mod(py, 2) == 0) call multiply_own(mean(n, l), half(n, l), mixed(n, l), spectrum(n, l))
-            n = (py - 1)/2
-         else
-            n = py - 1
-            call multiply_opposites(1, mean(:1, l), half(:1, l), mixed(:1, l), spectrum(:1, l), spectrum(:1, j))
-         end if
-         call multiply_opposites(n, mean(2:n + 1, l), half(2:n + 1, l), mixed(2:n + 1, l), spectrum(2:n + 1, l), &
-            & spectrum(py - n + 1:, j))
-      end do
-      if (.not. present(factor)) return
-      do l = 1, px
-         turn = factor(min(l, opposite(l, px)))
-         if (l > px/2 + 1) turn = conjg(turn)
-         call turn_one(py, turn, spectrum(:, l))
-      end do
-   end subroutine multiply_paired
-
-   !> Product of a spectrum of two fields with that of one kernel, which is even in both coordinates
-   pure subroutine multiply_even(kernel, spectrum)
-      !> Shape (py, px/2 + 1)
-      real(wp), contiguous, intent(in) :: kernel(:, :)
-      !> Shape (py, px)
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      integer :: l, px
-
-      px = size(spectrum, 2)
-      do l = 1, px
-         spectrum(:, l) = kernel(:, min(l, opposite(l, px)))*spectrum(:, l)
-      end do
-   end subroutine multiply_even
-
-   !> Product for one frequency that is its own opposite
-   pure subroutine multiply_own(mean, half, mixed, x)
-      real(wp), intent(in) :: mean, half, mixed
-      complex(wp), intent(inout) :: x
-
-      x = mean*x + cmplx(half, mixed, wp)*conjg(x)
-   end subroutine multiply_own
 end module contact_elastic_spectra

@@ -46,6 +46,7 @@ typedef struct {
 #define TARGET
 #include "four_steps.h"
 #include "four_bodies.h"
+#include "pair_bodies.h"
 #undef OF
 #undef TARGET
 #ifdef __x86_64__
@@ -53,6 +54,7 @@ typedef struct {
 #define TARGET __attribute__((target("avx2,fma")))
 #include "four_steps.h"
 #include "four_bodies.h"
+#include "pair_bodies.h"
 #undef OF
 #undef TARGET
 #define EITHER(name, ...) \
@@ -74,6 +76,10 @@ void contact_four_columns_one(const line_steps *steps, const int *positions, con
 void contact_four_columns_two(const line_steps *steps, const int *positions, const double *factors, int my, int columns,
                               const double *xx, const double *yy, const double *xy, const double *turn, double *half,
                               double *work);
+void contact_four_pair(const line_steps *x_steps, const int *x_positions, const double *x_factors, const line_steps *y_steps,
+                       const int *y_positions, const double *y_factors, const int *places, int mx, int my, int ahead,
+                       const double *mean, const double *difference, const double *mixed, const double *fields, double *products,
+                       double *half, double *work);
 
 /* Start of a line of the cache within the work space, which has room for it */
 static double *aligned(double *work) { return (double *)(((uintptr_t)work + 63) / 64 * 64); }
@@ -114,4 +120,13 @@ void contact_four_columns_two(const line_steps *steps, const int *positions, con
   const line_plan plan = {steps, positions, factors};
   const double *const block[3] = {xx, yy, xy};
   EITHER(columns_two, &plan, my, columns, block, turn, half, aligned(work));
+}
+
+void contact_four_pair(const line_steps *x_steps, const int *x_positions, const double *x_factors, const line_steps *y_steps,
+                       const int *y_positions, const double *y_factors, const int *places, int mx, int my, int ahead,
+                       const double *mean, const double *difference, const double *mixed, const double *fields, double *products,
+                       double *half, double *work) {
+  const line_plan along_x = {x_steps, x_positions, x_factors}, along_y = {y_steps, y_positions, y_factors};
+  const double *const block[3] = {mean, difference, mixed};
+  EITHER(pair, &along_x, &along_y, places, mx, my, ahead, block, fields, products, half, aligned(work));
 }

@@ -9,7 +9,7 @@ module contact_fft_four_lines
    implicit none (type, external)
    private
 
-   public :: line_factors, work_size, columns_at_once, rows_at_once
+   public :: line_factors, line_steps, work_size, columns_at_once, rows_at_once
    public :: four_columns_backward, four_columns_forward, four_columns_one, four_columns_two, four_rows_backward, four_rows_forward
 
    integer, parameter :: rows_at_once = 8, columns_at_once = 4

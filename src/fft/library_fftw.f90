@@ -10,10 +10,8 @@ module contact_fft_library
    implicit none (type, external)
    private
 
-   public :: backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
+   public :: backwards, destroy, execute_complex, fast_lengths, forwards, plan_complex
 
-   !> Number of lines to transform together: FFTW has vector code for a single line
-   integer, parameter :: lanes = 1
    !> Even lengths for which estimated plans are fast, by measurement: no longer length takes less time, including its larger
    !> spectrum. Plans of lengths with a factor 3 are often slow: 640 takes little more than half the time of 576, and 160 that
    !> of 144

@@ -4,10 +4,8 @@ module contact_fft_library
    implicit none (type, external)
    private
 
-   public :: backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
+   public :: backwards, destroy, execute_complex, fast_lengths, forwards, plan_complex
 
-   !> Number of lines to transform together: the number of lanes of a register
-   integer, parameter :: lanes = 4
    !> Even lengths that are transformed fast; above them any product of small primes is
    integer, parameter :: fast_lengths(*) = [2, 4, 6, 8, 10, 12, 14, 16, 20, 32, 40, 48, 56, 64, 72, 80, 96, 112, 128]
 

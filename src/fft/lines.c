@@ -9,8 +9,6 @@
 static const four conjugate = {1.0, -1.0, 1.0, -1.0};
 
 void contact_lines_one(int n, const double *xx, double *a);
-void contact_lines_turn(int n, const double *turn, double *a);
-void contact_lines_opposites(int n, const double *mean, const double *half, const double *mixed, double *x, double *y);
 void contact_lines_pair(int px, const double *xx, const double *yy, const double *xy, double *z);
 void contact_lines_turn_pair(int px, const double *factor, double *z);
 
@@ -34,12 +32,6 @@ static void multiply_pair(double xx, double yy, double xy, double *here, double 
 #include "../base/twice.h"
 
 void contact_lines_one(int n, const double *xx, double *a) { CALL(one, n, xx, a); }
-
-void contact_lines_turn(int n, const double *turn, double *a) { CALL(turn, n, turn, a); }
-
-void contact_lines_opposites(int n, const double *mean, const double *half, const double *mixed, double *x, double *y) {
-  CALL(opposites, n, mean, half, mixed, x, y);
-}
 
 void contact_lines_pair(int px, const double *xx, const double *yy, const double *xy, double *z) {
   CALL(pair, px, xx, yy, xy, z);

@@ -6,7 +6,7 @@ module contact_fft_lines
    implicit none (type, external)
    private
 
-   public :: multiply_one, multiply_opposites, multiply_two, turn_one, turn_two
+   public :: multiply_one, multiply_two, turn_two
 
    interface
       !> Product of a complex spectrum and a real one
@@ -20,32 +20,9 @@ module contact_fft_lines
          complex(c_double_complex), intent(inout) :: a(n)
       end subroutine multiply_one
 
-      !> Product of a spectrum with a scalar
-      pure subroutine turn_one(n, turn, a) bind(c, name="contact_lines_turn")
-         import :: c_double_complex, c_int
-         !> Length
-         integer(c_int), value :: n
-         !> Scalar
-         complex(c_double_complex), intent(in) :: turn
-         !> On exit the product
-         complex(c_double_complex), intent(inout) :: a(n)
-      end subroutine turn_one
-
-      !> Product with a symmetric 2 by 2 block, for frequencies of the transform of two real fields, the first + i times the
-      !> second
+      !> Product with a symmetric 2 by 2 block, for the transform of two real lines, the first + i times the second
       !>
       !> With s and d half the sum and half the difference of xx and yy, it is s z(k) + (d + i xy) conj(z(-k)).
-      pure subroutine multiply_opposites(n, mean, half, mixed, x, y) bind(c, name="contact_lines_opposites")
-         import :: c_double, c_double_complex, c_int
-         !> Number of frequencies
-         integer(c_int), value :: n
-         !> s, d and xy
-         real(c_double), intent(in) :: mean(n), half(n), mixed(n)
-         !> Frequencies k, and -k in reversed order; on exit the product
-         complex(c_double_complex), intent(inout) :: x(n), y(n)
-      end subroutine multiply_opposites
-
-      !> The same product for the transform of two real lines
       pure subroutine multiply_two(px, xx, yy, xy, z) bind(c, name="contact_lines_pair")
          import :: c_double, c_double_complex, c_int
          !> Length

@@ -1,150 +1,140 @@
-!> Zero-padded transforms of two real fields at once, as real and imaginary part of one complex field
+!> Products of two real fields on a small window with kernels: both fields in one complex transform, padded with zeros
 !>
-!> For windows that fit into the caches this takes about half the time of two real transforms, as FFTW has vector code for
-!> complex transforms only. Both passes go from one array to another, so that nothing is copied and the padding of the forward
-!> arrays remains zero. Rows are transformed in small groups that fill a vector register, so that a plan serves any number of rows.
+!> With X = F(a + i b), s and d half the sum and half the difference of the spectra xx and yy, the product with a symmetric block
+!> of kernels is s X(k) + (d + i xy) conj(X(-k)). Columns of opposite frequencies are therefore transformed together; the spectrum
+!> is not stored. The loops are in pair_bodies.h, the transforms are those of contact_fft_four_lines.
 module contact_fft_paired
-   use, intrinsic :: iso_c_binding, only : c_associated
+   use, intrinsic :: iso_c_binding, only : c_double, c_double_complex, c_int
    use contact_base_kinds, only : wp
-   use contact_fft_library, only : backwards, execute_complex, forwards, lanes, plan_complex
-   use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
+   use contact_fft_four_lines, only : columns_at_once, line_factors, line_steps, work_size
    implicit none (type, external)
    private
 
    public :: paired_plan
 
-   !> Number of rows that are transformed together
-   integer, parameter :: together = max(2, lanes)
-
-   !> Plans and buffers for one window size; must not be copied, see fft_plan
+   !> Tables and buffers for one window size
    type :: paired_plan
-      !> Size of the window and of the padded window
+      !> Size of the window and of the padded window; px is even
       integer :: mx = 0, my = 0, px = 0, py = 0
-      !> Rows of the window, padded in x, for the forward and the backward transform, shape (px, my rounded up to a multiple of
-      !> `together`)
-      complex(wp), allocatable, private :: rows(:, :), rows_back(:, :)
-      !> Spectrum of the first field + i times the second, shape (py, px)
-      complex(wp), allocatable :: spectrum(:, :)
-      !> Rows after the transform in x, transposed and padded in y, shape (py rounded up to a multiple of `together`, px)
-      complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
-      !> For `together` rows, and for all columns; neither depends on the number of rows of the window
-      type(plan_set), private :: row_plans, column_plans
+      !> Steps of the transforms of rows and columns
+      type(line_factors), private :: rows, columns
+      !> Where the transform of a row has the frequencies of the columns, from 0: of four columns, then of their opposites; the last
+      !> four are completed by the two columns that are their own opposites, and by -1
+      integer(c_int), allocatable, private :: places(:)
+      !> Rows after their transform, four columns at once, and workspace
+      real(wp), allocatable, private :: half(:), work(:)
    contains
-      !> Make plans for a window; existing plans of the same size are kept
+      !> Prepare for a window; tables of the same size are kept
       procedure :: prepare
-      !> Transform two fields to the spectrum
-      procedure :: forward
-      !> Transform the spectrum back, unscaled, and cut out the window
-      procedure :: backward
-      !> Free the plans
+      !> Product with a symmetric block of kernels
+      procedure :: convolve
+      !> Product of both fields with one kernel
+      procedure :: convolve_even
+      !> Free the tables
       procedure :: release
    end type paired_plan
+
+   interface
+      !> Product of two fields with a kernel, or with a block of them
+      subroutine four_pair(x_steps, x_positions, x_factors, y_steps, y_positions, y_factors, places, mx, my, ahead, mean, &
+         & difference, mixed, fields, products, half, work) bind(c, name="contact_four_pair")
+         import :: c_double, c_double_complex, c_int, line_steps
+         implicit none (type, external)
+         !> Steps of the transforms along x and y, positions of the frequencies, and factors between the steps
+         type(line_steps), intent(in) :: x_steps
+         integer(c_int), intent(in) :: x_positions(*)
+         complex(c_double_complex), intent(in) :: x_factors(*)
+         type(line_steps), intent(in) :: y_steps
+         integer(c_int), intent(in) :: y_positions(*)
+         complex(c_double_complex), intent(in) :: y_factors(*)
+         !> See paired_plan
+         integer(c_int), intent(in) :: places(*)
+         !> Size of the window, and +1, -1: differences with the next or previous column are transformed, 0: the fields
+         integer(c_int), value :: mx, my, ahead
+         !> s, d and xy, shape (py, px/2 + 1); absent: s is the kernel, even
+         real(c_double), intent(in) :: mean(*)
+         real(c_double), intent(in), optional :: difference(*), mixed(*)
+         !> Shape (mx, my, 2)
+         real(c_double), intent(in) :: fields(*)
+         !> The same shape
+         real(c_double), intent(inout) :: products(*)
+         !> See paired_plan
+         real(c_double), intent(inout) :: half(*), work(*)
+      end subroutine four_pair
+   end interface
 
 contains
 
    subroutine prepare(self, mx, my, px, py)
       class(paired_plan), intent(inout) :: self
-      !> Window and padded window; px >= mx, py >= my
+      !> Window and padded window; px >= mx, py >= my, px even
       integer, intent(in) :: mx, my, px, py
-      integer :: rows, length
 
-      if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%row_plans%plan(line_forward))) return
+      if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py) return
       call self%release()
       self%mx = mx
       self%my = my
       self%px = px
       self%py = py
-      rows = in_groups(my)
-      length = in_groups(py)
-      allocate(self%rows(px, rows), self%columns(length, px), source=(0.0_wp, 0.0_wp))
-      allocate(self%rows_back(px, rows), self%columns_back(length, px), self%spectrum(py, px))
-      ! read by the last group, without effect
-      self%columns_back(py + 1:, :) = 0.0_wp
-      ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
-      !$omp critical (contact_fft_planner)
-      call self%row_plans%take(plan_kind%paired_rows, together, px, py)
-      if (.not. self%row_plans%is_kept) then
-         self%row_plans%plan = [plan_complex(px, together, self%rows, 1, px, self%columns, length, 1, forwards), &
-            & plan_complex(px, together, self%columns_back, length, 1, self%rows_back, 1, px, backwards)]
-         call self%row_plans%keep(plan_kind%paired_rows, together, px, py)
-      end if
-      call self%column_plans%take(plan_kind%paired_columns, 0, px, py)
-      if (.not. self%column_plans%is_kept) then
-         self%column_plans%plan = [plan_complex(py, px, self%columns, 1, length, self%spectrum, 1, py, forwards), &
-            & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, length, backwards)]
-         call self%column_plans%keep(plan_kind%paired_columns, 0, px, py)
-      end if
-      !$omp end critical (contact_fft_planner)
+      call self%rows%prepare(px)
+      call self%columns%prepare(py)
+      call find_places(self)
+      allocate(self%half(2*size(self%places)*columns_at_once*((my + columns_at_once - 1)/columns_at_once)))
+      allocate(self%work(work_size(max(px, py))))
    end subroutine prepare
 
-   !> Number of lines, rounded up to whole groups
-   pure integer function in_groups(lines)
-      integer, intent(in) :: lines
+   !> Order of the columns
+   subroutine find_places(self)
+      type(paired_plan), intent(inout) :: self
+      integer :: at, k, pairs
 
-      in_groups = together*((lines + together - 1)/together)
-   end function in_groups
+      pairs = self%px/2 - 1
+      allocate(self%places(0:2*columns_at_once*(pairs/columns_at_once + 1) - 1))
+      self%places = -1
+      do k = 1, pairs + 1
+         at = 2*columns_at_once*((k - 1)/columns_at_once) + mod(k - 1, columns_at_once)
+         ! after the pairs the columns of frequencies 0 and px/2
+         self%places(at) = self%rows%positions(merge(k, 0, k <= pairs))
+         self%places(at + columns_at_once) = self%rows%positions(self%px - k)
+      end do
+   end subroutine find_places
 
-   subroutine forward(self, fields, ahead)
+   subroutine convolve(self, mean, difference, mixed, fields, products, ahead)
       class(paired_plan), intent(inout) :: self
-      !> Two fields on the window, shape (mx, my, 2)
+      !> Spectra s, d, even in both coordinates, and xy, odd in both, shape (py, px/2 + 1)
+      real(wp), contiguous, intent(in) :: mean(:, :), difference(:, :), mixed(:, :)
+      !> Shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: fields(:, :, :)
-      !> +1, -1: transform the differences with the next or previous column; the padding exceeds one column
-      integer, intent(in), optional :: ahead
-      complex(wp) :: previous, here
-      integer :: ix, iy
+      !> Unscaled, the same shape
+      real(wp), contiguous, intent(inout) :: products(:, :, :)
+      !> +1, -1: multiply the differences with the next or previous column; the padding exceeds one column. 0: the fields
+      integer, intent(in) :: ahead
 
-      do iy = 1, self%my
-         do ix = 1, self%mx
-            self%rows(ix, iy) = cmplx(fields(ix, iy, 1), fields(ix, iy, 2), wp)
-         end do
-         self%rows(self%mx + 1, iy) = 0.0_wp
-         self%rows(self%px, iy) = 0.0_wp
-         if (.not. present(ahead)) cycle
-         if (ahead > 0) then
-            self%rows(self%px, iy) = -self%rows(1, iy)
-            do ix = 1, self%mx
-               self%rows(ix, iy) = self%rows(ix, iy) - self%rows(ix + 1, iy)
-            end do
-         else
-            previous = 0.0_wp
-            do ix = 1, self%mx + 1
-               here = self%rows(ix, iy)
-               self%rows(ix, iy) = here - previous
-               previous = here
-            end do
-         end if
-      end do
-      do iy = 1, self%my, together
-         call execute_complex(self%row_plans%plan(line_forward), self%rows(1, iy), self%columns(iy, 1))
-      end do
-      call execute_complex(self%column_plans%plan(line_forward), self%columns, self%spectrum)
-   end subroutine forward
+      call four_pair(self%rows%steps, self%rows%positions, self%rows%factors, self%columns%steps, self%columns%positions, &
+         & self%columns%factors, self%places, self%mx, self%my, ahead, mean, difference, mixed, fields, products, self%half, &
+         & self%work)
+   end subroutine convolve
 
-   subroutine backward(self, fields)
+   subroutine convolve_even(self, kernel, fields, products)
       class(paired_plan), intent(inout) :: self
-      !> Real and imaginary part on the window, shape (mx, my, 2)
-      real(wp), contiguous, intent(inout) :: fields(:, :, :)
-      integer :: ix, iy
+      !> Spectrum, even in both coordinates, shape (py, px/2 + 1)
+      real(wp), contiguous, intent(in) :: kernel(:, :)
+      !> Shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: fields(:, :, :)
+      !> Unscaled, the same shape
+      real(wp), contiguous, intent(inout) :: products(:, :, :)
 
-      call execute_complex(self%column_plans%plan(line_backward), self%spectrum, self%columns_back)
-      do iy = 1, self%my, together
-         call execute_complex(self%row_plans%plan(line_backward), self%columns_back(iy, 1), self%rows_back(1, iy))
-      end do
-      do iy = 1, self%my
-         do ix = 1, self%mx
-            fields(ix, iy, 1) = real(self%rows_back(ix, iy))
-            fields(ix, iy, 2) = aimag(self%rows_back(ix, iy))
-         end do
-      end do
-   end subroutine backward
+      call four_pair(self%rows%steps, self%rows%positions, self%rows%factors, self%columns%steps, self%columns%positions, &
+         & self%columns%factors, self%places, self%mx, self%my, 0, mean=kernel, fields=fields, products=products, &
+         & half=self%half, work=self%work)
+   end subroutine convolve_even
 
    subroutine release(self)
       class(paired_plan), intent(inout) :: self
 
-      call self%row_plans%release()
-      call self%column_plans%release()
+      call self%rows%release()
+      call self%columns%release()
       self%mx = 0
-      if (allocated(self%rows)) deallocate(self%rows, self%rows_back, self%columns, self%columns_back, self%spectrum)
+      if (allocated(self%places)) deallocate(self%places, self%half, self%work)
    end subroutine release
 end module contact_fft_paired

@@ -8,7 +8,7 @@ module contact_fft_plan
    use contact_base_kinds, only : wp
    use contact_fft_four_lines, only : columns_at_once, four_columns_backward, four_columns_forward, four_columns_one, &
       & four_columns_two, four_rows_backward, four_rows_forward, line_factors, rows_at_once, work_size
-   use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
+   use contact_fft_kept_plans, only : line_backward, line_forward, plan_set
    use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
    use contact_fft_lines, only : multiply_one, multiply_two, turn_two
    use contact_fft_sizes, only : fast_line_size, fast_size, good_size, largest_fast_size
@@ -106,11 +106,11 @@ contains
       n = self%px
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call self%line_plans%take(plan_kind%lines, 1, n, 1)
+      call self%line_plans%take(n)
       if (.not. self%line_plans%is_kept) then
          self%line_plans%plan(line_forward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, forwards)
          self%line_plans%plan(line_backward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, backwards)
-         call self%line_plans%keep(plan_kind%lines, 1, n, 1)
+         call self%line_plans%keep(n)
       end if
       !$omp end critical (contact_fft_planner)
    end subroutine get_line_plans

@@ -8,7 +8,8 @@ module contact_fft_sizes
 
    !> Windows whose padded sides are not longer are small
    integer, parameter :: largest_fast_size = 128
-   !> Longer lengths that are transformed fast by four_lines, by measurement: no longer length takes less time
+   !> Lengths that are transformed fast by four_lines, by measurement: no longer length takes less time
+   integer, parameter :: short_lengths(*) = [2, 4, 6, 8, 12, 16, 20, 24, 28, 32, 36, 40, 48, 54, 64, 72, 80, 84, 96, 100, 112, 128]
    integer, parameter :: long_lengths(*) = [144, 160, 192, 200, 216, 256, 288, 320, 384, 400, 432, 512, 576, 640, 648, 720, &
       & 768, 800, 864, 960, 1024, 1152, 1280, 1296, 1536, 1600, 1728, 2048, 2304, 2400, 2560]
 
@@ -45,8 +46,10 @@ contains
          fast_size = good_size(n)
       else if (n > largest_fast_size) then
          fast_size = minval(long_lengths, long_lengths >= n)
+      else if (n > 1) then
+         fast_size = minval(short_lengths, short_lengths >= n)
       else
-         fast_size = fast_line_size(n)
+         fast_size = 1
       end if
    end function fast_size
 
