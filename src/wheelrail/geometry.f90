@@ -68,6 +68,8 @@ module contact_wheelrail_geometry
       !> two cases by this multiple of their difference [-]
       logical :: is_first = .false.
       real(wp) :: ahead = 0.0_wp
+      !> In a trial without tangential problems: are the tractions of the patches estimated from the present ones?
+      logical :: keeps_tractions = .false.
       !> Ratio of the sides of elements in the present trial to the prescribed ones
       integer :: coarser = 1
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or those of the present trial

@@ -13,8 +13,8 @@ module contact_wheelrail_height
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_gap, only : gap_curve
    use contact_wheelrail_geometry, only : measure
-   use contact_wheelrail_height_search, only : height_search, mostly_friction, sum_of_normal_forces
-   use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force
+   use contact_wheelrail_height_search, only : height_search, mostly_friction
+   use contact_wheelrail_memory, only : sum_of_normal_forces, wheel_rail_memory, vertical_force
    use contact_wheelrail_problem, only : follows_surface, keeps_lattice, wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares

@@ -8,15 +8,16 @@ module contact_wheelrail_height_search
    use contact_base_log, only : log_type
    use contact_wheelrail_course, only : power
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
-   use contact_patch_small_step, only : can_step, small_step, step_with_tractions
-   use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
-   use contact_wheelrail_patch_solution, only : find_forces, update_share
+   use contact_patch_small_step, only : small_step, step_with_tractions
+   use contact_wheelrail_memory, only : force_not_estimated, sum_of_normal_forces, wheel_rail_memory, vertical_force, &
+      & vertical_slope
+   use contact_wheelrail_patch_solution, only : can_skip_tractions, can_step_all, find_forces, update_share
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_trial, only : evaluate
    implicit none (type, external)
    private
 
-   public :: height_search, mostly_friction, sum_of_normal_forces
+   public :: height_search, mostly_friction
 
    !> State of a search
    type :: height_search
@@ -41,6 +42,8 @@ module contact_wheelrail_height_search
       logical :: is_sharp = .false.
       !> But for the first one, which only has to give the next height?
       logical, private :: is_rough = .false.
+      !> Are tractions of the present trial solved with a larger tolerance?
+      logical, private :: is_loose = .false.
    contains
       procedure :: begin
       procedure :: approach
@@ -74,11 +77,12 @@ module contact_wheelrail_height_search
    !> If the first trial of the last case missed the force by less than this multiple of EPS, pressures of this first trial are
    !> solved accurately enough to be final
    real(wp), parameter :: near_enough = 60.0_wp
-   !> Maximum number of steps of this extrapolation
-   integer, parameter :: max_rounds = 4
+   !> Maximum number of steps of this extrapolation, and number of trials with less accurate tractions
+   integer, parameter :: max_rounds = 4, most_loose = 3
    !> Tolerance of tangential tractions relative to that of the pressures
    real(wp), parameter :: smooth_tractions = 5.0_wp
-   !> Tolerance of pressures in a first trial that only gives the next height, and of tractions in any first trial, relative to EPS
+   !> Tolerance of pressures in a first trial that only gives the next height, and of tractions in the first trials, relative to
+   !> EPS. The last step solves the tractions anew
    real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
    !> Minimum difference of two heights for the computation of a derivative, relative to the penetration: for smaller ones the
    !> change of grids is not negligible. It causes steps of the force up to this fraction of the force
@@ -191,7 +195,7 @@ contains
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
-      logical :: is_plain, has_derivative, may_finish
+      logical :: is_plain, has_derivative, may_finish, skips, has_skipped
       integer :: k
 
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
@@ -210,36 +214,42 @@ contains
       last_force = 0.0_wp
       low = huge(low)
       high = huge(high)
+      skips = .false.
       do k = 1, max_followed
          self%is_rough = k == 1 .and. .not. is_plain .and. first_miss > near_enough*problem%template%settings%eps
+         has_skipped = skips
+         skips = self%is_rough .and. can_skip_tractions(problem, memory)
+         self%is_loose = k == 1
+         if (.not. is_plain .and. k > 1 .and. k <= most_loose) self%is_loose = can_step_all(memory)
          memory%geometry%is_first = k == 1
-         call self%try(problem, memory, z, .true., log, error)
+         memory%geometry%keeps_tractions = skips
+         call self%try(problem, memory, z, .not. skips, log, error)
          memory%geometry%is_first = .false.
+         memory%geometry%keeps_tractions = .false.
          if (allocated(error)) exit
          miss = abs(self%force - self%target)
          if (k == 1) first_miss = miss/self%target
+         if (has_skipped) last_force = last_force + force_not_estimated(memory)
          if (k > 1) call self%compare_stiffness(z, last_z, last_force, stiffer)
          if (miss < best) then
             best = miss
             self%z = z
          end if
-         is_settled = (k > 1 .or. is_plain) .and. miss <= smooth_part(problem)*self%balance%tolerance
+         is_settled = (is_plain .or. .not. self%is_loose) .and. miss <= smooth_part(problem)*self%balance%tolerance
          may_finish = .not. self%is_rough
          ! the derivative of the last case may not hold here
          if (k == 1 .and. is_plain .and. has_derivative) may_finish = miss <= first_finished*self%balance%tolerance
          if (may_finish .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
-            call finish(self, problem, memory, k == 1 .and. .not. is_plain, stiffer, z, log, is_settled)
-            if (.not. is_settled .and. miss <= self%balance%tolerance) &
+            call finish(self, problem, memory, self%is_loose .and. .not. is_plain, stiffer, z, log, is_settled)
+            if (.not. (is_settled .or. (self%is_loose .and. k > 1)) .and. miss <= self%balance%tolerance) &
                & is_settled = k == max_followed .or. miss > quick_progress*last_miss
          end if
          if (is_settled) self%z = z
          if (is_settled .or. .not. (self%stiffness > 0.0_wp .and. self%force > 0.0_wp)) exit
-         if (k > 1 .and. miss > max(some_progress*last_miss, step_of_grids*self%target)) exit
-         if (self%force < self%target) then
-            low = [z, self%force]
-         else
-            high = [z, self%force]
-         end if
+         if (k > 1 .and. .not. has_skipped .and. miss > max(some_progress*last_miss, step_of_grids*self%target)) exit
+         ! with estimated tractions the force may be on the other side
+         if (self%force < self%target .and. .not. skips) low = [z, self%force]
+         if (self%force >= self%target .and. .not. skips) high = [z, self%force]
          last_miss = miss
          last_z = z
          last_force = self%force
@@ -251,6 +261,7 @@ contains
       end do
       self%is_sharp = .false.
       self%is_rough = .false.
+      self%is_loose = .false.
       self%balance%z = self%z
       self%balance%force = self%force
       self%guess = self%z
@@ -324,9 +335,7 @@ contains
 
       is_done = .false.
       if (.not. self%stiffness > 0.0_wp .or. memory%used == 0) return
-      do k = 1, memory%used
-         if (.not. can_step(memory%slot(k)%problem, memory%slot(k)%state)) return
-      end do
+      if (.not. can_step_all(memory)) return
       is_far = abs(self%force - self%target) > self%balance%tolerance .or. has_rough_tractions
       if (has_rough_tractions) then
          do k = 1, memory%used
@@ -441,7 +450,7 @@ contains
       if (self%is_sharp) then
          memory%geometry%pressure_eps = merge(first_pressures, smooth_part(problem), self%is_rough)*self%small
          memory%geometry%traction_eps = fine_tractions(problem)
-         if (memory%geometry%is_first) memory%geometry%traction_eps = first_tractions
+         if (self%is_loose) memory%geometry%traction_eps = first_tractions
       end if
       call evaluate(problem, memory, z, with_friction, log, error)
       self%trials = self%trials + 1
@@ -475,16 +484,4 @@ contains
          & ", dFz/dz:", self%slope
       call log%trace(1, trim(line))
    end subroutine trace_trial
-
-   !> Sum of the normal forces of all patches [N]
-   pure real(wp) function sum_of_normal_forces(memory) result(total)
-      !> Solved patches
-      type(wheel_rail_memory), intent(in) :: memory
-      integer :: k
-
-      total = 0.0_wp
-      do k = 1, memory%used
-         total = total + memory%slot(k)%result%fn
-      end do
-   end function sum_of_normal_forces
 end module contact_wheelrail_height_search

@@ -19,8 +19,23 @@ module contact_wheelrail_memory
    implicit none (type, external)
    private
 
-   public :: make_coarse_level, make_coarse_workspace, make_slots, patch_slot, wheel_rail_memory, release_wheel_rail, total_force, &
-      & vertical_force, vertical_slope
+   public :: make_coarse_level, make_coarse_workspace, make_slots, patch_slot, share_history, wheel_rail_memory, release_wheel_rail
+   public :: force_not_estimated, sum_of_normal_forces, total_force, vertical_force, vertical_slope
+
+   !> Ratios of friction to normal force of a patch [-], in the axes x, s, n of its plane
+   type :: share_history
+      !> Number of cases that are known, at most 2, and their ratios, the last one first
+      integer, private :: known = 0
+      real(wp), private :: share(3, 2) = 0.0_wp
+      !> Estimate in the last trial without tangential problem
+      real(wp) :: estimate(3) = 0.0_wp
+   contains
+      !> Add that of a case
+      procedure :: note
+      !> Estimate that of the next case
+      procedure :: extrapolate
+      procedure :: forget
+   end type share_history
 
    !> One patch with its data
    type :: patch_slot
@@ -58,6 +73,8 @@ module contact_wheelrail_memory
       !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
       !> solution, or an estimate
       real(wp) :: friction_share(3) = 0.0_wp
+      !> Those of the last cases in a loop over time
+      type(share_history) :: shares
    end type patch_slot
 
    !> Data of a pair that are kept from case to case, and workspace
@@ -122,6 +139,44 @@ contains
       end do
    end subroutine release_wheel_rail
 
+   pure subroutine note(self, share)
+      class(share_history), intent(inout) :: self
+      !> Ratio of a solved case [-]
+      real(wp), intent(in) :: share(3)
+
+      self%share(:, 2) = self%share(:, 1)
+      self%share(:, 1) = share
+      self%known = min(2, self%known + 1)
+   end subroutine note
+
+   pure subroutine extrapolate(self, ahead, share)
+      class(share_history), intent(in) :: self
+      !> Multiple of the difference of the last two cases that is added to the last one [-]
+      real(wp), intent(in) :: ahead
+      !> Not changed if no case is known [-]
+      real(wp), intent(inout) :: share(3)
+
+      if (self%known > 0) share = self%share(:, 1)
+      if (self%known > 1) share = share + ahead*(share - self%share(:, 2))
+   end subroutine extrapolate
+
+   pure subroutine forget(self)
+      class(share_history), intent(inout) :: self
+      self%known = 0
+   end subroutine forget
+
+   !> Sum of the normal forces of all patches [N]
+   pure real(wp) function sum_of_normal_forces(memory) result(total)
+      !> Solved patches
+      type(wheel_rail_memory), intent(in) :: memory
+      integer :: k
+
+      total = 0.0_wp
+      do k = 1, memory%used
+         total = total + memory%slot(k)%result%fn
+      end do
+   end function sum_of_normal_forces
+
    !> Force on the rail in track axes [N], friction from the last tangential solution
    pure function total_force(memory) result(force)
       !> Patches of the last trial
@@ -146,6 +201,20 @@ contains
       all = total_force(memory)
       force = all(3)
    end function vertical_force
+
+   !> Part of the vertical force due to the difference of the friction ratios from their estimates in the trial before [N]
+   pure real(wp) function force_not_estimated(memory) result(force)
+      !> Patches of the last trial, of which the one before had estimated ratios
+      type(wheel_rail_memory), intent(in) :: memory
+      integer :: k
+
+      force = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            force = force + dot_product(slot%plane%axes(3, :), slot%friction_share - slot%shares%estimate)*slot%result%fn
+         end associate
+      end do
+   end function force_not_estimated
 
    !> Derivative of the vertical force with respect to the height, from the contact stiffness if it is known [N/mm]
    pure real(wp) function vertical_slope(memory, estimated) result(slope)

@@ -6,18 +6,19 @@ module contact_wheelrail_patch_solution
    use contact_base_log, only : log_type
    use contact_patch_time_steps, only : link_time_steps
    use contact_patch_extrapolation, only : extrapolate
-   use contact_patch_problem, only : traction_fields
+   use contact_patch_problem, only : patch_state, traction_fields
+   use contact_patch_small_step, only : can_step
    use contact_patch_solve, only : solve_patch
    use contact_wheelrail_carry_over, only : carried_step, max_patches
    use contact_wheelrail_curved_patch, only : curved_forces
    use contact_wheelrail_geometry, only : learned_share, wheel_rail_geometry
-   use contact_wheelrail_memory, only : make_coarse_workspace, patch_slot
+   use contact_wheelrail_memory, only : make_coarse_workspace, patch_slot, wheel_rail_memory
    use contact_wheelrail_patch_inputs, only : set_up_patch
    use contact_wheelrail_problem, only : wheel_rail_problem
    implicit none (type, external)
    private
 
-   public :: solve_slot, find_forces, update_share
+   public :: can_skip_tractions, can_step_all, solve_slot, find_forces, update_share
 
 contains
 
@@ -38,7 +39,8 @@ contains
       type(log_type), intent(inout) :: log
       !> Allocated if the patch has no result
       type(error_type), allocatable, intent(out) :: error
-      logical :: is_new, has_friction
+      logical :: is_new, has_friction, keeps_tractions
+      real(wp), allocatable :: ratio(:, :, :)
 
       call set_up_patch(problem, geometry, number, slot, error)
       if (allocated(error)) return
@@ -53,6 +55,8 @@ contains
 
       call link_slot(geometry%before, number, geometry%is_first, geometry%ahead, slot, error)
       if (allocated(error)) return
+      keeps_tractions = geometry%keeps_tractions .and. .not. has_friction .and. slot%state%started
+      if (keeps_tractions) call keep_ratio(slot%state, ratio)
       if (geometry%coarser > 1) then
          call make_coarse_workspace(slot)
          call solve_patch(slot%problem, slot%state, slot%coarse_workspace, log, slot%result, error)
@@ -61,11 +65,53 @@ contains
       end if
       if (allocated(error)) return
       call find_forces(slot)
+      if (keeps_tractions) call estimate_tractions(ratio, geometry%ahead, slot)
       if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
          call update_share(slot)
          if (is_new) call add_share(geometry, slot)
       end if
+      if (.not. with_friction) slot%shares%estimate = slot%friction_share
    end subroutine solve_slot
+
+   !> Tractions relative to the pressures
+   pure subroutine keep_ratio(state, ratio)
+      !> Estimate for a patch
+      type(patch_state), intent(in) :: state
+      !> Shape of the grid, for both components [-]
+      real(wp), allocatable, intent(out) :: ratio(:, :, :)
+      integer :: ix, iy
+
+      associate (now => state%now)
+         allocate(ratio(size(now%pn, 1), size(now%pn, 2), 2))
+         do iy = 1, size(now%pn, 2)
+            do ix = 1, size(now%pn, 1)
+               ratio(ix, iy, :) = 0.0_wp
+               if (now%pn(ix, iy) > 0.0_wp) ratio(ix, iy, :) = [now%px(ix, iy), now%py(ix, iy)]/now%pn(ix, iy)
+            end do
+         end do
+      end associate
+   end subroutine keep_ratio
+
+   !> Estimate the tractions of a patch whose normal problem is solved, and the ratio of friction to the normal force
+   pure subroutine estimate_tractions(ratio, ahead, slot)
+      !> See `keep_ratio`
+      real(wp), intent(in) :: ratio(:, :, :)
+      !> See wheel_rail_geometry
+      real(wp), intent(in) :: ahead
+      type(patch_slot), intent(inout) :: slot
+      integer :: ix, iy
+
+      associate (now => slot%state%now)
+         do iy = 1, size(now%pn, 2)
+            do ix = 1, size(now%pn, 1)
+               now%px(ix, iy) = ratio(ix, iy, 1)*now%pn(ix, iy)
+               now%py(ix, iy) = ratio(ix, iy, 2)*now%pn(ix, iy)
+            end do
+         end do
+      end associate
+      ! more accurate than the sum of these tractions
+      call slot%shares%extrapolate(ahead, slot%friction_share)
+   end subroutine estimate_tractions
 
    !> Ratio of tangential to normal force of a patch whose tangential problem is solved, for the total forces
    pure subroutine update_share(slot)
@@ -190,6 +236,31 @@ contains
          end if
       end associate
    end subroutine link_slot
+
+   !> May a trial that only gives the next height have estimated tractions?
+   !>
+   !> Those of steady rolling, extrapolated from the last cases: their error is smaller than the deviations of such trials.
+   pure logical function can_skip_tractions(problem, memory)
+      !> The problem of wheel and rail
+      type(wheel_rail_problem), intent(in) :: problem
+      !> The geometry says whether the case follows the last one
+      type(wheel_rail_memory), intent(in) :: memory
+
+      can_skip_tractions = memory%geometry%follows_last .and. problem%template%motion == motion%steady_rolling &
+         & .and. .not. problem%template%model%coupled()
+   end function can_skip_tractions
+
+   !> Do all patches allow a linear extrapolation?
+   pure logical function can_step_all(memory)
+      !> Solved patches
+      type(wheel_rail_memory), intent(in) :: memory
+      integer :: k
+
+      can_step_all = .true.
+      do k = 1, memory%used
+         can_step_all = can_step_all .and. can_step(memory%slot(k)%problem, memory%slot(k)%state)
+      end do
+   end function can_step_all
 
    !> Did the last solution have elements of the same size?
    pure logical function same_elements(slot)

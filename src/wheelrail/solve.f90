@@ -46,6 +46,9 @@ contains
       memory%geometry%follows_height = memory%geometry%follows .and. has_one_height(problem%template)
       if (.not. (problem%use_previous .or. memory%geometry%follows_last)) then
          memory%slot%state%started = .false.
+         do k = 1, size(memory%slot)
+            call memory%slot(k)%shares%forget()
+         end do
          memory%used = 0
          memory%geometry%shares = 0
       end if
@@ -84,6 +87,7 @@ contains
       call warn_of_direction(problem, memory%geometry%pitch_rate, log)
       if (problem%in_loop) call memory%course%note(problem%spec%wheelset, merge(problem%spec%wheelset%fz, 0.0_wp, &
          & problem%force_prescribed .and. result%status%is_solved()), memory%geometry%penetration)
+      if (problem%in_loop) call note_shares(memory)
       memory%z_ws = z
       memory%started = .true.
       if (.not. problem%geometry_only) call keep_time_step(problem, memory)
@@ -209,6 +213,20 @@ contains
          if (dropped > 0) call log%warning("the previous case has elements of other sizes; its tractions are not used")
       end associate
    end subroutine begin_step
+
+   !> Store the friction ratios of this case for the next ones
+   pure subroutine note_shares(memory)
+      type(wheel_rail_memory), intent(inout) :: memory
+      integer :: k
+
+      do k = 1, size(memory%slot)
+         if (k <= memory%used) then
+            call memory%slot(k)%shares%note(memory%slot(k)%friction_share)
+         else
+            call memory%slot(k)%shares%forget()
+         end if
+      end do
+   end subroutine note_shares
 
    !> Store the tractions of this case for the next one
    subroutine keep_time_step(problem, memory)

@@ -6,7 +6,7 @@ module contact_wheelrail_trial
    use contact_patch_problem, only : patch_state
    use contact_wheelrail_carry_over, only : lattice_box, lattice_window, max_patches
    use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, wheel_rail_geometry, place
-   use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
+   use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot, share_history
    use contact_wheelrail_patch_solution, only : solve_slot
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_region, only : contact_region
@@ -143,6 +143,7 @@ contains
             call exchange(memory%slot(k), memory%slot(best))
          else if (best == 0) then
             memory%slot(k)%state%started = .false.
+            call memory%slot(k)%shares%forget()
          end if
       end do
    end subroutine match_slots
@@ -152,6 +153,7 @@ contains
       type(patch_slot), intent(inout) :: a, b
       type(patch_state) :: state
       type(lattice_window) :: window
+      type(share_history) :: shares
 
       state = a%state
       a%state = b%state
@@ -159,6 +161,9 @@ contains
       window = a%solved_window
       a%solved_window = b%solved_window
       b%solved_window = window
+      shares = a%shares
+      a%shares = b%shares
+      b%shares = shares
    end subroutine exchange
 
    !> Store the friction ratios of all patches
