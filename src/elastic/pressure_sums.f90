@@ -49,15 +49,16 @@ module contact_elastic_pressure_sums
       end subroutine sums_over_rows
 
       !> Elements before and up to the end of the range of positive values in each row, 0 if there are none
-      pure subroutine positive_ranges(mx, my, a, stride, ranges) bind(c, name="contact_sums_ranges")
+      pure subroutine positive_ranges(mx, my, a, first, ranges) bind(c, name="contact_sums_ranges")
          import :: c_double, c_int
          !> Size of the field
          integer(c_int), value :: mx, my
          !> Field
          real(c_double), intent(in) :: a(mx, my)
-         !> Number of integers from one range to the next, and the two numbers of the first row
-         integer(c_int), value :: stride
-         integer(c_int), intent(inout) :: ranges(*)
+         !> Number of integers of each row before those that are set
+         integer(c_int), value :: first
+         !> Ranges as in `sums_over_rows`
+         integer(c_int), intent(inout) :: ranges(4, my)
       end subroutine positive_ranges
    end interface
 
@@ -180,9 +181,9 @@ contains
          if (size(ranges, 2) < size(a, 2)) deallocate(ranges)
       end if
       if (.not. allocated(ranges)) allocate(ranges(4, 2*size(a, 2)))
-      call positive_ranges(size(a, 1), size(a, 2), a, 4, ranges(1, 1))
+      call positive_ranges(size(a, 1), size(a, 2), a, 0, ranges)
       if (present(b)) then
-         call positive_ranges(size(b, 1), size(b, 2), b, 4, ranges(3, 1))
+         call positive_ranges(size(b, 1), size(b, 2), b, 2, ranges)
       else
          do iy = 1, size(a, 2)
             ranges(3:4, iy) = ranges(1:2, iy)

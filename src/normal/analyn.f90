@@ -234,7 +234,7 @@ contains
       ! parabola through 2 k + 1 equidistant samples
       n = 2*k + 1
       sum2 = real(k*(k + 1)*(2*k + 1)/3, wp)
-      sum4 = 0.2_wp*(3*k*(k + 1) - 1)*sum2
+      sum4 = real(k*(k + 1)*(2*k + 1)*(3*k*(k + 1) - 1)/15, wp)
       moment0 = 0.0_wp
       moment2 = 0.0_wp
       do i = -k, k

@@ -10,8 +10,8 @@ module contact_numeric_vectors
 
    public :: add, add_four, clear_numbers, copy_numbers, inner, inner_four, largest_difference, largest_of, smallest_of
 
-   !> Numbers that are copied or set by one call of the C library: it uses string instructions for more than two kilobytes, whose start
-   !> takes as long as copying so many
+   !> Numbers that are copied or set by one call of the C library: it uses string instructions for more than two kilobytes, whose
+   !> start takes as long as copying so many
    integer, parameter :: part = 128
 
    interface

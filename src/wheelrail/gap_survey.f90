@@ -299,9 +299,11 @@ contains
          self%piece(n) = k
          self%place(n) = (self%y(k) - y(i))/(self%y(k) - self%y(k + 1))*(wheel%y%s(k + 1) - wheel%y%s(k))
       end do
-      call find_locus(n, self%target, self%piece, wheel%y%s, wheel%y%c, wheel%z%c, placement%wheel%origin, &
-         & placement%wheel%axes, placement%wheel_radius, furthest, steepest, lateral_accuracy, along_accuracy, most_steps, &
-         & self%place, self%found_x, self%found_z, self%found)
+      associate (wheel_frame => placement%wheel)
+         call find_locus(n, self%target, self%piece, self%profile%n - 1, wheel%y%s, wheel%y%c, wheel%z%c, wheel_frame%origin, &
+            & wheel_frame%axes, placement%wheel_radius, furthest, steepest, lateral_accuracy, along_accuracy, most_steps, &
+            & self%place, self%found_x, self%found_z, self%found)
+      end associate
       do j = 1, n
          i = self%index(j)
          if (self%found(j) == 1) then

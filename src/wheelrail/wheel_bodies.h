@@ -123,7 +123,7 @@ TARGET static void OF(nodes)(int n, const double *y, const double *z, const doub
 }
 
 /* Points of the locus at given lateral positions, each on its piece, by Newton's method */
-TARGET static void OF(locus)(int n, const double *target, const int *piece, const double *ends, const double *cy, const double *cz,
+TARGET static void OF(locus)(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
                              const double *origin, const double *axes, double radius, double furthest, double steepest,
                              double accuracy, double tolerance, int most_steps, const double *place, double *x, double *z, int *found) {
   const four zero = {0.0, 0.0, 0.0, 0.0}, most = zero + furthest * radius, steep = zero + steepest;
@@ -132,7 +132,7 @@ TARGET static void OF(locus)(int n, const double *target, const int *piece, cons
     four aim, t, length;
     for (int lane = 0; lane < 4; lane++) {
       const int point = i + lane < n ? i + lane : n - 1;
-      k[lane] = piece[point] - 1;
+      k[lane] = (piece[point] < pieces ? piece[point] : pieces) - 1;
       aim[lane] = target[point];
       t[lane] = place[point];
       length[lane] = ends[k[lane] + 1] - ends[k[lane]];

@@ -8,7 +8,7 @@ void contact_wheel_spread(const double *powers, const double *node, int n, doubl
 void contact_wheel_nodes(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
                          double radius, double furthest, double start, double per_step, int points, double *x, double *across,
                          double *height, int *below);
-void contact_wheel_locus(int n, const double *target, const int *piece, const double *ends, const double *cy, const double *cz,
+void contact_wheel_locus(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
                          const double *origin, const double *axes, double radius, double furthest, double steepest, double accuracy,
                          double tolerance, int most_steps, const double *place, double *x, double *z, int *found);
 
@@ -31,9 +31,9 @@ void contact_wheel_nodes(int n, const double *y, const double *z, const double *
   CALL(nodes, n, y, z, lean, origin, axes, radius, furthest, start, per_step, points, x, across, height, below);
 }
 
-void contact_wheel_locus(int n, const double *target, const int *piece, const double *ends, const double *cy, const double *cz,
+void contact_wheel_locus(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
                          const double *origin, const double *axes, double radius, double furthest, double steepest, double accuracy,
                          double tolerance, int most_steps, const double *place, double *x, double *z, int *found) {
-  CALL(locus, n, target, piece, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, tolerance, most_steps, place, x, z,
+  CALL(locus, n, target, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, tolerance, most_steps, place, x, z,
        found);
 }

@@ -17,7 +17,7 @@ module contact_wheelrail_wheel_loops
          !> Number of pieces of the profile
          integer(c_int), value :: pieces
          !> Their ends [mm]; coefficients of lateral position and height
-         real(c_double), intent(in) :: ends(*), cy(0:3, *), cz(0:3, *)
+         real(c_double), intent(in) :: ends(pieces + 1), cy(0:3, pieces), cz(0:3, pieces)
          !> Radius of the wheel at the origin of its profile [mm]
          real(c_double), value :: radius
          !> In the axes of the wheel: a point of the plane for x = 0 [mm], direction of x, direction of the lines
@@ -64,8 +64,9 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(in) :: origin(3), axes(3, 3)
          !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it
          real(c_double), value :: radius, furthest
-         !> First lateral position of a mesh [mm], reciprocal of its width [1/mm], and number of its points
+         !> First lateral position of a mesh [mm], and reciprocal of its width [1/mm]
          real(c_double), value :: start, per_step
+         !> Number of points of the mesh
          integer(c_int), value :: points
          !> Coordinates of the locus in the track [mm]
          real(c_double), intent(inout) :: x(n), across(n), height(n)
@@ -74,16 +75,19 @@ module contact_wheelrail_wheel_loops
       end subroutine survey_nodes
 
       !> Points of the contact locus of a round wheel on a track at given lateral positions
-      pure subroutine find_locus(n, y, piece, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, tolerance, &
-         & most_steps, place, x, z, found) bind(c, name="contact_wheel_locus")
+      pure subroutine find_locus(n, y, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, &
+         & tolerance, most_steps, place, x, z, found) bind(c, name="contact_wheel_locus")
          import :: c_double, c_int
          !> Number of points
          integer(c_int), value :: n
-         !> Lateral positions in the track [mm], and the piece of the profile on which each is expected
+         !> Lateral positions in the track [mm]
          real(c_double), intent(in) :: y(n)
+         !> Piece of the profile on which each point is expected
          integer(c_int), intent(in) :: piece(n)
-         !> Ends of all pieces [mm], and coefficients of lateral position and height
-         real(c_double), intent(in) :: ends(*), cy(0:3, *), cz(0:3, *)
+         !> Number of pieces
+         integer(c_int), value :: pieces
+         !> Their ends [mm], and coefficients of lateral position and height
+         real(c_double), intent(in) :: ends(pieces + 1), cy(0:3, pieces), cz(0:3, pieces)
          !> Origin [mm] and axes of the wheel in the track
          real(c_double), intent(in) :: origin(3), axes(3, 3)
          !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it

@@ -39,8 +39,8 @@ module contact_wheelrail_wheel_rows
       !> Points at which heights are computed [mm]: all, or `terms`
       real(wp) :: nodes(terms) = 0.0_wp
       integer :: few = 0
-      !> Positions on the profile (1...terms) and heights of previous rows at the nodes [mm], the last row first, and number of known
-      !> rows
+      !> Positions on the profile (1...terms) and heights of previous rows at the nodes [mm], the last row first, and number of
+      !> known rows
       real(wp) :: rows(2*terms, remembered) = 0.0_wp
       integer :: known = 0
       !> Initial values of the first point of a row: position on the profile and height [mm]

@@ -344,6 +344,10 @@ int main(int count, char **word) {
     theory = 5;
     pressures = 0;
     compare_with_fresh(6, 1.0, 40, 24, 2);
+    pressures = 5;
+    compare_with_fresh(6, 1.0, 40, 24, 2);
+    pressures = 6;
+    compare_with_fresh(6, 1.0, 40, 24, 2);
   } else if (simplified) {
     simplify(steps);
   } else if (derivatives) {

@@ -1,7 +1,9 @@
 /* Loops in C over vectors, elements and spectra, of all kinds of processors that this one can be, against their definition, and
  * against each other; those between transforms have test_lines.c */
+#include "elastic/sum_loops.c"
 #include "normal/gradient_loops.c"
 #include "numeric/vectors.c"
+#include "patch/field_loops.c"
 #include "subsurface/pack_products.c"
 #include "tangential/slip_loops.c"
 
@@ -20,10 +22,31 @@ typedef struct {
 static double from[FIELDS][ROOM], creep[2], r, factor;
 static int contact[LONGEST];
 
-enum { INNER, ADD, INNER_FOUR, ADD_FOUR, GAP_SUMS, RESIDUALS, CHOOSE_FREE, FREE_SUMS, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
+enum { INNER, ADD, INNER_FOUR, ADD_FOUR, SMALLEST, LARGEST, FARTHEST, SUBTRACT, MARK, RANGES, GAP_SUMS, RESIDUALS, CHOOSE_FREE, FREE_SUMS, PROJECT, TURN, GO_ALONG, SLIP_RESIDUAL, STEP, LINEARISE,
        PROJECT_CHANGE, JACOBIAN, JOIN, COLUMN, KINDS };
 
 static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
+
+/* States of elements as numbers, of which every other one was exterior (0) before, every third one in slip (2) */
+static int marked(int (*mark)(int, int, int, const double *, double *, double *, int *), int n, const double *pn, buffers *z) {
+  int division[LONGEST], touching;
+  for (int k = 0; k < n; k++) division[k] = k % 2 == 0 ? 0 : k % 3 == 0 ? 2 : 1;
+  touching = mark(n, 0, 1, pn, z->a, z->b, division);
+  for (int k = 0; k < n; k++) z->c[k] = division[k];
+  return touching;
+}
+
+/* Range of positive numbers of a row, and of another one without any */
+static void find_range(void (*ranges)(int, int, const double *, int, int *), int n, const double *a, buffers *z) {
+  double rows[2 * LONGEST] = {0.0};
+  int found[6] = {-1, -1, -1, -1, -1, -1};
+  for (int k = 0; k < n; k++) {
+    rows[k] = a[k] > 0.5 ? a[k] : 0.0;
+    rows[n + k] = -fabs(a[k]);
+  }
+  ranges(n, 2, rows, 3, found);
+  for (int k = 0; k < 6; k++) z->c[k] = found[k];
+}
 
 #define LOOPS(processor) \
   static void try_##processor(int kind, int n, buffers *z) { \
@@ -33,6 +56,12 @@ static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
       case ADD: add_##processor(n, factor, f[0], z->a); break; \
       case INNER_FOUR: inner_four_##processor(n, ROOM, f[0], f[4], z->sums); break; \
       case ADD_FOUR: add_four_##processor(n, ROOM, f[4], f[0], z->a); break; \
+      case SMALLEST: z->sums[0] = smallest_##processor(n, f[0]); break; \
+      case LARGEST: z->sums[0] = largest_##processor(n, f[0]); break; \
+      case FARTHEST: z->sums[0] = farthest_##processor(n, f[0], f[1]); break; \
+      case SUBTRACT: subtract_##processor(n, factor, 0.5, z->a); break; \
+      case MARK: z->sums[0] = marked(mark_##processor, n, f[2], z); break; \
+      case RANGES: find_range(ranges_##processor, n, f[2], z); break; \
       case GAP_SUMS: gap_sums_##processor(n, f[0], f[1], f[2], z->sums); break; \
       case RESIDUALS: z->sums[0] = residuals_##processor(n, r, f[0], f[1], f[2], z->a); break; \
       case CHOOSE_FREE: choose_free_##processor(n, f[2], f[0], 0.5, z->a, z->b); break; \
@@ -144,7 +173,31 @@ static void define_tractions(int kind, int n, int k, buffers *z) {
   }
 }
 
+/* Extrema, states and ranges of n elements */
+static void define_fields(int kind, int n, buffers *z) {
+  int before = 0, end = n;
+  z->sums[0] = kind == SMALLEST ? INFINITY : kind == LARGEST ? -INFINITY : kind == FARTHEST || kind == MARK ? 0.0 : z->sums[0];
+  for (int k = 0; k < n; k++) {
+    if (kind == SMALLEST) z->sums[0] = fmin(z->sums[0], from[0][k]);
+    if (kind == LARGEST) z->sums[0] = fmax(z->sums[0], from[0][k]);
+    if (kind == FARTHEST) z->sums[0] = fmax(z->sums[0], fabs(from[0][k] - from[1][k]));
+    if (kind == SUBTRACT && z->a[k] < 0.5) z->a[k] -= factor;
+    if (kind != MARK) continue;
+    z->c[k] = from[2][k] > 0.0 ? (k % 2 == 0 || k % 3 != 0 ? 1.0 : 2.0) : 0.0;
+    z->sums[0] += from[2][k] > 0.0;
+    if (!(from[2][k] > 0.0)) z->a[k] = z->b[k] = 0.0;
+  }
+  if (kind != RANGES) return;
+  while (end > 0 && from[2][end - 1] <= 0.5) end--;
+  while (before < end && from[2][before] <= 0.5) before++;
+  for (int k = 0; k < 6; k++) z->c[k] = k == 0 ? before : k == 1 ? end : k == 2 || k == 5 ? -1.0 : 0.0;
+}
+
 static void define(int kind, int n, buffers *z) {
+  if (kind >= SMALLEST && kind <= RANGES) {
+    define_fields(kind, n, z);
+    return;
+  }
   for (int k = 0; k < n; k++) {
     if (kind == COLUMN) {
       const double f = k <= n / 2 ? from[0][k] : factor * from[0][n - k], re = f * from[1][2 * k], im = f * from[1][2 * k + 1];
@@ -221,6 +274,12 @@ int main(void) {
     from[2][k] = 1.0;
     try_anywhere(RESIDUALS, LONGEST, &z);
     if (z.sums[0] <= 1e300) wrong++;
+  }
+  /* but no extremum */
+  for (int k = 0; k < LONGEST; k++) {
+    double a[LONGEST] = {0.0};
+    a[k] = NAN;
+    if (smallest_anywhere(LONGEST, a) != 0.0 || largest_anywhere(LONGEST, a) != 0.0) wrong++;
   }
   printf("%d loops, %d wrong numbers, %d other with AVX2%s\n", tried, wrong, unlike, wide ? "" : ", which is not here");
   return wrong != 0 || unlike != 0;

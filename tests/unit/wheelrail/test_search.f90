@@ -338,7 +338,8 @@ contains
          call place_wheel_rail(pair, wheel, top_z, gauge_y, cases(4, k), [0.0_wp, 0.0_wp], placement)
          in_track = rail_in_track(rail, placement)
          call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
-         call compare_survey(suite, trim(what), in_track, wheel, placement, pair%search%ds, gap)
+         call compare_survey(suite, trim(what), in_track, wheel, placement, pair%search%ds, gap, 1.0e-12_wp)
+         call surveys_of_yawed_wheels(suite, trim(what), pair, rail, wheel, top_z, gauge_y, cases(4, k))
          call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
          call suite%equal(size(regions), 1, trim(what) // ": one patch")
          if (size(regions) /= 1) cycle
@@ -356,8 +357,42 @@ contains
       end do
    end subroutine benchmark
 
+   !> Surveys at other yaw angles and for larger elements, up to those of wheels in a switch
+   subroutine surveys_of_yawed_wheels(suite, what, pair, rail, wheel, top_z, gauge_y, z)
+      type(test_suite), intent(inout) :: suite
+      !> Name of the position
+      character(len=*), intent(in) :: what
+      !> Position of the wheelset
+      type(wheel_rail_spec), intent(in) :: pair
+      !> Profiles, and placement of the rail as for `place_wheel_rail`
+      type(profile_curve), intent(in) :: rail, wheel
+      real(wp), intent(in) :: top_z, gauge_y, z
+      !> [rad]
+      real(wp), parameter :: yaw(4) = [0.0_wp, 1.0e-3_wp, -8.0e-3_wp, 4.0e-2_wp]
+      real(wp), parameter :: side = 1.0_wp
+      !> Points of the locus are accurate to 1e-11 mm across the track, hence gaps on flanks to some 1e-11, and the minima of
+      !> parabolas through points of a coarse mesh, where the gap rises steeply to both sides, to some 1e-10 [mm]
+      real(wp), parameter :: on_flank = 1.0e-9_wp
+      type(wheel_rail_spec) :: turned
+      type(wheel_rail_placement) :: placement
+      type(profile_curve) :: in_track
+      type(gap_curve) :: whole
+      character(len=12) :: angle
+      integer :: k
+
+      turned = pair
+      do k = 1, size(yaw)
+         write(angle, "(f8.4,a)") yaw(k), " rad"
+         turned%wheelset%yaw = yaw(k)
+         call place_wheel_rail(turned, wheel, top_z, gauge_y, z, [0.0_wp, 0.0_wp], placement)
+         in_track = rail_in_track(rail, placement)
+         call measure_gap(in_track, wheel, placement, side, whole)
+         call compare_survey(suite, what // ", yaw" // angle, in_track, wheel, placement, side, whole, on_flank)
+      end do
+   end subroutine surveys_of_yawed_wheels
+
    !> A gap that is found exactly near its smallest value only, against one that is found everywhere
-   subroutine compare_survey(suite, what, rail, wheel, placement, ds, whole)
+   subroutine compare_survey(suite, what, rail, wheel, placement, ds, whole, tolerance)
       type(test_suite), intent(inout) :: suite
       !> Name of the position
       character(len=*), intent(in) :: what
@@ -367,13 +402,16 @@ contains
       real(wp), intent(in) :: ds
       !> The gap of this position
       type(gap_curve), intent(in) :: whole
+      !> Of the smallest gap [mm]
+      real(wp), intent(in) :: tolerance
       !> [mm]; estimates are right within their own bound
       real(wp), parameter :: reach = 0.2_wp, estimate_error = 0.05_wp
       type(gap_curve) :: surveyed
       integer :: estimated
 
       call measure_gap(rail, wheel, placement, ds, surveyed, reach=reach)
-      call suite%close_to(smallest_gap(surveyed), smallest_gap(whole), 1.0e-12_wp, what // ": smallest gap, estimates beyond")
+      call suite%close_to(smallest_gap(surveyed), smallest_gap(whole), tolerance, what // ": smallest gap, &
+         &estimates beyond")
       associate (difference => abs(surveyed%gap - whole%gap), near => whole%gap < minval(whole%gap) + reach)
          call suite%close_to(maxval(difference, mask=near), 0.0_wp, 1.0e-10_wp, what // ": gaps within reach")
          call suite%close_to(maxval(difference, mask=whole%gap < no_surface), 0.0_wp, estimate_error, what // ": estimates")
