@@ -270,13 +270,21 @@ contains
    !> Compute the gap exactly at the marked points that have one piece of the wheel above them
    pure subroutine compute(self, wheel, placement, y, z, gap, x, n_left, left)
       class(gap_survey), intent(inout) :: self
-      !> See `look`
+      !> Profile of a round wheel, as in the last call of `look`
       type(profile_curve), intent(in) :: wheel
+      !> Position of the bodies, as in the last call of `look`
       type(wheel_rail_placement), intent(in) :: placement
-      real(wp), intent(in) :: y(:), z(:)
-      real(wp), intent(inout) :: gap(:), x(:)
-      !> Number of points that remain to be computed, and their indices: several pieces or another one may be above them
+      !> Lateral positions of the mesh [mm]
+      real(wp), intent(in) :: y(:)
+      !> Heights of the rail [mm]
+      real(wp), intent(in) :: z(:)
+      !> Gap [mm]; set at the points that are computed
+      real(wp), intent(inout) :: gap(:)
+      !> Longitudinal position of the locus [mm]; set at the points that are computed
+      real(wp), intent(inout) :: x(:)
+      !> Number of points that remain to be computed: several pieces or another one may be above them
       integer, intent(out) :: n_left
+      !> Their indices; as many elements as points of the mesh
       integer, intent(inout) :: left(:)
       !> Maximum number of steps of Newton's method
       integer, parameter :: most_steps = 10
