@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Threads of a caller with problems of different units and settings: each result, to the last digit, is that of the same calls alone.
+"""Threads of a caller with different settings: each result is that of the same calls alone, to the last digit.
 
 Each thread has one problem, a wheel on a rail or a contact of two bodies, and changes one setting at random before each call, as in
-changes.py: order, estimated errors, friction, material, search, wear, units of the results. All of them run one after the other, then
-at the same time.
+changes.py: order, estimated errors, friction, material, search, wear. Forces are read in several units, stresses and derivatives
+too. The threads run one after the other, and then at the same time.
 
     concurrent.py [--threads N] [--changes N] [--seed S]
 """
@@ -29,7 +29,7 @@ def bits(value):
 
 
 def everything(problem, result, how):
-    """All numbers of a result, and forces in units of a second caller"""
+    """All numbers of a result"""
     found = [how]
     if result is None:
         return found

@@ -57,7 +57,8 @@ def run(example):
         with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
             file.write(text)
         commands = [("convert", "x.inp"), ("explain", "x.toml"), ("explain", "--accuracy", "1e-2", "x.inp"), ("3", "x.toml")]
-        commands += [("--quiet", "--json", "--limit-time", "0.5", *options, "2", name) for options in SETS for name in ("x.inp", "x.toml")]
+        commands += [("--quiet", "--json", "--limit-time", "0.5", *options, "2", name)
+                     for options in SETS for name in ("x.inp", "x.toml")]
         for command in commands:
             try:
                 wrong = complaint(program(folder, *command), folder)
