@@ -96,6 +96,8 @@ static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
   /* Critical sections that the thread is in */
   int criticals;
   void **critical[max_criticals];
+  /* Was work abandoned, whose end is being handled? */
+  int after;
 } guarded_thread;
 #define me guarded_thread
 
@@ -126,6 +128,11 @@ static struct {
 
 enum { unit = 64, reserve_size = 8 << 20, largest_piece = 1 << 20 };
 
+/* Our own code leaves so much to other libraries, and to the work that closes files after it ran out of memory [bytes]; these get
+ * larger pieces, too. HDF5 1.10 damages the heap if a request of its free lists is refused: H5FL_blk_malloc counts in a node that
+ * its garbage collection has freed; they ask for up to 1 MB and a head */
+enum { kept_back = 4 << 20 };
+
 struct piece {
   size_t size; /* with this head; a multiple of unit */
   _Atomic int used;
@@ -143,9 +150,10 @@ static inline int in_reserve(const void *p) { return (uintptr_t)p - (uintptr_t)r
 
 static struct piece *piece_of(void *p) { return (struct piece *)((unsigned char *)p - unit); }
 
-static void *take_from_reserve(size_t n, size_t align) {
+/* A piece of the first `most` bytes of the reserve; it is small unless that is all of it */
+static void *take_from_reserve(size_t n, size_t align, size_t most) {
   void *found = NULL;
-  if (n > largest_piece || align > 4096) return NULL;
+  if ((n > largest_piece && most < reserve_size) || n > kept_back || align > 4096) return NULL;
   const size_t wanted = unit + (n + unit - 1)/unit*unit;
   while (atomic_flag_test_and_set_explicit(&reserve_lock, memory_order_acquire)) continue;
   struct piece *first = (struct piece *)reserve;
@@ -161,7 +169,7 @@ static void *take_from_reserve(size_t n, size_t align) {
         piece->size += next->size;
       }
       const size_t shift = (align - (size_t)((uintptr_t)(reserve + at + unit)%align))%align;
-      if (piece->size >= wanted + shift) {
+      if (piece->size >= wanted + shift && at + shift + wanted <= most) {
         if (shift > 0) {
           const size_t rest = piece->size - shift;
           piece->size = shift;
@@ -229,6 +237,7 @@ static inline int forget(void *p) {
 
 /* Free the blocks of an owner whose work was abandoned; they must not be used any more */
 void contact_guard_free(int owner) {
+  me.after = 0;
   if (owner == 0) return;
   for (unsigned k = 0; k < table_size; k++) {
     void *p = table[k].block;
@@ -280,6 +289,7 @@ static _Noreturn void leave_all(int cause) {
     if (me.criticals < max_criticals) real.leave(me.critical[me.criticals]);
   }
   guard->cause = cause;
+  me.after = 1;
   longjmp(guard->place, 1);
 }
 
@@ -287,7 +297,7 @@ static _Noreturn void leave_all(int cause) {
 
 static void *serve(size_t n, size_t align, int own) {
   if (me.guard == NULL && !whole_process) return NULL;
-  void *p = take_from_reserve(n, align);
+  void *p = take_from_reserve(n, align, own && !me.after ? reserve_size - kept_back : reserve_size);
   if (p == NULL && own && me.guard != NULL && !me.expects) leave_all(no_memory);
   if (p == NULL) errno = ENOMEM;
   return p;
@@ -527,7 +537,7 @@ struct detours {
 #define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
 
 /* Libraries that end the process, or whose memory is freed here */
-static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libquadmath."};
+static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libz.", "libquadmath."};
 
 static int begins_with_one(const char *name, const char *const *list, size_t count) {
   for (size_t k = 0; k < count; k++)

@@ -236,6 +236,19 @@ class Surroundings(Scratch):
         self.assertEqual(status, 1)
         self.assertIn("not complete", err)
 
+    @unittest.skipIf(IS_INSTRUMENTED, "sanitizers need address space")
+    def test_little_memory_for_a_wheel_with_hdf5(self):
+        """Requests of HDF5 are not refused when the solver has run out of memory: its free lists do not stand that"""
+        os.symlink(SOURCE / "examples" / "profiles", self.folder / "profiles")
+        shutil.copy(SOURCE / "examples" / "single_wheel.inp", self.folder / "w.inp")
+        for megabytes in range(42, 54):
+            limit = 1000000 * megabytes
+            status, _, err = self.run_program("--quiet", "--threads", "1", "--hdf5", "2", "w",
+                                              preexec_fn=lambda at=limit: resource.setrlimit(resource.RLIMIT_AS, (at, at)))
+            # 127: the system has not enough to load the program
+            self.assertIn(status, (0, 1, 127), (megabytes, err[:200]))
+            self.assertEqual(err == "", status == 0, megabytes)
+
     def test_variables_of_the_run_time_library(self):
         self.assertEqual(self.run_program("--json", "2", "a")[0], 0)
 
