@@ -1,7 +1,7 @@
 #!/bin/sh
 # Build the site of the manual in build/site: all pages of doc with a menu and a search, readable offline. Warnings, such as broken
-# links, are errors. Python tools are installed into build/site-tools once. If the program has been built, the tutorials are executed
-# as notebooks and their plots are included in the pages. Usage: build.sh [FOLDER]
+# links, are errors. Python tools are installed into build/site-tools once. If the program has been built, the tutorials are
+# executed as notebooks and their plots are included in the pages. Usage: build.sh [FOLDER]
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/build/site}

@@ -3,7 +3,7 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %
 %   opt = plot_2dspline                  the options with their default values
 %   plot_2dspline( slcs, opt )
-%   plot_2dspline( sol, slcs, opt )      sol: struct of LOADCASE, or []: with it, positions on rails are relative to the contact: u - s_ws
+%   plot_2dspline( sol, slcs, opt )      sol: struct of LOADCASE, or []: with it, positions on rails are relative to s_ws
 %
 %   slcs   struct of READ_SLICES, or of READ_PROFILE for such a file
 %

@@ -8,7 +8,7 @@ function [ h ] = plot_axes3( O, scl, rot, axnams, col, mrksiz, fontsiz, txtcol, 
 %   rot      3 x 3 rotation matrix, or angles [roll yaw pitch] in degrees, for the matrix roll * yaw * pitch of a wheelset (default 0)
 %   axnams   names of the axes: letters, or an array or cell array of texts (default 'xyz')
 %   col, mrksiz, fontsiz, txtcol, th_txt   as for PLOT_AXES
-%   fac_txt  positions of the names relative to scl: one number, one for each axis, or a 3 x 3 array with a row for each (default 1.15)
+%   fac_txt  positions of the names relative to scl: one number, one per axis, or a 3 x 3 array with one row each (default 1.15)
 %   no_head, left_hnd   1: without heads; angles in the opposite direction (default 0)
 %
 %   h        handles: shaft, head and name of each axis, and the mark in the origin

@@ -1,5 +1,5 @@
 function [ d ] = bspline_derivative( t, k )
-% BSPLINE_DERIVATIVE  Matrix d that converts coefficients c of a spline of order k to those of its derivative, d * c, on the same knots.
+% BSPLINE_DERIVATIVE  Matrix d that converts coefficients c of a spline of order k to those of its derivative, d * c.
 %
 %   t   n knots;  d   sparse, (n-k+1) x (n-k)
 

@@ -79,7 +79,7 @@ function [ file, name ] = find_library( )
          end
       end
    end
-   error('contact: the library %s was not found in bin or build/release/bin of %s; set the environment variable CONTACT_LIBRARY to its path.', ...
+   error('contact: the library %s was not found in bin or build/release/bin of %s; set CONTACT_LIBRARY to its path.', ...
          name, top);
 
 end % function find_library

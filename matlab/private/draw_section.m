@@ -1,9 +1,9 @@
 function draw_section( sol, opt, prr, prw, which, subs )
 % DRAW_SECTION  Rear view (y,z) or side view (x,z) of PLOT3D: outlines of rail and wheel, with bars for the values.
 %
-% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. For each row of elements (side view: column)
-% the value of largest magnitude is drawn from the surface along the normal of the contact into the body, over the stresses of
-% the blocks subs.
+% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. For each row of
+% elements (side view: column) the value of largest magnitude is drawn from the surface along the normal of the contact into the
+% body, over the stresses of the blocks subs.
 
    body = 'r';
    if (strcmp(opt.rw_surf, 'prw'))

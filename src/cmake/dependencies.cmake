@@ -13,8 +13,8 @@ add_library(hdf5_fortran INTERFACE)
 target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
 target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})
 
-# Transforms: FFTW, MKL with the same interface, or pocketfft, whose source is included. CONTACT_FFT_LINK: libraries required by programs
-# with the static library; CONTACT_FFT_NAME: name shown by contact --version, because the licence of the binary depends on it
+# Transforms: FFTW, MKL with the same interface, or pocketfft, whose source is included. CONTACT_FFT_LINK: libraries required by
+# programs with the static library; CONTACT_FFT_NAME: name shown by contact --version, because the licence of the binary depends on it
 set(CONTACT_FFT fftw CACHE STRING "Library of Fourier transforms: fftw, mkl or pocketfft")
 set_property(CACHE CONTACT_FFT PROPERTY STRINGS fftw mkl pocketfft)
 if(CONTACT_FFT STREQUAL "fftw")

@@ -3,7 +3,7 @@ set(CONTACT_REFERENCE ${PROJECT_SOURCE_DIR}/../shared/reference CACHE PATH
   "Reference data; tests that need it are skipped when it is absent")
 
 # Compile tests without optimisation: the tested code is compiled in its rooms, with optimisation and instrumentation.
-# With -O1 scopes with cases and results take a minute, because the compiler copies the release of their components into each of them
+# With -O1 scopes with cases and results take a minute, because the compiler copies the release of their components into each
 function(contact_quick_compilation target)
   target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O0>)
   if(CONTACT_SANITIZE)

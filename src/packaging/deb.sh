@@ -1,6 +1,6 @@
 #!/bin/sh
 # Packages for Debian: program, library, headers, Python, Matlab, manual, by the files in debian/. Usage: deb.sh [FOLDER]; results
-# are in FOLDER, default build/packages. Needs debhelper, dh-python and the requirements of a build; DEBMAINTAINER is the maintainer named in them
+# are in FOLDER, default build/packages. Needs debhelper, dh-python and the requirements of a build; DEBMAINTAINER: maintainer
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 out=${1:-$top/build/packages}

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Build a wheel with program and library, and the source distribution, and test both in clean environments.
-# Usage: wheel.sh [FOLDER]; results are in FOLDER, default build/packages. Needs the requirements of a build, a C++ compiler and the network
+# Usage: wheel.sh [FOLDER]; results are in FOLDER, default build/packages. Needs a build environment, a C++ compiler and the network
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
 out=${1:-$top/build/packages}

@@ -15,7 +15,7 @@
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
  * inject_memory(n, for_ever, size) begins to count, inject_counted() returns the count.
  *
- * Streams of the C library call their own write and close: fopen and fdopen for writing create streams that call those defined here.
+ * Streams of the C library call their own write and close: fopen and fdopen for writing create streams that call those here.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>

@@ -266,7 +266,7 @@ int main(int argc, char **argv) {
   alarm(0);
   cntc_finalizelast();
   is_over = 1;
-  printf("%s: %ld requests, %ld refusals: %ld correct results, %ld errors, %ld failures; %ld kB more\n", kind, requests, right + errors,
-         right, errors, failures, resident() - before);
+  printf("%s: %ld requests, %ld refusals: %ld correct results, %ld errors, %ld failures; %ld kB more\n", kind, requests,
+         right + errors, right, errors, failures, resident() - before);
   return failures != 0;
 }

@@ -113,7 +113,7 @@ class Viewer(Page):
 
     def test_touch(self):
         page = self.open(self.page_of("wheel_on_rail"), viewport=PHONE, has_touch=True, is_mobile=True)
-        self.assertIn("tap a picture", page.inner_text("#readout"))
+        self.assertIn("tap a plot", page.inner_text("#readout"))
         send = self.processor.send
         page.locator("#map-pn").scroll_into_view_if_needed()
         box = page.locator("#map-pn").bounding_box()
