@@ -376,7 +376,7 @@ class Hostile(unittest.TestCase):
             run = subprocess.run([PROGRAM, "report", "--serve", self.folder, "--port", port], stdin=subprocess.DEVNULL,
                                  env=self.environment(), capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 2, run.stderr)
-            self.assertIn("ports are the numbers", run.stderr)
+            self.assertIn("port numbers are 0 to 65535", run.stderr)
             self.assertNotIn("Traceback", run.stderr)
         run = subprocess.run([PROGRAM, "report", "--serve", self.folder, "--port", str(self.port)], stdin=subprocess.DEVNULL,
                              env=self.environment(), capture_output=True, text=True, timeout=60)
