@@ -11,18 +11,16 @@
 enum { LONGEST = 19, ROOM = LONGEST, GUARD = 1 };
 
 typedef struct {
-  double complex a[ROOM + 2 * GUARD], b[ROOM + 2 * GUARD];
+  double complex a[ROOM + 2 * GUARD];
 } buffers;
 
 typedef struct {
   void (*one)(int, const double *, double *);
-  void (*turn)(int, const double *, double *);
-  void (*opposites)(int, const double *, const double *, const double *, double *, double *);
   void (*pair)(int, const double *, const double *, const double *, double *);
   void (*turn_pair)(int, const double *, double *);
 } loops;
 
-static double complex turned, factor[LONGEST];
+static double complex factor[LONGEST];
 static double xx[LONGEST], yy[LONGEST], xy[LONGEST];
 
 static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
@@ -34,17 +32,15 @@ static double complex any_complex(void) {
 
 static double *reals(double complex *z) { return (double *)z; }
 
-enum { ONE, TURN, OPPOSITES, PAIR, TURN_PAIR, KINDS };
+enum { ONE, PAIR, TURN_PAIR, KINDS };
 
 /* Test with n numbers; true if it takes a line of that length, as those of real rows are even or 1 */
 static int takes(int kind, int n) { return kind < PAIR || n == 1 || n % 2 == 0; }
 
 static void try_loop(const loops *l, int kind, int n, buffers *z) {
-  double *a = reals(z->a + GUARD), *b = reals(z->b + GUARD);
+  double *a = reals(z->a + GUARD);
   switch (kind) {
     case ONE: l->one(n, xx, a); break;
-    case TURN: l->turn(n, reals(&turned), a); break;
-    case OPPOSITES: l->opposites(n, xx, yy, xy, a, b); break;
     case PAIR: l->pair(n, xx, yy, xy, a); break;
     default: l->turn_pair(n, reals(factor), a); break;
   }
@@ -53,17 +49,12 @@ static void try_loop(const loops *l, int kind, int n, buffers *z) {
 /* The same by the definition */
 static void define(int kind, int n, buffers *z) {
   const buffers from = *z;
-  const double complex *a = from.a + GUARD, *b = from.b + GUARD;
-  double complex *to_a = z->a + GUARD, *to_b = z->b + GUARD;
+  const double complex *a = from.a + GUARD;
+  double complex *to_a = z->a + GUARD;
   for (int k = 0; k < n; k++) {
     const int back = (n - k) % n, at = k <= n / 2 ? k : back;
     switch (kind) {
       case ONE: to_a[k] = xx[k] * a[k]; break;
-      case TURN: to_a[k] = turned * a[k]; break;
-      case OPPOSITES:
-        to_a[k] = xx[k] * a[k] + (yy[k] + I * xy[k]) * conj(b[n - 1 - k]);
-        to_b[n - 1 - k] = xx[k] * b[n - 1 - k] + (yy[k] + I * xy[k]) * conj(a[k]);
-        break;
       case PAIR: to_a[k] = 0.5 * (xx[at] + yy[at]) * a[k] + (0.5 * (xx[at] - yy[at]) + I * xy[at]) * conj(a[back]); break;
       default: to_a[k] = (at == k ? factor[at] : conj(factor[at])) * a[k]; break;
     }
@@ -72,25 +63,21 @@ static void define(int kind, int n, buffers *z) {
 
 static int differences(const buffers *found, const buffers *right) {
   int wrong = 0;
-  for (int k = 0; k < ROOM + 2 * GUARD; k++) {
-    wrong += !(cabs(found->a[k] - right->a[k]) <= 1e-14);
-    wrong += !(cabs(found->b[k] - right->b[k]) <= 1e-14);
-  }
+  for (int k = 0; k < ROOM + 2 * GUARD; k++) wrong += !(cabs(found->a[k] - right->a[k]) <= 1e-14);
   return wrong;
 }
 
 int main(void) {
-  const loops anywhere = {one_anywhere, turn_anywhere, opposites_anywhere, pair_anywhere, turn_pair_anywhere};
+  const loops anywhere = {one_anywhere, pair_anywhere, turn_pair_anywhere};
   int wrong = 0, unlike = 0, tried = 0, wide = 0;
 #ifdef __x86_64__
-  const loops avx2 = {one_avx2, turn_avx2, opposites_avx2, pair_avx2, turn_pair_avx2};
+  const loops avx2 = {one_avx2, pair_avx2, turn_pair_avx2};
   wide = __builtin_cpu_supports("avx2");
 #endif
   for (int n = 1; n < LONGEST; n++)
     for (int kind = 0; kind < KINDS; kind++) {
       buffers start, right, found;
       if (!takes(kind, n)) continue;
-      turned = any_complex();
       for (int k = 0; k < LONGEST; k++) {
         xx[k] = any_number();
         yy[k] = any_number();
@@ -100,10 +87,7 @@ int main(void) {
       /* of real lines the first number is real, and that of half the length */
       factor[0] = creal(factor[0]);
       factor[n / 2] = creal(factor[n / 2]);
-      for (int k = 0; k < ROOM + 2 * GUARD; k++) {
-        start.a[k] = any_complex();
-        start.b[k] = any_complex();
-      }
+      for (int k = 0; k < ROOM + 2 * GUARD; k++) start.a[k] = any_complex();
       right = found = start;
       define(kind, n, &right);
       try_loop(&anywhere, kind, n, &found);
