@@ -86,12 +86,9 @@ contains
       character(len=:), allocatable :: name
       integer :: k
 
-      do k = 1, size(in_place) + 1
-         if (k > size(in_place)) then
-            name = journal_name(state%place%results)
-         else
-            name = state%place%results // trim(in_place(k))
-         end if
+      do k = 0, size(in_place)
+         name = journal_name(state%place%results)
+         if (k > 0) name = state%place%results // trim(in_place(max(1, k)))
          if (is_same_file(name, state%place%input)) then
             call fatal_error(error, "the file cannot be written: it is a link to the input " // state%place%input, &
                & error_kind%file, name)
