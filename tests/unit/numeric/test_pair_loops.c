@@ -27,9 +27,9 @@ typedef struct {
   void (*backward)(int, int, const double *, double *);
   int (*factorize)(int, int, int, double *, double *);
   void (*displace)(int, int, const int *, const double *, int, const double *, double *);
-  int (*meet)(const double *, const double *, const double *, double, const double *, const double *, const double *, double, double, int,
-              const double *, double *, double *);
-  void (*spread)(const double *, int, double *);
+  int (*meet)(int, const double *, const double *, const double *, double, const double *, const double *, const double *, double, double,
+              int, const double *, int *, double *, double *);
+  void (*spread)(const double *, const double *, int, double *, double *);
 } loops;
 
 static const loops anywhere = {forward_anywhere, backward_anywhere, factorize_anywhere, displace_anywhere, meet_anywhere, spread_anywhere};
@@ -115,19 +115,32 @@ static void try_sums(const loops *kind, int mx, int my, double *u) {
   check(worst <= 1e-12, "displacements are sums over the pressures, in their range only", mx);
 }
 
-/* Eight points of a wheel with a curved profile, seen from a rolled and yawed plane */
+/* Coefficients of a cubic after a shift of its argument */
+static void shift(const double *c, double by, double *shifted) {
+  shifted[0] = c[0] + by * (c[1] + by * (c[2] + by * c[3]));
+  shifted[1] = c[1] + by * (2.0 * c[2] + by * 3.0 * c[3]);
+  shifted[2] = c[2] + by * 3.0 * c[3];
+  shifted[3] = c[3];
+}
+
+/* Eight points of a wheel with a curved profile, seen from a rolled and yawed plane; the profile is one cubic, given as three pieces */
 static void try_points(const loops *kind, double *place, double *n) {
   const double y[4] = {3.0, -0.98, 1e-3, -1e-4}, z[4] = {0.2, 0.05, -4e-3, 2e-4}, radius = 460.0;
   const double base[3] = {0.4, 1.5, 0.1}, axis[3] = {0.99995, 0.01, 0.0}, along[3] = {0.0, -0.05, 0.99875};
   const double x[8] = {-9.0, -6.5, -4.0, -1.5, 1.0, 3.5, 6.0, 8.5};
-  double piece[2] = {10.0, 14.0}, worst = 0.0;
+  double ends[4] = {10.0, 11.4, 11.7, 14.0}, cy[3][4], cz[3][4], worst = 0.0;
+  int piece = 1;
+  for (int k = 0; k < 3; k++) {
+    shift(y, ends[k] - ends[0], cy[k]);
+    shift(z, ends[k] - ends[0], cz[k]);
+  }
   for (int k = 0; k < 8; k++) {
     place[k] = 11.5;
     n[k] = 0.0;
   }
-  check(kind->meet(piece, y, z, radius, base, axis, along, 0.5, 1e-8, 6, x, place, n), "points of the wheel are found", 8);
+  check(kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 1e-8, 6, x, &piece, place, n), "points of the wheel are found", 8);
   for (int k = 0; k < 8; k++) {
-    const double t = place[k] - piece[0], r = radius + z[0] + t * (z[1] + t * (z[2] + t * z[3]));
+    const double t = place[k] - ends[0], r = radius + z[0] + t * (z[1] + t * (z[2] + t * z[3]));
     double q[3];
     for (int i = 0; i < 3; i++) q[i] = base[i] + axis[i] * x[k] + along[i] * n[k];
     worst = fmax(worst, fabs(q[1] - (y[0] + t * (y[1] + t * (y[2] + t * y[3])))));
@@ -137,17 +150,25 @@ static void try_points(const loops *kind, double *place, double *n) {
   double before[2][8];
   memcpy(before[0], place, sizeof before[0]);
   memcpy(before[1], n, sizeof before[1]);
-  piece[1] = place[0] - 1e-3;
-  check(!kind->meet(piece, y, z, radius, base, axis, along, 0.5, 1e-8, 6, x, place, n), "points beyond the piece are not found", 8);
+  check(piece >= 1 && piece <= 3 && place[0] >= ends[piece - 1] && place[0] <= ends[piece], "the piece is that of the first point", piece);
+  ends[3] = fmin(place[0], place[7]) - 1e-3;
+  check(!kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 1e-8, 6, x, &piece, place, n),
+        "points beyond the profile are not found", 8);
   check(!memcmp(before[0], place, sizeof before[0]) && !memcmp(before[1], n, sizeof before[1]), "and are not changed", 8);
 }
 
 static void try_polynomial(const loops *kind, int n, double *values) {
-  double p[8], worst = 0.0;
+  double powers[8][8], node[8], p[8] = {0.0}, last[2], worst = 0.0;
   srand((unsigned)n);
-  for (int k = 0; k < 8; k++) p[k] = any_number();
+  for (int k = 0; k < 8; k++) {
+    node[k] = any_number();
+    for (int power = 0; power < 8; power++) {
+      powers[k][power] = any_number();
+      p[power] += node[k] * powers[k][power];
+    }
+  }
   values[n] = 7.0;
-  kind->spread(p, n, values);
+  kind->spread(powers[0], node, n, values, last);
   for (int i = 0; i < n; i++) {
     const double t = 2.0 * i / (n - 1) - 1.0;
     double sum = 0.0;
@@ -155,6 +176,7 @@ static void try_polynomial(const loops *kind, int n, double *values) {
     worst = fmax(worst, fabs(sum - values[i]));
   }
   check(worst <= 1e-13, "values are those of the polynomial", n);
+  check(fabs(last[0] - fabs(p[6])) <= 1e-14 && fabs(last[1] - fabs(p[7])) <= 1e-14, "and so are its last coefficients", n);
   check(values[n] == 7.0, "nothing is written beyond them", n);
 }
 
