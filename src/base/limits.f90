@@ -122,8 +122,8 @@ contains
       if (what == "elements" .and. number > self%elements) then
          write(text, "(I0, 3A, I0)") number, " ", what, " are more than the limit of ", self%elements
       else if (number > self%bytes/bytes_each) then
-         write(text, "(I0, 6A)") number, " ", what, " need about ", megabytes_text(number*bytes_each), &
-            & " of memory, more than the limit of ", megabytes_text(self%bytes)
+         write(text, "(I0, 6A)") number, " ", what, " need about ", &
+            & trim(megabytes_text(number*bytes_each)), " of memory, more than the limit of ", trim(megabytes_text(self%bytes))
       else
          return
       end if

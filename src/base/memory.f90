@@ -41,16 +41,16 @@ contains
          deallocate(probe)
          return
       end if
-      write(text, "(I0, 5A)") number, " ", what, " need about ", megabytes_text(number*bytes_each), &
+      write(text, "(I0, 5A)") number, " ", what, " need about ", trim(megabytes_text(number*bytes_each)), &
          & " of memory, which is not available"
       call fatal_error(error, trim(text), kind=error_kind%memory)
    end subroutine require_memory
 
-   !> A size in words, such as "12 MB"; below 10 MB with decimals
+   !> A size in words, such as "12 MB", with trailing blanks; below 10 MB with decimals
    pure function megabytes_text(bytes) result(text)
       !> Size [bytes]
       integer(long), intent(in) :: bytes
-      character(len=:), allocatable :: text
+      character(len=28) :: text
       character(len=24) :: number
 
       if (bytes >= 10000000_long) then

@@ -213,7 +213,7 @@ contains
       if (.not. state%limits%output%is_exceeded()) return
       call state%log%out%charge_to(null())
       call fatal_error(error, "the results would take more than the limit of " // &
-         & megabytes_text(state%limits%output%allowed) // " (--limit-output)", error_kind%limit)
+         & trim(megabytes_text(state%limits%output%allowed)) // " (--limit-output)", error_kind%limit)
    end subroutine check_output_limit
 
    !> Check that the name is not empty after removing folder and suffix

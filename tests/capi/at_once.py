@@ -5,7 +5,7 @@ Each thread has one problem, a wheel on a rail or a contact of two bodies, and c
 changes.py: order, estimated errors, friction, material, search, wear. Forces are read in several units, stresses and derivatives
 too. The threads run one after the other, and then at the same time.
 
-    concurrent.py [--threads N] [--changes N] [--seed S]
+    at_once.py [--threads N] [--changes N] [--seed S]
 """
 import argparse
 import random
