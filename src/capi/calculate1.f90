@@ -75,7 +75,8 @@ contains
       integer, intent(out) :: code
 
       code = library_code%success
-      problem%has_result = .true.
+      ! patches of a case that is only checked have no fields, and are not available
+      problem%has_result = problem%spec%solve
       associate (result => problem%wheel_rail_result)
          problem%stored%wheelset%z = result%z_ws
          problem%stored%wheelset%vpitch = result%vpitch
@@ -94,6 +95,7 @@ contains
          if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
          if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
             & " contact patches, the last ones are not available")
+         if (.not. problem%has_result) result%patches = result%patches(:0)
       end associate
    end subroutine finish_wheel_rail
 

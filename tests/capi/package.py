@@ -488,6 +488,15 @@ def places():
     same(_library.candidates(), [chosen], "a chosen path is the only one")
 
 
+def checked_only():
+    """With R = 3 a wheel on a rail has no results, also after a solution; the next calculation has them again"""
+    with contact.WheelRail("right") as pair:
+        wheel(pair)
+        for digit, patches in ((3, 0), (1, 1), (3, 0), (1, 1)):
+            pair.set_flags(ic_return=digit)
+            same(len(pair.solve().patches), patches, f"patches with R = {digit}")
+
+
 def output():
     """Files are written to the requested folder"""
     contact.output_to("results", "run")
@@ -517,6 +526,6 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
-                 older_scripts, documents, doubts, temperatures, estimated_errors, places, output):
+                 older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, output):
         part()
     finish()

@@ -450,6 +450,20 @@ class Stresses(Program):
         # beside the contact there are no steps
         self.assertEqual(self.stepped("0 1\n9\n1 1 1\n2.0\n2.0\n0\n0"), [])
 
+    def test_cases_that_are_not_solved(self):
+        """R = 3 with points below the surface: there are no pressures and no stresses"""
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
+        blocks = "2 1\n1\n3 0.1 0.5\n0\n"
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            wheel = " 1 MODULE" + file.read().split(" 1 MODULE")[1].split("\n\n")[0]
+        with open(os.path.join(EXAMPLES, "subsurface.inp"), encoding="utf-8") as file:
+            ball = file.read().partition("% ---- case 2")[0]
+        pair = re.sub(r"0 +C-P-B-T-N-F-S", "3 C-P-B-T-N-F-S", wheel).replace("0001201 ", "0001203 ") + "\n" + blocks
+        for text in (pair, ball.replace("0000131", "0000133")):
+            cases, _, _ = self.run_text(text, "--hdf5", "--vtk", "--errors")
+            self.assertEqual(len(cases), 0)
+            self.assertNotIn("max_mises", json.dumps(cases))
+
 
 class Temperatures(Program):
     # The ball of before is a wheel here: 100 kN, a = 5.88, b = 10.54 mm, full sliding at 1 m/s
