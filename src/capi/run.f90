@@ -113,12 +113,8 @@ contains
       !> Size required by the whole description [bytes]
       integer(c_int), intent(out), optional :: needed
       integer(c_int) :: status
-      type(request_type), target :: request
 
-      request = request_type(to_explain, experiment, text=text, length=text_length)
-      call do_request(request)
-      if (present(needed)) needed = request%needed
-      status = request%status
+      status = write_about(to_explain, experiment, text, text_length, needed)
    end function contact_explain_experiment
 
    !> Write all cases of an experiment with what they keep from earlier cases, in the readable format
@@ -132,13 +128,24 @@ contains
       !> Size required by the whole text [bytes]
       integer(c_int), intent(out), optional :: needed
       integer(c_int) :: status
+
+      status = write_about(to_complete, experiment, text, text_length, needed)
+   end function contact_complete_cases
+
+   !> Do a task whose result is a text; arguments and result are those of `contact_explain_experiment`
+   integer(c_int) function write_about(task, experiment, text, text_length, needed) result(status)
+      !> to_explain or to_complete
+      integer, intent(in) :: task
+      type(c_ptr), intent(in) :: experiment, text
+      integer(c_int), intent(in) :: text_length
+      integer(c_int), intent(out), optional :: needed
       type(request_type), target :: request
 
-      request = request_type(to_complete, experiment, text=text, length=text_length)
+      request = request_type(task, experiment, text=text, length=text_length)
       call do_request(request)
       if (present(needed)) needed = request%needed
       status = request%status
-   end function contact_complete_cases
+   end function write_about
 
    !> Do a task under the guard against lack of memory
    subroutine do_request(request)

@@ -100,8 +100,9 @@ contains
       values(:known) = result%errors%value
       if (result%errors%reason == "") then
          peak = 0.0_wp
-         ! without an estimate of the largest pressure there is no bound
-         if (.not. ieee_is_nan(values(list%place_of("pmax")))) peak = peak_share*values(list%place_of("pmax"))/result%pmax
+         ! without an estimate of the largest pressure, or without contact, there is no bound
+         if (result%pmax > 0.0_wp .and. .not. ieee_is_nan(values(list%place_of("pmax")))) &
+            & peak = peak_share*values(list%place_of("pmax"))/result%pmax
          do k = 1, 2
             call find_largest(result, k == 2, place(:, k), stress(:, k), largest(k))
             if (present(left)) then

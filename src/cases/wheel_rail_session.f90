@@ -95,23 +95,26 @@ contains
       if (spec%output_level >= 4) call keep_profiles(session, result)
       call warn_of_buried_ends(spec, result, log)
       do k = 1, size(result%patches)
-         associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)
-            if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)
-            if (spec%solve) call warn_of_few_elements(contact, "DS", log, k)
-            if (spec%solve .and. max(contact%grid%dx/search%dx, contact%grid%dy/search%ds) > 1.5_wp) call log%warning("the &
-               &elements of patch " // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
-               & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &
-               & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
-               & integer_text(spec%iteration%npot_max))
-            if (spec%solve) call warn_of_small_table(session%problem%template%model%tabulated, contact%grid, k, log)
-            if (spec%has_wear .and. spec%solve) call derive_wear(spec%wear, [0.0_wp, 0.0_wp], contact)
+         associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search, slot => session%memory%slot(k))
+            if (spec%solve) then
+               call warn_of_border(spec, slot%problem, contact, log, k)
+               call warn_of_few_elements(contact, "DS", log, k)
+               if (max(contact%grid%dx/search%dx, contact%grid%dy/search%ds) > 1.5_wp) call log%warning("the elements of patch " &
+                  & // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
+                  & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &
+                  & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
+                  & integer_text(spec%iteration%npot_max))
+               call warn_of_small_table(session%problem%template%model%tabulated, contact%grid, k, log)
+               if (spec%has_wear) call derive_wear(spec%wear, [0.0_wp, 0.0_wp], contact)
+            end if
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
-            if (spec%has_stress) &
+            ! patches of a case that is only checked have no pressures
+            if (spec%has_stress .and. spec%solve) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
             if (.not. allocated(error)) call warn_of_steps(contact, log)
-            if (allocated(session%memory%slot(k)%coarse) .and. .not. allocated(error)) &
-               & call estimate_stress_errors(spec, session%memory%slot(k)%coarse%result, contact, spec%wheel_rail%left)
-            call name_effects(spec, session%memory%slot(k)%problem, contact)
+            if (allocated(slot%coarse) .and. .not. allocated(error)) &
+               & call estimate_stress_errors(spec, slot%coarse%result, contact, spec%wheel_rail%left)
+            call name_effects(spec, slot%problem, contact)
          end associate
          if (allocated(error)) return
       end do

@@ -4,11 +4,13 @@ module contact_experiment_place
    implicit none (type, external)
    private
 
-   public :: choose_input, experiment_place, locate_experiment, input_suffix, readable_suffix
+   public :: choose_input, experiment_place, locate_experiment, input_suffix, readable_suffix, written_in_place
 
    character(len=*), parameter :: separator = "/", foreign_separator = "\"
    !> Suffixes of the two input formats
    character(len=*), parameter :: input_suffix = ".inp", readable_suffix = ".toml"
+   !> Suffixes of results that grow under their own name during a run; others have a temporary name first
+   character(len=*), parameter :: written_in_place(3) = [character(len=6) :: ".out", ".jsonl", ".pvd"]
 
    !> The files of an experiment
    type :: experiment_place

@@ -10,6 +10,7 @@ module contact_experiment_result_files
    use contact_experiment_errors, only : report_error, report_final_error
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
+   use contact_experiment_place, only : written_in_place
    use contact_experiment_resume, only : resume_point, settings_of
    use contact_experiment_state, only : counted, experiment_state, run_settings
    use contact_input_experiment_file, only : experiment_reader, input_case
@@ -81,14 +82,12 @@ contains
    subroutine check_input_is_apart(state, error)
       type(experiment_state), intent(in) :: state
       type(error_type), allocatable, intent(out) :: error
-      !> Suffixes of files that are written in their place
-      character(len=*), parameter :: in_place(3) = [character(len=6) :: ".out", ".jsonl", ".pvd"]
       character(len=:), allocatable :: name
       integer :: k
 
-      do k = 0, size(in_place)
+      do k = 0, size(written_in_place)
          name = journal_name(state%place%results)
-         if (k > 0) name = state%place%results // trim(in_place(max(1, k)))
+         if (k > 0) name = state%place%results // trim(written_in_place(max(1, k)))
          if (is_same_file(name, state%place%input)) then
             call fatal_error(error, "the file cannot be written: it is a link to the input " // state%place%input, &
                & error_kind%file, name)

@@ -16,6 +16,7 @@ module contact_experiment_resume
    use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_settings, letter_of, &
       & read_journal
+   use contact_experiment_place, only : written_in_place
    use contact_experiment_state, only : apply_settings, as_input_says, counted, experiment_state, find_slot, numbered_slot, &
       & run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
@@ -74,13 +75,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: unreadable
       type(journal_settings) :: before
-      integer(long) :: ends(3)
-      integer :: rows(2)
+      integer(long) :: ends(size(written_in_place))
+      integer :: rows(2), k
       logical :: found
 
       is_done = .false.
       associate (results => state%place%results)
-         ends = [length_of(results // ".out"), length_of(results // ".jsonl"), length_of(results // ".pvd")]
+         ends = [(length_of(results // trim(written_in_place(k))), k = 1, size(ends))]
          call read_journal(results, ends, [huge(1), huge(1)], before, found, point%at, point%place, point%letters)
          if (.not. found) then
             is_done = ends_complete(results // ".out")

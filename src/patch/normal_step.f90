@@ -12,7 +12,7 @@ module contact_patch_normal_step
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_normal_problem, only : force_round_off
-   use contact_numeric_vectors, only : copy_numbers
+   use contact_numeric_vectors, only : copy_field
    use contact_patch_field_loops, only : mark_elements, subtract_approach
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -60,11 +60,7 @@ contains
             normal%my = problem%grid%my
             normal%dx = problem%grid%dx
             normal%dy = problem%grid%dy
-            if (allocated(normal%h)) then
-               if (any(shape(normal%h) /= shape(problem%h))) deallocate(normal%h)
-            end if
-            if (.not. allocated(normal%h)) allocate(normal%h, mold=problem%h)
-            call copy_numbers(size(normal%h), problem%h, normal%h)
+            call copy_field(problem%h, normal%h)
             if (allocated(normal%parts)) deallocate(normal%parts)
             if (allocated(problem%parts)) allocate(normal%parts, source=problem%parts)
             if (problem%couples()) then

@@ -8,7 +8,7 @@ module contact_patch_result
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_numeric_vectors, only : copy_numbers
+   use contact_numeric_vectors, only : copy_field
    use contact_patch_quantities, only : element_field, error_law, error_scale, is_lateral, orientation, total_list
    implicit none (type, external)
    private
@@ -227,15 +227,11 @@ contains
       pure subroutine one(here, there)
          real(wp), allocatable, intent(inout) :: here(:, :), there(:, :)
 
-         if (.not. copies) then
+         if (copies) then
+            call copy_field(here, there)
+         else
             call move_alloc(here, there)
-            return
          end if
-         if (allocated(there)) then
-            if (any(shape(there) /= shape(here))) deallocate(there)
-         end if
-         if (.not. allocated(there)) allocate(there(size(here, 1), size(here, 2)))
-         call copy_numbers(size(here), here, there)
       end subroutine one
    end subroutine hand_over
 

@@ -47,9 +47,9 @@ module contact_wheelrail_wheel_rows
       real(wp) :: start(2) = 0.0_wp
       !> Number of consecutive rows without a polynomial so far
       integer :: failures = 0
-      !> All points, their positions on the profile, and the previous rows: for rows without polynomials. The arrays may be larger
-      !> than the number of points of this patch
-      real(wp), allocatable :: x(:), place(:), all_rows(:, :, :)
+      !> All points, their positions on the profile, and the previous rows as in `rows`: for rows without polynomials. The arrays
+      !> may be larger than the number of points of this patch
+      real(wp), allocatable :: x(:), place(:), all_rows(:, :)
       logical, allocatable :: found(:)
       !> Do they belong to this patch?
       logical :: has_all = .false.
@@ -156,7 +156,7 @@ contains
          end associate
          if (self%failures == patience) then
             self%known = 0
-            call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
+            call keep_all(self, n)
          end if
       end if
       do i = 1, self%points
@@ -166,7 +166,7 @@ contains
 
    !> Heights at the nodes, estimated from previous rows if there are any
    pure subroutine find_nodes(self, wheel, radius, seen, s, some, found)
-      class(wheel_rows), intent(inout) :: self
+      type(wheel_rows), intent(inout) :: self
       !> See `find`
       type(profile_curve), intent(in) :: wheel
       real(wp), intent(in) :: radius
@@ -175,12 +175,14 @@ contains
       !> Position on the profile (1...terms) and height at each node [mm], set if found
       real(wp), intent(out) :: some(2*terms)
       logical, intent(out) :: found(terms)
-      integer :: i, j
+      integer :: i
 
-      associate (rows => self%rows, m => self%few, place => some(:terms), n => some(terms + 1:))
+      associate (m => self%few, place => some(:terms), n => some(terms + 1:))
          found = .true.
-         select case (self%known)
-         case (0)
+         if (self%known > 0) then
+            call estimate(self%rows, self%known, some)
+            call row_from_estimates(wheel, radius, seen, self%nodes(:m), s, place(:m), n(:m), found(:m))
+         else
             some = 0.0_wp
             place(1) = self%start(1)
             n(1) = self%start(2)
@@ -192,21 +194,9 @@ contains
                n(i) = self%start(2) - 0.5_wp*(self%nodes(i)**2 - self%nodes(1)**2)/radius
             end do
             call row_from_estimates(wheel, radius, seen, self%nodes(2:m), s, place(2:m), n(2:m), found(2:m))
-         case (1)
-            some = rows(:, 1)
-         case (2)
-            some = 2.0_wp*rows(:, 1) - rows(:, 2)
-         case default
-            some = 3.0_wp*(rows(:, 1) - rows(:, 2)) + rows(:, 3)
-         end select
-         if (self%known > 0) call row_from_estimates(wheel, radius, seen, self%nodes(:m), s, place(:m), n(:m), found(:m))
+         end if
          if (found(1)) self%start = [place(1), n(1)]
-         self%known = merge(min(self%known + 1, remembered), 0, all(found))
-         if (self%known == 0) return
-         do j = remembered, 2, -1
-            rows(:, j) = rows(:, j - 1)
-         end do
-         rows(:, 1) = some
+         call keep(some, all(found), self%rows, self%known)
       end associate
    end subroutine find_nodes
 
@@ -221,17 +211,34 @@ contains
       !> Height of each point [mm], set if found
       real(wp), intent(out) :: n(:)
 
-      if (self%known > 0) then
-         call estimate(self%all_rows(:self%points, :, :), self%known, self%place(:self%points), n)
-         call row_from_estimates(wheel, radius, seen, self%x(:self%points), s, self%place(:self%points), n, &
-            & self%found(:self%points))
-      else
-         call wheel_row(wheel, radius, seen, self%x(:self%points), s, self%start, self%place(:self%points), n, &
-            & self%found(:self%points))
-      end if
+      real(wp) :: row(2*self%points)
+
+      associate (m => self%points)
+         if (self%known > 0) then
+            call estimate(self%all_rows(:2*m, :), self%known, row)
+            self%place(:m) = row(:m)
+            n = row(m + 1:)
+            call row_from_estimates(wheel, radius, seen, self%x(:m), s, self%place(:m), n, self%found(:m))
+         else
+            call wheel_row(wheel, radius, seen, self%x(:m), s, self%start, self%place(:m), n, self%found(:m))
+         end if
+      end associate
       if (self%found(1)) self%start = [self%place(1), n(1)]
-      call keep(self%place(:self%points), n, all(self%found(:self%points)), self%all_rows(:self%points, :, :), self%known)
+      call keep_all(self, n)
    end subroutine find_all
+
+   !> Store a row with all points
+   pure subroutine keep_all(self, n)
+      !> With the positions on the profile
+      type(wheel_rows), intent(inout) :: self
+      !> Height of each point [mm]
+      real(wp), intent(in) :: n(:)
+      real(wp) :: row(2*self%points)
+
+      row(:self%points) = self%place(:self%points)
+      row(self%points + 1:) = n
+      call keep(row, all(self%found(:self%points)), self%all_rows(:2*self%points, :), self%known)
+   end subroutine keep_all
 
    !> Allocate the arrays for all points
    pure subroutine make_room(self)
@@ -244,61 +251,50 @@ contains
          if (size(self%x) < self%points) deallocate(self%x, self%place, self%found, self%all_rows)
       end if
       if (.not. allocated(self%x)) allocate(self%x(self%points), self%place(self%points), self%found(self%points), &
-         & self%all_rows(self%points, 2, remembered))
+         & self%all_rows(2*self%points, remembered))
       do i = 1, self%points
          self%x(i) = point_at(self, i)
       end do
-      self%all_rows(:self%points, :, :) = 0.0_wp
+      self%all_rows(:2*self%points, :) = 0.0_wp
    end subroutine make_room
 
    !> Estimate positions and heights of the next row, from the previous ones
-   pure subroutine estimate(rows, known, place, height)
-      !> Positions and heights of previous rows [mm], the last one first, shape (points, 2, remembered)
-      real(wp), intent(in) :: rows(:, :, :)
+   pure subroutine estimate(rows, known, row)
+      !> Positions, then heights, of previous rows [mm], the last row first, shape (2 points, remembered)
+      real(wp), intent(in) :: rows(:, :)
       !> Number of previous rows
       integer, intent(in) :: known
-      !> Positions and heights, one for each point [mm]
-      real(wp), intent(out) :: place(:), height(:)
+      !> Positions, then heights [mm]
+      real(wp), intent(out) :: row(:)
 
-      associate (p => rows(:, 1, :), h => rows(:, 2, :))
-         select case (known)
-         case (1)
-            place = p(:, 1)
-            height = h(:, 1)
-         case (2)
-            place = 2.0_wp*p(:, 1) - p(:, 2)
-            height = 2.0_wp*h(:, 1) - h(:, 2)
-         case default
-            place = 3.0_wp*(p(:, 1) - p(:, 2)) + p(:, 3)
-            height = 3.0_wp*(h(:, 1) - h(:, 2)) + h(:, 3)
-         end select
-      end associate
+      select case (known)
+      case (1)
+         row = rows(:, 1)
+      case (2)
+         row = 2.0_wp*rows(:, 1) - rows(:, 2)
+      case default
+         row = 3.0_wp*(rows(:, 1) - rows(:, 2)) + rows(:, 3)
+      end select
    end subroutine estimate
 
    !> Store a row; if some of its points were not found, the list of rows is cleared
-   pure subroutine keep(place, height, found, rows, known)
-      !> Positions and heights, one for each point [mm]
-      real(wp), intent(in) :: place(:), height(:)
+   pure subroutine keep(row, found, rows, known)
+      !> Positions, then heights [mm]
+      real(wp), intent(in) :: row(:)
       !> Were all points found?
       logical, intent(in) :: found
       !> See `estimate`
-      real(wp), intent(inout) :: rows(:, :, :)
+      real(wp), intent(inout) :: rows(:, :)
       integer, intent(inout) :: known
-      integer :: i, j
+      integer :: j
 
       known = merge(min(known + 1, remembered), 0, found)
       if (.not. found) return
-      ! element by element: whole sections that may overlap are copied through the heap
+      ! one row after the other: whole sections that may overlap are copied through the heap
       do j = remembered, 2, -1
-         do i = 1, size(place)
-            rows(i, 1, j) = rows(i, 1, j - 1)
-            rows(i, 2, j) = rows(i, 2, j - 1)
-         end do
+         rows(:, j) = rows(:, j - 1)
       end do
-      do i = 1, size(place)
-         rows(i, 1, 1) = place(i)
-         rows(i, 2, 1) = height(i)
-      end do
+      rows(:, 1) = row
    end subroutine keep
 
    !> Are all positions between those at the nodes on the profile as well?
