@@ -3,7 +3,7 @@ module contact_grid_element_division
    implicit none (type, external)
    private
 
-   public :: element, bounding_box, contact_box
+   public :: element, bounding_box, contact_box, copy_states, set_states
 
    type :: element_list
       integer :: exterior = 0, adhesion = 1, slip = 2, plastic = 3
@@ -49,4 +49,28 @@ contains
          end do
       end do
    end function contact_box
+
+   !> Set contiguous element states to one value; see `copy_states`
+   pure subroutine set_states(n, state, to)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Member of element
+      integer, intent(in) :: state
+      !> States
+      integer, intent(inout) :: to(n)
+
+      to = state
+   end subroutine set_states
+
+   !> Copy contiguous element states: fields of two dimensions at once instead of column by column
+   pure subroutine copy_states(n, from, to)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Original
+      integer, intent(in) :: from(n)
+      !> Copy
+      integer, intent(inout) :: to(n)
+
+      to = from
+   end subroutine copy_states
 end module contact_grid_element_division

@@ -10,7 +10,7 @@ module contact_normal_analyn
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
-   use contact_numeric_vectors, only : smallest_of
+   use contact_numeric_vectors, only : clear_numbers, smallest_of
    implicit none (type, external)
    private
 
@@ -28,6 +28,8 @@ module contact_normal_analyn
    !> this fraction
    integer, parameter :: max_samples = 10
    real(wp), parameter :: fallen = 0.3_wp
+   !> The ratio of the semi-axes changes with the ratio of the curvatures to a power between 1/2 and 2/3: estimate for the next row
+   real(wp), parameter :: usual_power = 0.6_wp
 
    !> Point of a row with the smallest gap
    type :: low_place
@@ -47,18 +49,21 @@ contains
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
       !> Shape (mx, my), positive in contact
-      real(wp), intent(out) :: pn(:, :)
+      real(wp), contiguous, intent(inout) :: pn(:, :)
       type(hertz_contact) :: hertz
       type(low_place) :: here
-      !> Smallest gap of each row [mm]
-      real(wp) :: low(grid%my)
-      real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least, ratio
-      integer :: ix, iy, first, last
+      !> Smallest gap of each row and centres of the columns [mm]
+      real(wp) :: low(grid%my), x(grid%mx)
+      real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least, ratio, curved, before
+      integer :: ix, iy, first, last, from, to
 
-      pn = 0.0_wp
+      call clear_numbers(size(pn), pn)
       if (size(gap) == 0) return
       do iy = 1, grid%my
          low(iy) = smallest_of(grid%mx, gap(:, iy))
+      end do
+      do ix = 1, grid%mx
+         x(ix) = grid%x(ix)
       end do
       tolerance = equally_small*abs(minval(low))
       overlap = -huge(overlap)
@@ -89,26 +94,48 @@ contains
             here = lowest_place(grid, gap, iy, first, last)
             if (.not. here%lowest < 0.0_wp) cycle
             call find_curvatures(grid, gap, iy, first, last, least, here)
+            curved = min(here%a1, here%b1)/max(here%a1, here%b1)
             associate (load => hertz_load(normal_control%approach, pen=overlap, modulus=modulus))
                if (ratio > 0.0_wp) then
                   ! the ratio changes little from row to row
-                  hertz = hertz_by_curvatures(load, here%a1, here%b1, near=ratio)
+                  hertz = hertz_by_curvatures(load, here%a1, here%b1, near=min(1.0_wp, ratio*(curved/before)**usual_power))
                else
                   hertz = hertz_by_curvatures(load, here%a1, here%b1)
                end if
             end associate
             ratio = min(hertz%aob, 1.0_wp/hertz%aob)
+            before = curved
             depth = 1.0_wp - (here%lowest + overlap)/(here%b1*hertz%bb**2)
             if (.not. depth > 0.0_wp) cycle
             half_length = hertz%aa*sqrt(depth)
             highest = 1.5_wp*hertz%fn/(pi*hertz%aa*hertz%bb)*sqrt(depth)
-            do ix = max(1, first - reach(grid, half_length)), min(grid%mx, last + reach(grid, half_length))
-               if (.not. gap(ix, iy) < excluded_threshold) cycle
-               pn(ix, iy) = max(pn(ix, iy), highest*sqrt(max(0.0_wp, 1.0_wp - ((grid%x(ix) - here%x)/half_length)**2)))
-            end do
+            from = max(1, first - reach(grid, half_length))
+            to = min(grid%mx, last + reach(grid, half_length))
+            call add_ellipse(to - from + 1, x(from:to), gap(from:to, iy), here%x, half_length, highest, pn(from:to, iy))
          end do
       end do
    end subroutine analyn_pressure
+
+   !> Pressures of one ellipse along a row, where they are larger than those that are known
+   pure subroutine add_ellipse(n, x, gap, centre, half_length, highest, pn)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Centres of the elements, and their gap [mm]
+      real(wp), intent(in) :: x(n), gap(n)
+      !> Centre and half length of the contact in this row [mm], and the maximum pressure [N/mm2]
+      real(wp), intent(in) :: centre, half_length, highest
+      !> Pressures [N/mm2]
+      real(wp), intent(inout) :: pn(n)
+      real(wp) :: here(n)
+      integer :: i
+
+      do i = 1, n
+         here(i) = highest*sqrt(max(0.0_wp, 1.0_wp - ((x(i) - centre)/half_length)**2))
+      end do
+      do i = 1, n
+         if (gap(i) < excluded_threshold) pn(i) = max(pn(i), here(i))
+      end do
+   end subroutine add_ellipse
 
    !> Number of elements on either side of the smallest gap of a row within which there is pressure
    pure integer function reach(grid, half_length)
@@ -218,29 +245,28 @@ contains
       real(wp), intent(in) :: row(:)
       !> Column of the smallest gap
       integer, intent(in) :: column
-      real(wp) :: sum2, sum4, moment0, moment2, n
-      integer :: k, i, middle
+      real(wp) :: sum2, sum4, moment0, moment2, n, rise
+      integer :: k, middle
 
       curvature = 0.0_wp
       if (size(row) < 3) return
       middle = min(max(column, 2), size(row) - 1)
       if (any(row(middle - 1:middle + 1) > excluded_threshold)) return
-      k = 1
-      do while (k < max_samples)
-         if (middle - k - 1 < 1 .or. middle + k + 1 > size(row)) exit
-         if (max(row(middle - k - 1), row(middle + k + 1)) > fallen*row(column)) exit
+      moment0 = 0.0_wp
+      moment2 = 0.0_wp
+      k = 0
+      do
          k = k + 1
+         rise = (row(middle - k) - row(middle)) + (row(middle + k) - row(middle))
+         moment0 = moment0 + rise
+         moment2 = moment2 + real(k*k, wp)*rise
+         if (k == max_samples .or. middle - k - 1 < 1 .or. middle + k + 1 > size(row)) exit
+         if (max(row(middle - k - 1), row(middle + k + 1)) > fallen*row(column)) exit
       end do
       ! parabola through 2 k + 1 equidistant samples
       n = 2*k + 1
       sum2 = real(k*(k + 1)*(2*k + 1)/3, wp)
       sum4 = real(k*(k + 1)*(2*k + 1)*(3*k*(k + 1) - 1)/15, wp)
-      moment0 = 0.0_wp
-      moment2 = 0.0_wp
-      do i = -k, k
-         moment0 = moment0 + (row(middle + i) - row(middle))
-         moment2 = moment2 + real(i, wp)**2*(row(middle + i) - row(middle))
-      end do
       curvature = (n*moment2 - sum2*moment0)/(n*sum4 - sum2**2)/grid%dx**2
    end function curvature_along
 

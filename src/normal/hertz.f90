@@ -70,7 +70,7 @@ contains
       real(wp) :: g
       integer, parameter :: max_steps = 50
       !> The error after a step is of the order of the step squared
-      real(wp), parameter :: tolerance = 1.0e-9_wp
+      real(wp), parameter :: tolerance = 1.0e-8_wp
       type(elliptic_integrals) :: integrals
       real(wp) :: step
       integer :: i

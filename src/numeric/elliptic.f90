@@ -35,32 +35,30 @@ contains
       real(wp) :: gc
 
       gc = max(abs(g), tiny(1.0_wp))
-      integrals%b = bartky_sum(gc, 1.0_wp, 0.0_wp)
-      integrals%d = bartky_sum(gc, 0.0_wp, 1.0_wp)
+      call bartky_sums(gc, integrals%b, integrals%d)
       integrals%k = integrals%b + integrals%d
       integrals%e = integrals%b + gc**2*integrals%d
    end function complete_elliptic
 
-   !> Integral of (a cos(phi)**2 + b sin(phi)**2)/sqrt(cos(phi)**2 + g**2 sin(phi)**2), phi = 0...pi/2.
+   !> Integrals of cos(phi)**2 and of sin(phi)**2 over sqrt(cos(phi)**2 + g**2 sin(phi)**2), phi = 0...pi/2.
    !>
    !> Arithmetic-geometric mean with the transformation of Bartky, after Bulirsch (1965), procedure cel2. Convergence is
-   !> quadratic.
-   elemental function bartky_sum(g, a, b) result(integral)
+   !> quadratic. Both integrals have the same sequence of means.
+   elemental subroutine bartky_sums(g, of_cosine, of_sine)
       !> Complementary modulus [-], positive
       real(wp), intent(in) :: g
-      !> Weights of cosine and sine [-], not negative
-      real(wp), intent(in) :: a, b
-      real(wp) :: integral
+      !> The integrals
+      real(wp), intent(out) :: of_cosine, of_sine
       real(wp), parameter :: close_enough = 1.0e-9_wp
       integer, parameter :: max_steps = 40
-      real(wp) :: mean, previous_mean, kc, aa, bb, cc
+      real(wp) :: mean, previous_mean, kc, aa(2), bb(2), cc(2)
       integer :: step
 
       mean = 1.0_wp
       kc = g
-      cc = a
-      aa = a + b
-      bb = b
+      cc = [1.0_wp, 0.0_wp]
+      aa = 1.0_wp
+      bb = [0.0_wp, 1.0_wp]
       do step = 1, max_steps
          bb = 2.0_wp*(cc*kc + bb)
          cc = aa
@@ -70,6 +68,7 @@ contains
          if (abs(previous_mean - kc) <= close_enough*previous_mean) exit
          kc = 2.0_wp*sqrt(kc)*sqrt(previous_mean)
       end do
-      integral = 0.25_wp*pi*aa/mean
-   end function bartky_sum
+      of_cosine = 0.25_wp*pi*aa(1)/mean
+      of_sine = 0.25_wp*pi*aa(2)/mean
+   end subroutine bartky_sums
 end module contact_numeric_elliptic

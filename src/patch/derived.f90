@@ -4,9 +4,10 @@ module contact_patch_derived
    use contact_base_constants, only : nmm_per_joule
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
-   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_grid_element_division, only : bounding_box, contact_box, copy_states, element, set_states
    use contact_normal_conjugate_gradient, only : approach_scale
    use contact_numeric_vectors, only : clear_numbers, copy_numbers
+   use contact_patch_kinematics, only : rigid_slip
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -80,7 +81,7 @@ contains
          allocate(result%division(mx, my))
       end if
       call copy_numbers(mx*my, problem%h, result%h)
-      result%mu = problem%mu
+      call fill_numbers(mx*my, problem%mu, result%mu)
       if (allocated(problem%friction)) call problem%friction%at_rest(result%mu)
       if (allocated(result%friction)) deallocate(result%friction)
       call clear_numbers(mx*my, result%un)
@@ -90,8 +91,18 @@ contains
       call clear_numbers(mx*my, result%sy)
       call clear_numbers(mx*my, result%wx)
       call clear_numbers(mx*my, result%wy)
-      result%division = element%exterior
+      call set_states(mx*my, element%exterior, result%division)
    end subroutine reset_result
+
+   !> Set contiguous numbers to one value
+   pure subroutine fill_numbers(n, value, to)
+      !> Length
+      integer, intent(in) :: n
+      real(wp), intent(in) :: value
+      real(wp), intent(inout) :: to(n)
+
+      to = value
+   end subroutine fill_numbers
 
    !> Totals and fields derived from the tractions
    subroutine derive(problem, state, workspace, result)
@@ -111,11 +122,12 @@ contains
       box = contact_box(state%now%division)
       result%inorm = merge(result%normal%passes, -1, result%normal%succeeded())
       result%itang = merge(result%tangential%passes, -1, result%tangential%succeeded())
-      result%division = state%now%division
+      call copy_states(size(result%division), state%now%division, result%division)
       call copy_numbers(size(result%pn), state%now%pn, result%pn)
       call copy_numbers(size(result%px), state%now%px, result%px)
       call copy_numbers(size(result%py), state%now%py, result%py)
-      result%pmax = largest_pressure(result%pn, result%tangential%order)
+      result%pmax = 0.0_wp
+      if (.not. is_deferred(problem)) result%pmax = largest_pressure(result%pn, result%tangential%order)
       call sum_up(problem, box, result)
       scale = result%mu_scal*result%fn + tiny(scale)
       if (problem%motion == motion%none) then
@@ -125,10 +137,8 @@ contains
          result%fx_rel = result%fx/scale
          result%fy_rel = result%fy/scale
       end if
-      if (problem%motion /= motion%none) then
-         if (problem%n_forces >= 1) result%wx = result%wx + problem%dq*result%cksi
-         if (problem%n_forces >= 2) result%wy = result%wy + problem%dq*result%ceta
-      end if
+      if (problem%motion /= motion%none .and. .not. (is_deferred(problem) .and. allocated(problem%simplified))) &
+         & call add_creepages(problem, result)
       result%elastic_energy = 0.0_wp
       result%friction_power = 0.0_wp
       result%residual = max(result%normal%residual, result%tangential%residual, 0.0_wp)
@@ -140,7 +150,7 @@ contains
       end if
       if (.not. is_deferred(problem)) call displacements(problem, state, box, workspace, result)
       if (allocated(problem%simplified)) then
-         result%friction_power = area/(nmm_per_joule*result%dt)*power_of_slip(box, result)
+         if (.not. is_deferred(problem)) result%friction_power = power_of_slip(box, result)
       else if (problem%motion /= motion%none) then
          associate (solution => workspace%solution)
             do iy = box%iy0, box%iy1
@@ -160,10 +170,11 @@ contains
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
 
-   !> Sum of the products of tractions and slip; tractions are zero outside the contact [N/mm]
+   !> Frictional power in simplified theory [W]; tractions are zero outside the contact
    pure real(wp) function power_of_slip(box, result) result(power)
       !> Contains the contact area
       type(bounding_box), intent(in) :: box
+      !> Tractions, slip and time step
       type(patch_result), intent(in) :: result
       real(wp) :: along, across
       integer :: ix, iy
@@ -176,7 +187,7 @@ contains
             across = across + result%py(ix, iy)*result%sy(ix, iy)
          end do
       end do
-      power = along + across
+      power = result%grid%dx*result%grid%dy/(nmm_per_joule*result%dt)*(along + across)
    end function power_of_slip
 
    !> Numbers of elements, forces and moments; tractions are zero outside the contact
@@ -186,44 +197,49 @@ contains
       type(bounding_box), intent(in) :: box
       !> Element states and tractions on entry; the numbers, tangential forces and moments are set
       type(patch_result), intent(inout) :: result
-      real(wp) :: area, moment(3), force(2), x, y
-      integer :: ix, iy, adhering, slipping, others
+      !> Sums of each column: pressures, tractions, and their moments about the x axis and about the normal
+      real(wp), dimension(box%ix0:max(box%ix0, box%ix1)) :: fn, fx, fy, mx, mz
+      real(wp) :: area, moment(3), x, y
+      integer :: ix, iy, touching, adhering, slipping
 
       area = problem%grid%dx*problem%grid%dy
-      moment = 0.0_wp
-      force = 0.0_wp
+      fn = 0.0_wp
+      fx = 0.0_wp
+      fy = 0.0_wp
+      mx = 0.0_wp
+      mz = 0.0_wp
+      touching = 0
       adhering = 0
       slipping = 0
-      others = 0
       do iy = box%iy0, box%iy1
          y = problem%grid%y(iy)
          do ix = box%ix0, box%ix1
-            select case (result%division(ix, iy))
-            case (element%exterior)
-               cycle
-            case (element%adhesion)
-               adhering = adhering + 1
-            case (element%slip)
-               slipping = slipping + 1
-            case default
-               others = others + 1
-            end select
-            x = problem%grid%x(ix)
-            force(1) = force(1) + result%px(ix, iy)
-            force(2) = force(2) + result%py(ix, iy)
-            moment(1) = moment(1) + area*result%pn(ix, iy)*y
-            moment(2) = moment(2) - area*result%pn(ix, iy)*x
-            if (problem%motion /= motion%none) moment(3) = moment(3) + area*(result%py(ix, iy)*x - result%px(ix, iy)*y)
+            fn(ix) = fn(ix) + result%pn(ix, iy)
+            fx(ix) = fx(ix) + result%px(ix, iy)
+            fy(ix) = fy(ix) + result%py(ix, iy)
+            mx(ix) = mx(ix) + y*result%pn(ix, iy)
+            mz(ix) = mz(ix) - y*result%px(ix, iy)
+         end do
+         do ix = box%ix0, box%ix1
+            touching = touching + merge(1, 0, result%division(ix, iy) > element%exterior)
+            adhering = adhering + merge(1, 0, result%division(ix, iy) == element%adhesion)
+            slipping = slipping + merge(1, 0, result%division(ix, iy) == element%slip)
          end do
       end do
-      result%fx = area*force(1)
-      result%fy = area*force(2)
-      result%ncon = adhering + slipping + others
+      moment = 0.0_wp
+      do ix = box%ix0, box%ix1
+         x = problem%grid%x(ix)
+         moment = moment + [mx(ix), -x*fn(ix), x*fy(ix) + mz(ix)]
+      end do
+      if (problem%motion == motion%none) moment(3) = 0.0_wp
+      result%fx = area*sum(fx)
+      result%fy = area*sum(fy)
+      result%ncon = touching
       result%nadh = adhering
       result%nslip = slipping
-      result%mx = moment(1)
-      result%my = moment(2)
-      result%mz = moment(3)
+      result%mx = area*moment(1)
+      result%my = area*moment(2)
+      result%mz = area*moment(3)
    end subroutine sum_up
 
    !> Are displacements deferred to `complete`? Not for moving coupled bodies, whose residual needs them
@@ -233,7 +249,8 @@ contains
          & .or. .not. problem%model%coupled())
    end function is_deferred
 
-   !> Compute displacements and elastic energy that were deferred
+   !> Compute what was deferred: displacements, elastic energy and largest pressure, in simplified theory rigid slip and frictional
+   !> power
    subroutine complete(problem, state, workspace, result)
       !> See `derive`
       type(patch_problem), intent(in) :: problem
@@ -241,15 +258,30 @@ contains
       type(patch_state), intent(in) :: state
       !> Compliances
       type(patch_workspace), intent(inout) :: workspace
-      !> Derived from the same tractions; displacements and energy are set
+      !> Derived from the same tractions; completed
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
 
       if (result%ncon == 0 .or. .not. is_deferred(problem)) return
       box = contact_box(state%now%division)
+      result%pmax = largest_pressure(result%pn, result%tangential%order)
+      if (allocated(problem%simplified) .and. problem%motion /= motion%none) then
+         call rigid_slip(problem, result, spin_weight=result%flx(1:2)/result%flx(3))
+         call add_creepages(problem, result)
+         result%friction_power = result%friction_power + power_of_slip(box, result)
+      end if
       call displacements(problem, state, box, workspace, result)
       call derive_energy(problem, box, result)
    end subroutine complete
+
+   !> Add creepages that were found for prescribed forces to the rigid slip
+   pure subroutine add_creepages(problem, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(inout) :: result
+
+      if (problem%n_forces >= 1) result%wx = result%wx + problem%dq*result%cksi
+      if (problem%n_forces >= 2) result%wy = result%wy + problem%dq*result%ceta
+   end subroutine add_creepages
 
    !> Elastic energy, if displacements are known; tractions are zero outside the contact
    pure subroutine derive_energy(problem, box, result)

@@ -31,7 +31,7 @@ contains
       !> Slip, element states, creepages and the report are set
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
-      integer :: iy
+      integer :: ix, iy
 
       box = contact_box(state%now%division)
       if (box%ix0 > box%ix1) then
@@ -45,19 +45,21 @@ contains
          call solve_simplified(workspace%simplified, solution, report)
          report%passes = report%passes + 1
          call trace(log, solution%division, report%iterations, report%method)
-         state%now%px(ix0:ix1, iy0:iy1) = solution%p(:, :, 1)
-         state%now%py(ix0:ix1, iy0:iy1) = solution%p(:, :, 2)
-         state%now%division(ix0:ix1, iy0:iy1) = solution%division
-         result%sx(ix0:ix1, iy0:iy1) = solution%slip(:, :, 1)
-         result%sy(ix0:ix1, iy0:iy1) = solution%slip(:, :, 2)
          do iy = iy0, iy1
             result%mu(:, iy) = solution%mu(iy - iy0 + 1)
+            do ix = ix0, ix1
+               state%now%px(ix, iy) = solution%p(ix - ix0 + 1, iy - iy0 + 1, 1)
+               state%now%py(ix, iy) = solution%p(ix - ix0 + 1, iy - iy0 + 1, 2)
+               result%sx(ix, iy) = solution%slip(ix - ix0 + 1, iy - iy0 + 1, 1)
+               result%sy(ix, iy) = solution%slip(ix - ix0 + 1, iy - iy0 + 1, 2)
+               state%now%division(ix, iy) = solution%division(ix - ix0 + 1, iy - iy0 + 1)
+            end do
          end do
          result%flx = solution%flx
          result%k_eff = solution%slope
          if (problem%n_forces >= 1) result%cksi = solution%creep(1)
          if (problem%n_forces >= 2) result%ceta = solution%creep(2)
-         call rigid_slip(problem, result, spin_weight=solution%flx(1:2)/solution%flx(3))
+         if (.not. problem%defers_displacements) call rigid_slip(problem, result, spin_weight=solution%flx(1:2)/solution%flx(3))
       end associate
    end subroutine simplified_step
 
@@ -74,17 +76,24 @@ contains
       if (allocated(window%contact)) then
          if (any(shape(window%contact) /= [box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1])) deallocate(window%x, window%y)
       end if
-      if (.not. allocated(window%x)) allocate(window%x(box%ix1 - box%ix0 + 1), window%y(box%iy1 - box%iy0 + 1))
+      if (.not. allocated(window%x)) then
+         associate (mx => box%ix1 - box%ix0 + 1, my => box%iy1 - box%iy0 + 1)
+            if (allocated(window%contact)) deallocate(window%contact, window%pn)
+            allocate(window%x(mx), window%y(my), window%contact(mx, my), window%pn(mx, my))
+         end associate
+      end if
       do ix = box%ix0, box%ix1
          window%x(ix - box%ix0 + 1) = problem%grid%x(ix)
       end do
       do iy = box%iy0, box%iy1
          window%y(iy - box%iy0 + 1) = problem%grid%y(iy)
+         do ix = box%ix0, box%ix1
+            window%contact(ix - box%ix0 + 1, iy - box%iy0 + 1) = state%now%division(ix, iy) > element%exterior
+            window%pn(ix - box%ix0 + 1, iy - box%iy0 + 1) = state%now%pn(ix, iy)
+         end do
       end do
       window%dx = problem%grid%dx
       window%dy = problem%grid%dy
-      window%contact = state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) > element%exterior
-      window%pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
       window%mu = result%mu(box%ix0, box%iy0:box%iy1)
       if (allocated(window%law)) deallocate(window%law)
       if (allocated(problem%friction)) then

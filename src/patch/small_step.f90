@@ -6,7 +6,6 @@ module contact_patch_small_step
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_numeric_vectors, only : copy_numbers
    use contact_patch_derived, only : derive
-   use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_simplified_step, only : simplified_step
@@ -35,7 +34,7 @@ contains
 
    !> Pressures, tractions and forces at another approach
    !>
-   !> Pressures change by their derivative, approximate ones in proportion to the force of Hertz's theory, and tangential tractions
+   !> The largest pressure is that before the step until `complete`. Pressures change by their derivative, approximate ones in proportion to the force of Hertz's theory, and tangential tractions
    !> in proportion to the pressures: exact in the slip area; in the adhesion area the error is a fraction of a change that is
    !> within the tolerance.
    pure subroutine small_step(problem, change, state, result)
@@ -79,7 +78,6 @@ contains
       result%fn = area*force(1)
       result%fx = area*force(2)
       result%fy = area*force(3)
-      result%pmax = largest_pressure(result%pn, result%tangential%order)
       call copy_numbers(size(result%pn), result%pn, state%now%pn)
       call copy_numbers(size(result%px), result%px, state%now%px)
       call copy_numbers(size(result%py), result%py, state%now%py)

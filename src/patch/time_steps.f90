@@ -3,7 +3,7 @@ module contact_patch_time_steps
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : copy_states, element, set_states
    use contact_grid_potential_contact, only : is_same_side, potential_contact
    use contact_numeric_vectors, only : clear_numbers, copy_numbers
    use contact_patch_problem, only : carried, memory_field, patch_problem, patch_state, traction_fields
@@ -337,7 +337,7 @@ contains
 
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
-      fields%division = element%exterior
+      call set_states(size(fields%division), element%exterior, fields%division)
       call clear_tractions(fields)
       fields%pen = 0.0_wp
       if (allocated(fields%rate)) deallocate(fields%rate)
@@ -354,7 +354,7 @@ contains
 
       call fit_fields(to, from%grid%mx, from%grid%my)
       to%grid = from%grid
-      to%division = from%division
+      call copy_states(size(to%division), from%division, to%division)
       call copy_numbers(size(to%pn), from%pn, to%pn)
       call copy_numbers(size(to%px), from%px, to%px)
       call copy_numbers(size(to%py), from%py, to%py)

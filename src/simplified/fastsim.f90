@@ -5,7 +5,8 @@
 !> (Kalker 1982). First order in the step.
 module contact_simplified_fastsim
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : element, set_states
+   use contact_numeric_vectors, only : clear_numbers
    implicit none (type, external)
    private
 
@@ -37,9 +38,9 @@ contains
       real(wp), dimension(rows_at_once) :: ux, uy
       integer :: mx, my, first, last, ix, iy, k, start, finish
 
-      p = 0.0_wp
-      slip = 0.0_wp
-      division = element%exterior
+      call clear_numbers(size(p), p)
+      call clear_numbers(size(slip), slip)
+      call set_states(size(division), element%exterior, division)
       mx = size(contact, 1)
       my = size(contact, 2)
       start = merge(mx, 1, direction > 0)

@@ -6,11 +6,12 @@
 module contact_simplified_flexibility
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : bounding_box
    use contact_simplified_kalker, only : creepage_coefficients, kalker_coefficients
    implicit none (type, external)
    private
 
-   public :: ellipse, equivalent_ellipse, three_flexibilities, blended_flexibilities
+   public :: contact_extent, ellipse, equivalent_ellipse, three_flexibilities, blended_flexibilities
    public :: slope_reduction, slope_factor
 
    !> Semi-axes along and across the rolling direction [mm]
@@ -32,33 +33,46 @@ contains
    !> Ellipse with the area of the contact area and the aspect ratio of its bounding box
    pure function equivalent_ellipse(contact, dx, dy) result(self)
       !> Elements in contact, shape (mx, my)
-      logical, intent(in) :: contact(:, :)
+      logical, contiguous, intent(in) :: contact(:, :)
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       type(ellipse) :: self
-      integer :: ix, iy, ix0, ix1, iy0, iy1, n
+      type(bounding_box) :: box
+      integer :: n
       real(wp) :: c, proportion
 
-      n = 0
-      ix0 = size(contact, 1) + 1
-      ix1 = 0
-      iy0 = size(contact, 2) + 1
-      iy1 = 0
-      do iy = 1, size(contact, 2)
-         do ix = 1, size(contact, 1)
-            if (.not. contact(ix, iy)) cycle
-            n = n + 1
-            ix0 = min(ix0, ix)
-            ix1 = max(ix1, ix)
-            iy0 = min(iy0, iy)
-            iy1 = iy
-         end do
-      end do
+      call contact_extent(contact, n, box)
       if (n == 0) return
       c = sqrt(n*dx*dy/pi)
-      proportion = sqrt((ix1 - ix0 + 1)*dx/((iy1 - iy0 + 1)*dy))
+      proportion = sqrt((box%ix1 - box%ix0 + 1)*dx/((box%iy1 - box%iy0 + 1)*dy))
       self = ellipse(c*proportion, c/proportion)
    end function equivalent_ellipse
+
+   !> Number of elements in contact, and the smallest rectangle that contains them
+   pure subroutine contact_extent(contact, n, box)
+      !> Elements in contact, shape (mx, my)
+      logical, contiguous, intent(in) :: contact(:, :)
+      !> Number
+      integer, intent(out) :: n
+      !> Rectangle; empty without contact
+      type(bounding_box), intent(out) :: box
+      integer :: iy, first, last, mx
+
+      mx = size(contact, 1)
+      n = 0
+      box = bounding_box(mx + 1, 0, size(contact, 2) + 1, 0)
+      do iy = 1, size(contact, 2)
+         do first = 1, mx
+            if (contact(first, iy)) exit
+         end do
+         if (first > mx) cycle
+         do last = mx, first, -1
+            if (contact(last, iy)) exit
+         end do
+         n = n + count(contact(first:last, iy))
+         box = bounding_box(min(box%ix0, first), max(box%ix1, last), min(box%iy0, iy), iy)
+      end do
+   end subroutine contact_extent
 
    !> Flexibilities for longitudinal, lateral and spin creepage [mm3/N] that give the forces of linear theory at vanishing creepage,
    !> Kalker (1982)

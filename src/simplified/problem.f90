@@ -3,10 +3,10 @@ module contact_simplified_problem
    use contact_base_choices, only : is_fastrip, material_model
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver, friction_law
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : bounding_box, element
    use contact_simplified_fastrip, only : apply_strip_theory, strip_data
    use contact_simplified_fastsim, only : march_fastsim, step_fastsim
-   use contact_simplified_flexibility, only : blended_flexibilities, ellipse, equivalent_ellipse, slope_factor, &
+   use contact_simplified_flexibility, only : blended_flexibilities, contact_extent, ellipse, equivalent_ellipse, slope_factor, &
       & slope_reduction, three_flexibilities
    implicit none (type, external)
    private
@@ -98,24 +98,13 @@ contains
       type(simplified_problem), intent(inout) :: problem
       !> Its arrays get the size of the grid
       type(simplified_solution), intent(inout) :: solution
-      integer :: mx, my
-      real(wp) :: lowest(2), highest(2)
-      integer :: ix, iy
+      type(bounding_box) :: box
+      integer :: mx, my, n
 
       mx = size(problem%contact, 1)
       my = size(problem%contact, 2)
-      lowest = huge(lowest)
-      highest = -huge(highest)
-      do iy = 1, my
-         do ix = 1, mx
-            if (.not. problem%contact(ix, iy)) cycle
-            lowest(1) = min(lowest(1), problem%x(ix))
-            lowest(2) = min(lowest(2), problem%y(iy))
-            highest(1) = max(highest(1), problem%x(ix))
-            highest(2) = max(highest(2), problem%y(iy))
-         end do
-      end do
-      if (lowest(1) <= highest(1)) problem%centre = 0.5_wp*(lowest + highest)
+      call contact_extent(problem%contact, n, box)
+      if (n > 0) problem%centre = 0.5_wp*[problem%x(box%ix0) + problem%x(box%ix1), problem%y(box%iy0) + problem%y(box%iy1)]
       problem%area = equivalent_ellipse(problem%contact, problem%dx, problem%dy)
       problem%reference = problem%area
       if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz

@@ -261,11 +261,11 @@ contains
    !> Estimate positions and heights of the next row, from the previous ones
    pure subroutine estimate(rows, known, row)
       !> Positions, then heights, of previous rows [mm], the last row first, shape (2 points, remembered)
-      real(wp), intent(in) :: rows(:, :)
+      real(wp), contiguous, intent(in) :: rows(:, :)
       !> Number of previous rows
       integer, intent(in) :: known
       !> Positions, then heights [mm]
-      real(wp), intent(out) :: row(:)
+      real(wp), contiguous, intent(out) :: row(:)
 
       select case (known)
       case (1)
@@ -280,11 +280,11 @@ contains
    !> Store a row; if some of its points were not found, the list of rows is cleared
    pure subroutine keep(row, found, rows, known)
       !> Positions, then heights [mm]
-      real(wp), intent(in) :: row(:)
+      real(wp), contiguous, intent(in) :: row(:)
       !> Were all points found?
       logical, intent(in) :: found
       !> See `estimate`
-      real(wp), intent(inout) :: rows(:, :)
+      real(wp), contiguous, intent(inout) :: rows(:, :)
       integer, intent(inout) :: known
       integer :: j
 

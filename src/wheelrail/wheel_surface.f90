@@ -94,16 +94,22 @@ contains
       !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
       !> Positions in the plane [mm]
-      real(wp), intent(in) :: x(:), s
+      real(wp), contiguous, intent(in) :: x(:)
+      real(wp), intent(in) :: s
       !> Position on the profile and height of each point [mm], estimates on entry
-      real(wp), intent(inout) :: place(:), n(:)
+      real(wp), contiguous, intent(inout) :: place(:), n(:)
       !> Does the line along n intersect the wheel?
-      logical, intent(out) :: found(:)
+      logical, contiguous, intent(out) :: found(:)
       real(wp), dimension(together) :: some_x, some_place, some_n
       integer :: i, k, last, piece
       logical :: done
 
       piece = piece_of(wheel%y%s, place(1))
+      if (size(x) == together) then
+         call meet_together(wheel, radius, seen, x, s, piece, place, n, done)
+         found = done
+         if (done) return
+      end if
       do i = 1, size(x), together
          last = min(i + together - 1, size(x))
          ! beyond the end of the row the last point is repeated
