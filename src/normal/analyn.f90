@@ -55,7 +55,10 @@ contains
       !> Smallest gap of each row and centres of the columns [mm]
       real(wp) :: low(grid%my), x(grid%mx)
       real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least, ratio, curved, before
-      integer :: ix, iy, first, last, from, to
+      !> The group of elements with the smallest gap of each row, and its place, if there is only one
+      integer :: group(2, grid%my)
+      type(low_place) :: place(grid%my)
+      integer :: ix, iy, first, last, from, to, groups
 
       call clear_numbers(size(pn), pn)
       if (size(gap) == 0) return
@@ -70,10 +73,14 @@ contains
       sharpest = 0.0_wp
       do iy = 1, grid%my
          last = 0
+         groups = 0
          do
             call next_run(gap(:, iy), low(iy), tolerance, first, last)
             if (first == 0) exit
             here = lowest_place(grid, gap, iy, first, last)
+            groups = groups + 1
+            group(:, iy) = merge([first, last], 0, groups == 1)
+            place(iy) = here
             if (-here%lowest > overlap + tolerance) sharpest = 0.0_wp
             if (-here%lowest > overlap - tolerance) then
                call find_curvatures(grid, gap, iy, first, last, 0.0_wp, here)
@@ -87,11 +94,19 @@ contains
       if (sharpest > 0.0_wp) least = min(least, min_share*sharpest)
       ratio = 0.0_wp
       do iy = 1, grid%my
+         if (group(1, iy) > 0 .and. .not. place(iy)%lowest < 0.0_wp) cycle
          last = 0
          do
-            call next_run(gap(:, iy), low(iy), tolerance, first, last)
-            if (first == 0) exit
-            here = lowest_place(grid, gap, iy, first, last)
+            if (group(1, iy) > 0) then
+               if (last > 0) exit
+               first = group(1, iy)
+               last = group(2, iy)
+               here = place(iy)
+            else
+               call next_run(gap(:, iy), low(iy), tolerance, first, last)
+               if (first == 0) exit
+               here = lowest_place(grid, gap, iy, first, last)
+            end if
             if (.not. here%lowest < 0.0_wp) cycle
             call find_curvatures(grid, gap, iy, first, last, least, here)
             curved = min(here%a1, here%b1)/max(here%a1, here%b1)

@@ -48,8 +48,9 @@ contains
       else
          if (first) then
             if (allocated(problem%pressure_estimate)) state%now%pn = problem%pressure_estimate
-            if (problem%follows_approach) call follow_approach(problem, state)
-            scales = problem%follows_approach .and. .not. problem%couples()
+            ! simplified theory does not start from tractions
+            scales = problem%follows_approach .and. .not. (problem%couples() .or. allocated(problem%simplified))
+            if (problem%follows_approach) call follow_approach(problem, scales, state)
          end if
          if (problem%pressure == pressure_model%full .or. problem%couples() &
             & .or. .not. suits_sums(problem)) then
@@ -170,9 +171,11 @@ contains
    end subroutine mark_contact
 
    !> Estimates for the present approach: pressures by their derivative in the last solution, tractions relative to the pressures
-   pure subroutine follow_approach(problem, state)
+   pure subroutine follow_approach(problem, scales, state)
       !> Its approach is the present one
       type(patch_problem), intent(in) :: problem
+      !> Are tractions divided by the pressures?
+      logical, intent(in) :: scales
       !> Pressures, approach and derivative of the last solution on entry; estimates on exit
       type(patch_state), intent(inout) :: state
       !> Maximum change relative to the approach, over which pressures are nearly linear [-]
@@ -180,7 +183,7 @@ contains
       real(wp) :: change
       integer :: ix, iy
 
-      if (.not. problem%couples()) then
+      if (scales) then
          do iy = 1, size(state%now%pn, 2)
             do ix = 1, size(state%now%pn, 1)
                if (state%now%pn(ix, iy) > 0.0_wp) then

@@ -27,7 +27,7 @@ module contact_wheelrail_wheel_rows
    real(wp), parameter :: chebyshev_end(2) = [chebyshev(terms - 1, terms - 1), chebyshev(terms, terms)]
    !> Number of consecutive rows without such a polynomial, after which none is tried
    integer, parameter :: patience = 5
-   !> Maximum number of stored rows
+   !> Maximum number of stored rows, for quadratic extrapolation
    integer, parameter :: remembered = 3
 
    !> Consecutive rows of a patch at even distances; its arrays are reused for further patches
@@ -180,7 +180,7 @@ contains
       associate (m => self%few, place => some(:terms), n => some(terms + 1:))
          found = .true.
          if (self%known > 0) then
-            call estimate(self%rows, self%known, some)
+            call estimate(2*terms, self%rows, self%known, some)
             call row_from_estimates(wheel, radius, seen, self%nodes(:m), s, place(:m), n(:m), found(:m))
          else
             some = 0.0_wp
@@ -196,7 +196,7 @@ contains
             call row_from_estimates(wheel, radius, seen, self%nodes(2:m), s, place(2:m), n(2:m), found(2:m))
          end if
          if (found(1)) self%start = [place(1), n(1)]
-         call keep(some, all(found), self%rows, self%known)
+         call keep(2*terms, some, all(found), self%rows, self%known)
       end associate
    end subroutine find_nodes
 
@@ -215,7 +215,7 @@ contains
 
       associate (m => self%points)
          if (self%known > 0) then
-            call estimate(self%all_rows(:2*m, :), self%known, row)
+            call estimate(2*m, self%all_rows, self%known, row)
             self%place(:m) = row(:m)
             n = row(m + 1:)
             call row_from_estimates(wheel, radius, seen, self%x(:m), s, self%place(:m), n, self%found(:m))
@@ -237,7 +237,7 @@ contains
 
       row(:self%points) = self%place(:self%points)
       row(self%points + 1:) = n
-      call keep(row, all(self%found(:self%points)), self%all_rows(:2*self%points, :), self%known)
+      call keep(2*self%points, row, all(self%found(:self%points)), self%all_rows, self%known)
    end subroutine keep_all
 
    !> Allocate the arrays for all points
@@ -259,42 +259,53 @@ contains
    end subroutine make_room
 
    !> Estimate positions and heights of the next row, from the previous ones
-   pure subroutine estimate(rows, known, row)
+   pure subroutine estimate(n, rows, known, row)
+      !> Number of positions and heights of a row
+      integer, intent(in) :: n
       !> Positions, then heights, of previous rows [mm], the last row first, shape (2 points, remembered)
       real(wp), contiguous, intent(in) :: rows(:, :)
       !> Number of previous rows
       integer, intent(in) :: known
       !> Positions, then heights [mm]
-      real(wp), contiguous, intent(out) :: row(:)
+      real(wp), intent(out) :: row(n)
+      integer :: i
 
       select case (known)
       case (1)
-         row = rows(:, 1)
+         do i = 1, n
+            row(i) = rows(i, 1)
+         end do
       case (2)
-         row = 2.0_wp*rows(:, 1) - rows(:, 2)
+         do i = 1, n
+            row(i) = 2.0_wp*rows(i, 1) - rows(i, 2)
+         end do
       case default
-         row = 3.0_wp*(rows(:, 1) - rows(:, 2)) + rows(:, 3)
+         do i = 1, n
+            row(i) = 3.0_wp*(rows(i, 1) - rows(i, 2)) + rows(i, 3)
+         end do
       end select
    end subroutine estimate
 
    !> Store a row; if some of its points were not found, the list of rows is cleared
-   pure subroutine keep(row, found, rows, known)
+   pure subroutine keep(n, row, found, rows, known)
+      !> Number of positions and heights of a row
+      integer, intent(in) :: n
       !> Positions, then heights [mm]
-      real(wp), contiguous, intent(in) :: row(:)
+      real(wp), intent(in) :: row(n)
       !> Were all points found?
       logical, intent(in) :: found
       !> See `estimate`
       real(wp), contiguous, intent(inout) :: rows(:, :)
       integer, intent(inout) :: known
-      integer :: j
+      integer :: i
 
       known = merge(min(known + 1, remembered), 0, found)
       if (.not. found) return
-      ! one row after the other: whole sections that may overlap are copied through the heap
-      do j = remembered, 2, -1
-         rows(:, j) = rows(:, j - 1)
+      do i = 1, n
+         rows(i, 3) = rows(i, 2)
+         rows(i, 2) = rows(i, 1)
+         rows(i, 1) = row(i)
       end do
-      rows(:, 1) = row
    end subroutine keep
 
    !> Are all positions between those at the nodes on the profile as well?

@@ -105,23 +105,22 @@ contains
       logical :: done
 
       piece = piece_of(wheel%y%s, place(1))
-      if (size(x) == together) then
-         call meet_together(wheel, radius, seen, x, s, piece, place, n, done)
-         found = done
-         if (done) return
-      end if
       do i = 1, size(x), together
          last = min(i + together - 1, size(x))
-         ! beyond the end of the row the last point is repeated
-         do k = 1, together
-            some_x(k) = x(min(i + k - 1, last))
-            some_place(k) = place(min(i + k - 1, last))
-            some_n(k) = n(min(i + k - 1, last))
-         end do
-         call meet_together(wheel, radius, seen, some_x, s, piece, some_place, some_n, done)
+         if (last - i + 1 == together) then
+            call meet_together(wheel, radius, seen, x(i:last), s, piece, place(i:last), n(i:last), done)
+         else
+            ! beyond the end of the row the last point is repeated
+            do k = 1, together
+               some_x(k) = x(min(i + k - 1, last))
+               some_place(k) = place(min(i + k - 1, last))
+               some_n(k) = n(min(i + k - 1, last))
+            end do
+            call meet_together(wheel, radius, seen, some_x, s, piece, some_place, some_n, done)
+            if (done) place(i:last) = some_place(:last - i + 1)
+            if (done) n(i:last) = some_n(:last - i + 1)
+         end if
          if (done) then
-            place(i:last) = some_place(:last - i + 1)
-            n(i:last) = some_n(:last - i + 1)
             found(i:last) = .true.
             cycle
          end if
