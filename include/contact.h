@@ -105,7 +105,7 @@ int contact_last_error(int ire, int icp, char *message, int message_length);
 
 /* How a case ended */
 enum {
-  CONTACT_NOT_CALCULATED = -1, /* no such problem, or no calculation yet */
+  CONTACT_NOT_CALCULATED = -1, /* no such problem, no calculation yet, or only a check of the input (R = 2, 3) */
   CONTACT_SOLVED = 0,          /* every iteration and every prescribed force reached its tolerance */
   CONTACT_NOT_CONVERGED = 1,   /* there are results; an iteration or a prescribed force did not reach its tolerance */
   CONTACT_REFUSED = 2          /* there is no result */

@@ -618,6 +618,8 @@ class Element:
         if code < 0:
             # a missed tolerance or force: read the reason now, so that it is not attributed to a later call
             last_error(self.number, self._icp)
+        if self._status == "checked":
+            return 0
         if self._status != "solved":
             warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
         required, reached = cntc.getflags(self.number, self._icp, [CNTC["own_accuracy"], CNTC["own_reached"]])

@@ -163,8 +163,9 @@ def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:
 
 def case_status(ire: int = 1, icp: int = -1) -> tuple[str, str]:
     """Status of the last calculation of a problem, "solved", "not converged" or "refused", and the reason in one sentence;
-    ("", "") before the first calculation."""
+    "checked" if only the input was checked; ("", "") before the first calculation."""
     room = ctypes.create_string_buffer(2000)
     state = library().contact_case_status(ire, icp, None, room, len(room))
-    words = {0: "solved", 1: "not converged", 2: "refused"}
-    return words.get(state, ""), room.value.decode("utf-8", errors="replace")
+    reason = room.value.decode("utf-8", errors="replace")
+    words = {-1: "checked" if reason else "", 0: "solved", 1: "not converged", 2: "refused"}
+    return words.get(state, ""), reason

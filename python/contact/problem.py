@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import cntc
 from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
+from ._library import last_error
 
 
 def _counts(*counts: int) -> list[int]:
@@ -29,6 +30,8 @@ class Result(Patch):
         be too small.
     status, reason
         ``"solved"``, or ``"not converged"`` and the reason, which a :class:`NotConvergedWarning` reports as well.
+        ``"checked"`` after ``set_flags(ic_return=3)``: only the input was checked, and all numbers are those of the
+        last solution, 0 without one.
     """
 
     border_elements: int
@@ -194,6 +197,9 @@ class Problem(Element):
         """
         border = self._calculate(initiation)
         patch = read_patch(self.number, 1, self.units, self.motion)
+        if self._status == "checked":
+            # the complaint that there are no results does not belong to the next call
+            last_error(self.number, 1)
         warn_of_border(patch, "contact")
         warn_of_few_elements(patch, "contact")
         return Result(**patch.__dict__, border_elements=border, status=self._status, reason=self._reason)

@@ -90,6 +90,7 @@ class WheelRailResult:
         vs, vy, vz [V], rates of roll, yaw, pitch [A/T]. Shape (6,).
     status, reason
         ``"solved"``, or ``"not converged"`` and the reason, which a :class:`NotConvergedWarning` reports as well.
+        ``"checked"`` after ``set_flags(ic_return=3)``: only the input was checked, and there are no patches.
     buried
         Where wheel and rail overlap without a contact patch: ``"inner"`` or ``"outer"`` for ends of the wheel profile inside
         the rail, ``"beside"`` for another position along the track. Contact there carries no load in this result, and a

@@ -12,6 +12,8 @@ module contact_base_case_status
    public :: case_state, case_status, missed_iteration
 
    type :: case_state_list
+      !> Only the input was checked (R = 2, 3), or there was no calculation yet; states of the library only
+      integer :: not_calculated = -1
       !> Every iteration reached its tolerance, and all prescribed forces are met
       integer :: solved = 0
       !> An iteration ended above its tolerance, or a prescribed force is not met
@@ -52,6 +54,8 @@ module contact_base_case_status
       procedure :: word
       !> Name of the iteration that did not converge, padded with blanks
       procedure :: iteration_word
+      !> Mark the case as one whose input was only checked
+      procedure :: only_check
       !> Record the outcome of an iteration
       procedure :: record_iteration
       !> Record a prescribed force that is not met
@@ -98,6 +102,14 @@ contains
 
       word = words(self%iteration)
    end function iteration_word
+
+   !> Mark the case as one whose input was only checked
+   pure subroutine only_check(self)
+      class(case_status), intent(inout) :: self
+
+      self%state = case_state%not_calculated
+      self%reason = "only the input was checked, R = 2 or 3; there are no results"
+   end subroutine only_check
 
    !> Record the outcome of an iteration; one that converged or was not started changes nothing
    subroutine record_iteration(self, iteration, name, report)

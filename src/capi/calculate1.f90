@@ -91,6 +91,8 @@ contains
             else
                call write_results(this, problem, problem%spec, log)
             end if
+         else
+            call status%only_check()
          end if
          if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
          if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &

@@ -78,6 +78,10 @@ contains
          solved%rolling = problem%stored%rolling
          call write_results(this, problem, solved, log)
          call dump_contact_case(problem, solved)
+      else
+         call status%only_check()
+         code = library_code%success
+         return
       end if
       code = code_of_contact(status)
       if (code /= library_code%success) then

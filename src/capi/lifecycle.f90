@@ -4,7 +4,7 @@
 module contact_capi_lifecycle
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_ptr
    use omp_lib, only : omp_in_parallel
-   use contact_base_case_status, only : case_status
+   use contact_base_case_status, only : case_state, case_status
    use contact_capi_arguments, only : integer_of, integers_of, path_of, set_argument, set_message
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, last_complaint, last_status, say, set_debugging
@@ -181,7 +181,7 @@ contains
       call set_message(text, message, message_length)
    end function contact_last_error
 
-   !> Final status of the last calculation of a problem, member of case_state; -1: no calculation
+   !> Final status of the last calculation of a problem, member of case_state
    function contact_case_status(ire, icp, iteration, message, message_length) result(state) &
       & bind(c, name="inside_contact_case_status")
       !> Result element; contact patch, -1 for wheel and rail as a whole
@@ -197,7 +197,7 @@ contains
       logical :: known
 
       call last_status(int(ire), int(icp), known, status)
-      state = -1_c_int
+      state = int(case_state%not_calculated, c_int)
       if (known) state = int(status%state, c_int)
       if (present(iteration)) iteration = int(status%iteration, c_int)
       if (allocated(status%reason)) then

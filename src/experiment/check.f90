@@ -29,10 +29,13 @@ contains
       type(input_case) :: this
       !> Number of elements and memory of the largest case, time of all cases
       type(case_cost) :: total
-      integer :: faulty, k
+      !> Are errors of the case hidden, because they may follow from values that it keeps?
+      logical :: is_hidden
+      integer :: faulty, hidden, k
       logical :: is_found
 
       faulty = 0
+      hidden = 0
       allocate(state%slots(4))
       do
          call read_case(state, this, is_found, error)
@@ -40,19 +43,21 @@ contains
          if (.not. is_found) exit
          state%cases = state%cases + 1
          this%spec%limits%confined = state%limits%confined
-         call report_problems(state, this)
-         if (this%problems%is_usable()) call add_cost(state, this, total)
-         if (.not. this%problems%is_usable()) then
-            faulty = faulty + 1
-            cycle
-         end if
          call find_slot(state, this%reid, this%cpid, k)
-         call check_without_solving(state%slots(k)%problem_slot, this%spec, state, error)
-         if (.not. allocated(error)) cycle
-         call place_error(state, this, error)
-         call add_context(error, "case " // integer_text(this%number))
-         call report_error(state, error)
+         call report_problems(state, this, state%slots(k)%refused(this%module_number), is_hidden)
+         if (this%problems%is_usable()) then
+            call add_cost(state, this, total)
+            call check_without_solving(state%slots(k)%problem_slot, this%spec, state, error)
+            if (.not. allocated(error)) cycle
+            ! profiles are those that the case gives itself
+            is_hidden = this%module_number == 3 .and. state%slots(k)%refused(3)
+            call place_error(state, this, error)
+            call add_context(error, "case " // integer_text(this%number))
+            if (.not. is_hidden) call report_error(state, error)
+         end if
          faulty = faulty + 1
+         if (is_hidden) hidden = hidden + 1
+         state%slots(k)%refused(this%module_number) = .true.
       end do
       do k = 1, state%used
          call release_slot(state%slots(k)%problem_slot)
@@ -60,6 +65,8 @@ contains
       call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
          & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
          & counted(state%log%warnings, "warning"))
+      if (hidden > 0) call state%log%line(" " // integer_text(hidden) // " of the faulty cases " // &
+         & trim(merge("keeps", "keep ", hidden == 1)) // " values of a case with errors; check again when these are corrected")
       if (state%cases > faulty) call state%log%line(" Estimate on one thread, largest case and time of all: " // &
          & trim(cost_text(total)))
    end subroutine check_all_cases

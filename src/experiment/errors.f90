@@ -23,16 +23,29 @@ contains
    end subroutine report_error
 
    !> Write the problems of a case: warnings to the log, errors as in report_error
-   subroutine report_problems(state, this)
+   !>
+   !> After a case with errors only those of values that the case itself gives are certain. Others may follow from values that it
+   !> keeps; they are hidden if `keeps_refused` is set.
+   subroutine report_problems(state, this, keeps_refused, is_hidden)
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
+      !> May the case keep values of a case with errors? Default: no
+      logical, intent(in), optional :: keeps_refused
+      !> Were errors hidden?
+      logical, intent(out), optional :: is_hidden
+      logical :: only_own
       integer :: k
 
+      only_own = .false.
+      if (present(keeps_refused)) only_own = keeps_refused
+      if (present(is_hidden)) is_hidden = .false.
       do k = 1, this%problems%count
          associate (item => this%problems%items(k))
             if (item%severity == severity%warning) then
                call state%log%line(problem_text(item))
                state%log%warnings = state%log%warnings + 1
+            else if (only_own .and. .not. item%is_own) then
+               if (present(is_hidden)) is_hidden = .true.
             else
                call write_error(state, problem_text(item))
                state%errors = state%errors + 1

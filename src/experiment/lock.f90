@@ -10,7 +10,7 @@ module contact_experiment_lock
    implicit none (type, external)
    private
 
-   public :: experiment_lock, is_leftover_rest
+   public :: experiment_lock, is_leftover_rest, lock_suffix
 
    type :: experiment_lock
       !> Name of the lock file, null-terminated, so that releasing the lock needs no memory
@@ -26,7 +26,8 @@ module contact_experiment_lock
       procedure :: release
    end type experiment_lock
 
-   character(len=*), parameter :: suffix = ".lock"
+   !> Suffix of the lock file
+   character(len=*), parameter :: lock_suffix = ".lock"
 
 contains
 
@@ -38,15 +39,15 @@ contains
       character(len=:), allocatable :: what
       integer :: state
 
-      self%name = place%results // suffix // c_null_char
-      call lock_experiment(place%results // suffix, self%file, state, what)
+      self%name = place%results // lock_suffix // c_null_char
+      call lock_experiment(place%results // lock_suffix, self%file, state, what)
       if (state == lock_state%ours) then
          call remove_leftovers(place%results(:len(place%results) - len(place%name)), place%name, is_leftover)
       else if (state == lock_state%held) then
          call fatal_error(error, "another run is writing the results of this experiment: " // what // "; wait until it has " &
-            & // "ended, end it, or choose another folder by --output-dir", error_kind%locked, place%results // suffix)
+            & // "ended, end it, or choose another folder by --output-dir", error_kind%locked, place%results // lock_suffix)
       else
-         self%doubt = "the experiment could not be locked (" // place%results // suffix // ": " // what &
+         self%doubt = "the experiment could not be locked (" // place%results // lock_suffix // ": " // what &
             & // "); another run of it at the same time would not be noticed"
       end if
    end subroutine take

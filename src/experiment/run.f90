@@ -19,6 +19,7 @@ module contact_experiment_run
    use contact_control_digit_terms, only : translate_to_digits
    use contact_experiment_check, only : check_all_cases
    use contact_experiment_errors, only : read_case, report_error, report_final_error
+   use contact_experiment_input_names, only : refuse_result_names
    use contact_experiment_one_case, only : compute_case, count_case
    use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
    use contact_experiment_result_files, only : close_all_files, keep_files_current, open_all_files
@@ -113,11 +114,13 @@ contains
       type(error_type), allocatable :: error
 
       call c_f_pointer(data, run)
+      call refuse_result_names(run%state%reader, run%state%place, error)
       if (run%settings%check_only) then
+         if (allocated(error)) call report_error(run%state, error)
          call check_all_cases(run%state)
          return
       end if
-      call run%state%lock%take(run%state%place, error)
+      if (.not. allocated(error)) call run%state%lock%take(run%state%place, error)
       if (allocated(error)) then
          call report_error(run%state, error)
       else

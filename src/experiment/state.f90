@@ -89,6 +89,8 @@ module contact_experiment_state
    !> Contact problem of one result element and contact patch
    type, extends(problem_slot) :: numbered_slot
       integer :: reid = 0, cpid = 1
+      !> Modules of which a case had errors when the input was checked; their values are kept separately
+      logical :: refused(3) = .false.
    end type numbered_slot
 
    !> State of a run from case to case

@@ -316,7 +316,6 @@ contains
 
    !> Replace the stored input of the case that was read last
    !> For data known only after the case was prepared, such as the curvatures of a Hertzian option.
-   !> For what is known only after the case was prepared, such as the curvatures of a Hertzian option.
    subroutine store_case(self, spec)
       class(experiment_reader), intent(inout) :: self
       type(case_spec), intent(in) :: spec

@@ -27,6 +27,8 @@ module contact_input_problems
       integer :: severity = 0
       !> Message and position
       type(error_type) :: what
+      !> Is it about a value that the case gives itself? Otherwise it may follow from kept values
+      logical :: is_own = .true.
    end type input_problem
 
    !> Growing list; items 1...count are in use
@@ -59,7 +61,7 @@ contains
    end subroutine start
 
    !> Add a problem
-   subroutine add(self, kind, message, line, column)
+   subroutine add(self, kind, message, line, column, is_own)
       class(problem_list), intent(inout) :: self
       !> Member of severity
       integer, intent(in) :: kind
@@ -69,6 +71,8 @@ contains
       integer, intent(in) :: line
       !> Column in the line, from 1; absent or 0: the line as a whole
       integer, intent(in), optional :: column
+      !> See input_problem; default: yes if there is a column
+      logical, intent(in), optional :: is_own
       type(input_problem), allocatable :: longer(:)
 
       if (.not. allocated(self%items)) allocate(self%items(8))
@@ -86,6 +90,8 @@ contains
          if (allocated(self%file)) item%what%file = self%file
          item%what%line = line
          if (present(column)) item%what%column = column
+         item%is_own = item%what%column > 0
+         if (present(is_own)) item%is_own = is_own
       end associate
    end subroutine add
 

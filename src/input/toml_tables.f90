@@ -246,7 +246,7 @@ contains
       if (place <= 0) place = self%group_node
       if (place <= 0) place = self%case_node
       associate (node => self%document%nodes(place))
-         call self%problems%add(kind, message, node%line, node%column)
+         call self%problems%add(kind, message, node%line, node%column, is_own=index > 0)
       end associate
    end subroutine add_problem
 
@@ -369,7 +369,7 @@ contains
          end if
       end if
       associate (node => self%document%nodes(index))
-         call self%problems%add(severity%error, message, node%key_line, node%key_column)
+         call self%problems%add(severity%error, message, node%key_line, node%key_column, is_own=.false.)
       end associate
    end subroutine refuse_key
 end module contact_input_toml_tables

@@ -494,7 +494,19 @@ def checked_only():
         wheel(pair)
         for digit, patches in ((3, 0), (1, 1), (3, 0), (1, 1)):
             pair.set_flags(ic_return=digit)
-            same(len(pair.solve().patches), patches, f"patches with R = {digit}")
+            result = pair.solve()
+            same(len(result.patches), patches, f"patches with R = {digit}")
+            same(result.status, "solved" if digit == 1 else "checked", f"status with R = {digit}")
+            same("only the input was checked" in result.reason, digit == 3, f"reason with R = {digit}")
+    with contact.Problem() as problem:
+        problem.set_material(g=82000.0, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(9, 9, aa=6.0, bb=6.0)
+        problem.set_normal_force(80e3)
+        for digit in (3, 1, 2, 0):
+            # set_flags fails if the former call has left an error
+            problem.set_flags(ic_return=digit)
+            same(problem.solve().status, "solved" if digit < 2 else "checked", f"status of two bodies with R = {digit}")
 
 
 def output():
