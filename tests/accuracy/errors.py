@@ -5,6 +5,8 @@ side, whose totals are extrapolated. The output is the distribution of the effec
 of contact and by total. With --places N each contact is solved on N grids of other offsets, and a second table has the effectivity
 relative to the rms error of these; for wheels, whose grids cannot be moved, elements of N sizes replace the offsets.
 --acceptance makes the table of 400 contacts and 100 wheels at four offsets, and lists the totals that miss the goals.
+--log FILE solves the contacts in batches, with other offsets, and appends each comparison to the file as a line of JSON; a run that
+was interrupted goes on where it stopped, and --table FILE... prints the tables of what such files have.
 --check fails if the bounds of the test are missed.
 CONTACT_PROGRAM names the program.
 """
@@ -53,6 +55,8 @@ PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 OTHER_OFFSETS = 3
 #: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
 WANTED, ACCEPTANCE = (0.95, 0.1), (400, 100)
+#: Contacts or wheels of one batch with --log
+BATCH = 12
 #: Sizes of the elements of wheels at the places of a grid, relative to those of the case
 WHEEL_PLACES = (1.0, 0.97, 1.03, 1.06)
 #: Totals of the groups whose largest relative error counts
@@ -106,13 +110,18 @@ def scale_of(name, totals, c):
     return abs(totals[name])
 
 
-def judge(program, seed, count, kinds, limits, folder, options, places=1, only=()):
-    """Relative true errors and estimates of all totals of all contacts, or of some, at all offsets of the grid with a result."""
+def judge(program, seed, count, kinds, limits, folder, options, places=1, only=(), batch=None):
+    """Relative true errors and estimates of all totals of all contacts, or of some, at all offsets of the grid with a result.
+
+    Offsets of a batch are those of its number, whatever was solved before.
+    """
     source = random.Random(seed)
     contacts = [dict(contact(source, kinds[k % len(kinds)]), stresses=True) for k in range(count)]
     sizes = [source.randrange(*limits) for _ in contacts]
     if only:
         contacts, sizes, count = [contacts[k] for k in only], [sizes[k] for k in only], len(only)
+    if batch is not None:
+        source = random.Random(f"{seed} {batch}")
 
     def solve(factor, chosen):
         texts = [text_of(contacts[k], sizes[k] * factor, (source.random(), source.random()), eps=1e-6 if factor == 1 else 1e-7)
@@ -258,8 +267,70 @@ def verdict(by_total, against):
             f"{WANTED[1]}" + (": all but " + ", ".join(missed) if missed else ""))
 
 
+def logged(path):
+    """Rows of all contacts and wheels of a log, and the batches that are complete."""
+    rows, done = [], set()
+    for line in path.read_text().splitlines() if path.exists() else []:
+        record = json.loads(line)
+        if "done" in record:
+            done.add(tuple(record["done"]))
+        else:
+            rows.append((record["contact"], record["size"], record["places"]))
+    return rows, done
+
+
+def judge_in_batches(path, asked, kinds, limits, program, folder):
+    """Judge the contacts and wheels that a log does not have yet; batches of both take turns."""
+    _, done = logged(path)
+    batches = [(kind, first) for kind, count in (("contact", asked.count), ("wheel", asked.wheels)) for first in range(0, count, BATCH)]
+    counts = {"contact": asked.count, "wheel": asked.wheels}
+    # the same fraction of both at any time
+    for kind, first in sorted(batches, key=lambda b: (b[1] / counts[b[0]], b[0])):
+        if (kind, first) in done:
+            continue
+        only = range(first, min(first + BATCH, counts[kind]))
+        if kind == "contact":
+            rows = judge(program, asked.seed, asked.count, kinds, limits, folder, asked.order, asked.places, only, first)
+        else:
+            rows = judge_wheels(program, asked.seed, asked.wheels, folder, asked.order, asked.places, only)
+        lines = [{"number": number, "contact": {name: c[name] for name in ("kind", "a", "b")}, "size": n, "places": places}
+                 for number, (c, n, places) in zip(only, rows)]
+        with path.open("a") as log:
+            log.write("".join(json.dumps(line) + "\n" for line in [*lines, {"done": [kind, first]}]))
+
+
 HEADING = ("| | contacts | median true error | least | 5 % | median | 95 % | most | within 0.3 to 5 [%] | below | above |\n"
            "|---|---|---|---|---|---|---|---|---|---|---|")
+
+
+def tables(rows, asked):
+    """Print the tables of all comparisons by total; the comparisons by total, and by kind of contact and total."""
+    by_total, by_kind = {}, {}
+    for c, n, places in rows:
+        if not places:
+            print(f"no result: {c['kind']} on {n} elements")
+        for group, value in over_places(places):
+            if asked.list and not 0.3 <= value[0] / max(value[1], 1e-12) <= 5.0:
+                print(f"{c['kind']} on {n}, a/b {c['a'] / c['b']:.2f}, {group}: estimated {value[0]:.1e}, true {value[1]:.1e}, "
+                      f"rms {value[3]:.1e}")
+            by_total.setdefault(group, []).append(value)
+            by_kind.setdefault((c["kind"], group), []).append(value)
+    print(HEADING)
+    for group, pairs in by_total.items():
+        print(line_of(group, pairs))
+    if asked.places > 1:
+        print(f"\nAgainst the rms error of {asked.places} offsets of the grid:\n\n{HEADING}")
+        for group, pairs in by_total.items():
+            print(line_of(group, pairs, against=3))
+        print(f"\nAgainst the error of the same grid {verdict(by_total, 1)}.\nAgainst the rms error "
+              f"{verdict(by_total, 3)}.\n\n{HEADING}")
+    return by_total, by_kind
+
+
+def print_kinds(by_kind, places):
+    """Print the comparisons by kind of contact."""
+    for (kind, group), pairs in sorted(by_kind.items()):
+        print(line_of(f"{kind}: {group}", pairs, against=1 if places == 1 else 3))
 
 
 def main():
@@ -279,6 +350,8 @@ def main():
                         help="order of the discretisation, 1 or 2")
     parser.add_argument("--places", type=int, default=1, help="number of offsets of the grid for each contact")
     parser.add_argument("--acceptance", action="store_true", help="400 contacts and 100 wheels at four offsets")
+    parser.add_argument("--log", type=Path, help="file of comparisons, see above")
+    parser.add_argument("--table", type=Path, nargs="+", default=[], help="print the tables of such files")
     parser.add_argument("--list", action="store_true", help="list the contacts whose estimates miss the bounds")
     asked = parser.parse_args()
     if asked.check == "usual":
@@ -302,6 +375,14 @@ def main():
         (asked.count, asked.wheels), asked.sizes, asked.places = ACCEPTANCE, "16,30", len(WHEEL_PLACES)
     kinds = asked.kinds.split(",")
     limits = tuple(int(word) for word in asked.sizes.split(","))
+    if asked.log:
+        with tempfile.TemporaryDirectory() as name:
+            judge_in_batches(asked.log, asked, kinds, limits, os.environ["CONTACT_PROGRAM"], Path(name))
+        asked.table = [asked.log]
+    if asked.table:
+        _, by_kind = tables([row for path in asked.table for row in logged(path)[0]], asked)
+        print_kinds(by_kind, asked.places)
+        return
     with tempfile.TemporaryDirectory() as name:
         program = os.environ["CONTACT_PROGRAM"]
         only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS}.get(asked.check, ())
@@ -310,25 +391,7 @@ def main():
         wheels = PEAK_WHEELS if asked.check == "peaks" else ((asked.seed, asked.wheels, ()),)
         for seed, count, numbers in wheels:
             rows += judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers) if count else []
-    by_total, by_kind = {}, {}
-    for c, n, places in rows:
-        if not places:
-            print(f"no result: {c['kind']} on {n} elements")
-        for group, value in over_places(places):
-            if asked.list and not 0.3 <= value[0] / max(value[1], 1e-12) <= 5.0:
-                print(f"{c['kind']} on {n}, a/b {c['a'] / c['b']:.2f}, {group}: estimated {value[0]:.1e}, true {value[1]:.1e}, "
-                      f"rms {value[3]:.1e}")
-            by_total.setdefault(group, []).append(value)
-            by_kind.setdefault((c["kind"], group), []).append(value)
-    print(HEADING)
-    for group, pairs in by_total.items():
-        print(line_of(group, pairs))
-    if asked.places > 1:
-        print(f"\nAgainst the rms error of {asked.places} offsets of the grid:\n\n{HEADING}")
-        for group, pairs in by_total.items():
-            print(line_of(group, pairs, against=3))
-        print(f"\nAgainst the error of the same grid {verdict(by_total, 1)}.\nAgainst the rms error "
-              f"{verdict(by_total, 3)}.\n\n{HEADING}")
+    by_total, by_kind = tables(rows, asked)
     if asked.check == "usual":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), BOUNDS) or 0)
     elif asked.check == "coupled":
@@ -345,8 +408,7 @@ def main():
         most_unsolved = 2 * asked.count // 3
         unsolved = sum(not places for _, _, places in rows)
         sys.exit(misses(by_total, unsolved if unsolved > most_unsolved else 0, FURTHER_BOUNDS) or 0)
-    for (kind, group), pairs in sorted(by_kind.items()):
-        print(line_of(f"{kind}: {group}", pairs, against=1 if asked.places == 1 else 3))
+    print_kinds(by_kind, asked.places)
 
 
 if __name__ == "__main__":
