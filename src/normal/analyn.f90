@@ -35,6 +35,8 @@ module contact_normal_analyn
    type :: low_place
       !> Position and gap [mm], half the second derivatives along and across the row [1/mm]
       real(wp) :: x = 0.0_wp, lowest = 0.0_wp, a1 = 0.0_wp, b1 = 0.0_wp
+      !> First and last element with this gap; the last one is 0 if the row has several such groups
+      integer :: first = 0, last = 0
    end type low_place
 
 contains
@@ -55,8 +57,7 @@ contains
       !> Smallest gap of each row and centres of the columns [mm]
       real(wp) :: low(grid%my), x(grid%mx)
       real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least, ratio, curved, before
-      !> The group of elements with the smallest gap of each row, and its place, if there is only one
-      integer :: group(2, grid%my)
+      !> The place of each row, if there is only one
       type(low_place) :: place(grid%my)
       integer :: ix, iy, first, last, from, to, groups
 
@@ -79,8 +80,9 @@ contains
             if (first == 0) exit
             here = lowest_place(grid, gap, iy, first, last)
             groups = groups + 1
-            group(:, iy) = merge([first, last], 0, groups == 1)
             place(iy) = here
+            place(iy)%first = first
+            place(iy)%last = merge(last, 0, groups == 1)
             if (-here%lowest > overlap + tolerance) sharpest = 0.0_wp
             if (-here%lowest > overlap - tolerance) then
                call find_curvatures(grid, gap, iy, first, last, 0.0_wp, here)
@@ -94,14 +96,14 @@ contains
       if (sharpest > 0.0_wp) least = min(least, min_share*sharpest)
       ratio = 0.0_wp
       do iy = 1, grid%my
-         if (group(1, iy) > 0 .and. .not. place(iy)%lowest < 0.0_wp) cycle
+         if (place(iy)%last > 0 .and. .not. place(iy)%lowest < 0.0_wp) cycle
          last = 0
          do
-            if (group(1, iy) > 0) then
+            if (place(iy)%last > 0) then
                if (last > 0) exit
-               first = group(1, iy)
-               last = group(2, iy)
                here = place(iy)
+               first = here%first
+               last = here%last
             else
                call next_run(gap(:, iy), low(iy), tolerance, first, last)
                if (first == 0) exit
@@ -141,14 +143,12 @@ contains
       real(wp), intent(in) :: centre, half_length, highest
       !> Pressures [N/mm2]
       real(wp), intent(inout) :: pn(n)
-      real(wp) :: here(n)
+      real(wp) :: here
       integer :: i
 
       do i = 1, n
-         here(i) = highest*sqrt(max(0.0_wp, 1.0_wp - ((x(i) - centre)/half_length)**2))
-      end do
-      do i = 1, n
-         if (gap(i) < excluded_threshold) pn(i) = max(pn(i), here(i))
+         here = highest*sqrt(max(0.0_wp, 1.0_wp - ((x(i) - centre)/half_length)**2))
+         pn(i) = merge(max(pn(i), here), pn(i), gap(i) < excluded_threshold)
       end do
    end subroutine add_ellipse
 

@@ -198,27 +198,23 @@ contains
       !> Element states and tractions on entry; the numbers, tangential forces and moments are set
       type(patch_result), intent(inout) :: result
       !> Sums of each column: pressures, tractions, and their moments about the x axis and about the normal
-      real(wp), dimension(box%ix0:max(box%ix0, box%ix1)) :: fn, fx, fy, mx, mz
+      real(wp) :: sums(box%ix0:max(box%ix0, box%ix1), 5)
       real(wp) :: area, moment(3), x, y
       integer :: ix, iy, touching, adhering, slipping
 
       area = problem%grid%dx*problem%grid%dy
-      fn = 0.0_wp
-      fx = 0.0_wp
-      fy = 0.0_wp
-      mx = 0.0_wp
-      mz = 0.0_wp
+      sums = 0.0_wp
       touching = 0
       adhering = 0
       slipping = 0
       do iy = box%iy0, box%iy1
          y = problem%grid%y(iy)
          do ix = box%ix0, box%ix1
-            fn(ix) = fn(ix) + result%pn(ix, iy)
-            fx(ix) = fx(ix) + result%px(ix, iy)
-            fy(ix) = fy(ix) + result%py(ix, iy)
-            mx(ix) = mx(ix) + y*result%pn(ix, iy)
-            mz(ix) = mz(ix) - y*result%px(ix, iy)
+            sums(ix, 1) = sums(ix, 1) + result%pn(ix, iy)
+            sums(ix, 2) = sums(ix, 2) + result%px(ix, iy)
+            sums(ix, 3) = sums(ix, 3) + result%py(ix, iy)
+            sums(ix, 4) = sums(ix, 4) + y*result%pn(ix, iy)
+            sums(ix, 5) = sums(ix, 5) - y*result%px(ix, iy)
          end do
          do ix = box%ix0, box%ix1
             touching = touching + merge(1, 0, result%division(ix, iy) > element%exterior)
@@ -229,11 +225,11 @@ contains
       moment = 0.0_wp
       do ix = box%ix0, box%ix1
          x = problem%grid%x(ix)
-         moment = moment + [mx(ix), -x*fn(ix), x*fy(ix) + mz(ix)]
+         moment = moment + [sums(ix, 4), -x*sums(ix, 1), x*sums(ix, 3) + sums(ix, 5)]
       end do
       if (problem%motion == motion%none) moment(3) = 0.0_wp
-      result%fx = area*sum(fx)
-      result%fy = area*sum(fy)
+      result%fx = area*sum(sums(:, 2))
+      result%fy = area*sum(sums(:, 3))
       result%ncon = touching
       result%nadh = adhering
       result%nslip = slipping

@@ -156,7 +156,7 @@ contains
       found = .false.
       do k = 1, self%n
          associate (along => self%along(k), nodes => curve%y%s)
-            if (y < minval(along%y) .or. y > maxval(along%y)) cycle
+            if (y < min(along%y(1), along%y(2)) .or. y > max(along%y(1), along%y(2))) cycle
             call find_piece(self, curve, y, along)
             c = lateral(self, curve, along%piece)
             place = monotone_cubic_root(c, max(along%s(1), nodes(along%piece)) - nodes(along%piece), &

@@ -92,7 +92,7 @@ contains
       integer, contiguous, intent(inout) :: division(:)
       !> Workspace: tractions by strip theory relative to the largest bound [-]
       real(wp), contiguous, intent(inout) :: along(:), across(:)
-      real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, xi, length, largest, peak
+      real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, xi, length, largest, peak, edge, factor
       integer :: i, n, sticks(2)
 
       n = last - first + 1
@@ -116,12 +116,18 @@ contains
       end if
       ! elements in adhesion, at the leading edge
       sticks = [first, last]
-      do i = first, last
-         xi = data%direction*(x(i) - middle)
-         if (xi > 2.0_wp*min(d, half) - half) cycle
-         if (data%direction > 0) sticks(1) = i + 1
-         if (data%direction < 0) sticks(2) = min(sticks(2), i - 1)
-      end do
+      edge = 2.0_wp*min(d, half) - half
+      if (data%direction > 0) then
+         do while (sticks(1) <= last)
+            if (x(sticks(1)) - middle > edge) exit
+            sticks(1) = sticks(1) + 1
+         end do
+      else
+         do while (sticks(2) >= first)
+            if (middle - x(sticks(2)) > edge) exit
+            sticks(2) = sticks(2) - 1
+         end do
+      end if
       if (d <= half) then
          largest = 0.0_wp
          do i = sticks(1), sticks(2)
@@ -139,32 +145,49 @@ contains
       end if
       peak = mu*peak_pressure(data)
       ! tractions are of the order of pressures: their squares neither overflow nor vanish
+      ! tractions of strip theory may exceed the bound of the actual pressures
       do i = sticks(1), sticks(2)
          px(i) = data%direction*along(i)*peak
          py(i) = across(i)*peak
+         length = sqrt(px(i)**2 + py(i)**2)
+         factor = bound(i)/max(length, bound(i), tiny(length))
+         px(i) = px(i)*factor
+         py(i) = py(i)*factor
+      end do
+      do i = sticks(1), sticks(2)
          sx(i) = 0.0_wp
          sy(i) = 0.0_wp
          division(i) = element%adhesion
-         ! tractions of strip theory may exceed the bound of the actual pressures
-         length = sqrt(px(i)**2 + py(i)**2)
-         if (length > bound(i)) then
-            px(i) = px(i)*(bound(i)/length)
-            py(i) = py(i)*(bound(i)/length)
-         end if
       end do
-      do i = first, last
-         if (i >= sticks(1) .and. i <= sticks(2)) cycle
+      associate (along_x => data%direction*kappa, before => sticks(1) - first, after => last - max(sticks(2), first - 1))
+         call slide(before, along_x, lambda, bound(first:), px(first:), py(first:), division(first:))
+         call slide(after, along_x, lambda, bound(last - after + 1:), px(last - after + 1:), py(last - after + 1:), &
+            & division(last - after + 1:))
+      end associate
+   end subroutine one_strip
+
+   !> Tractions on the bound, in the direction computed by Fastsim, or in that of strip theory if they are zero
+   pure subroutine slide(n, along, across, bound, px, py, division)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Direction of strip theory [-]
+      real(wp), intent(in) :: along, across
+      !> Traction bounds [N/mm2]
+      real(wp), intent(in) :: bound(n)
+      !> Tractions [N/mm2]
+      real(wp), intent(inout) :: px(n), py(n)
+      integer, intent(inout) :: division(n)
+      real(wp) :: length, factor
+      integer :: i
+
+      do i = 1, n
          length = sqrt(px(i)**2 + py(i)**2)
-         if (length > 0.0_wp) then
-            px(i) = px(i)*(bound(i)/length)
-            py(i) = py(i)*(bound(i)/length)
-         else
-            px(i) = data%direction*kappa*bound(i)
-            py(i) = lambda*bound(i)
-         end if
+         factor = bound(i)/merge(length, 1.0_wp, length > 0.0_wp)
+         px(i) = merge(px(i)*factor, along*bound(i), length > 0.0_wp)
+         py(i) = merge(py(i)*factor, across*bound(i), length > 0.0_wp)
          division(i) = element%slip
       end do
-   end subroutine one_strip
+   end subroutine slide
 
    !> Square root, 0 for negative numbers
    elemental real(wp) function root(square)

@@ -11,7 +11,7 @@ module contact_simplified_flexibility
    implicit none (type, external)
    private
 
-   public :: contact_extent, ellipse, equivalent_ellipse, three_flexibilities, blended_flexibilities
+   public :: contact_extent, ellipse, ellipse_in_box, equivalent_ellipse, three_flexibilities, blended_flexibilities
    public :: slope_reduction, slope_factor
 
    !> Semi-axes along and across the rolling direction [mm]
@@ -39,14 +39,27 @@ contains
       type(ellipse) :: self
       type(bounding_box) :: box
       integer :: n
-      real(wp) :: c, proportion
 
       call contact_extent(contact, n, box)
+      self = ellipse_in_box(n, box, dx, dy)
+   end function equivalent_ellipse
+
+   !> The same from the number of elements in contact and their bounding box
+   pure function ellipse_in_box(n, box, dx, dy) result(self)
+      !> Number of elements, 0: the semi-axes are zero
+      integer, intent(in) :: n
+      !> See `contact_extent`
+      type(bounding_box), intent(in) :: box
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      type(ellipse) :: self
+      real(wp) :: c, proportion
+
       if (n == 0) return
       c = sqrt(n*dx*dy/pi)
       proportion = sqrt((box%ix1 - box%ix0 + 1)*dx/((box%iy1 - box%iy0 + 1)*dy))
       self = ellipse(c*proportion, c/proportion)
-   end function equivalent_ellipse
+   end function ellipse_in_box
 
    !> Number of elements in contact, and the smallest rectangle that contains them
    pure subroutine contact_extent(contact, n, box)
