@@ -34,9 +34,9 @@ contains
 
    !> Pressures, tractions and forces at another approach
    !>
-   !> The largest pressure is that before the step until `complete`. Pressures change by their derivative, approximate ones in proportion to the force of Hertz's theory, and tangential tractions
+   !> Pressures change by their derivative, approximate ones in proportion to the force of Hertz's theory, and tangential tractions
    !> in proportion to the pressures: exact in the slip area; in the adhesion area the error is a fraction of a change that is
-   !> within the tolerance.
+   !> within the tolerance. `complete` determines the largest pressure.
    pure subroutine small_step(problem, change, state, result)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem

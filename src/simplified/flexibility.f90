@@ -11,7 +11,7 @@ module contact_simplified_flexibility
    implicit none (type, external)
    private
 
-   public :: contact_extent, ellipse, ellipse_in_box, equivalent_ellipse, three_flexibilities, blended_flexibilities
+   public :: contact_extent, ellipse, equivalent_ellipse, three_flexibilities, blended_flexibilities
    public :: slope_reduction, slope_factor
 
    !> Semi-axes along and across the rolling direction [mm]
@@ -31,21 +31,7 @@ module contact_simplified_flexibility
 contains
 
    !> Ellipse with the area of the contact area and the aspect ratio of its bounding box
-   pure function equivalent_ellipse(contact, dx, dy) result(self)
-      !> Elements in contact, shape (mx, my)
-      logical, contiguous, intent(in) :: contact(:, :)
-      !> Sides of the elements [mm]
-      real(wp), intent(in) :: dx, dy
-      type(ellipse) :: self
-      type(bounding_box) :: box
-      integer :: n
-
-      call contact_extent(contact, n, box)
-      self = ellipse_in_box(n, box, dx, dy)
-   end function equivalent_ellipse
-
-   !> The same from the number of elements in contact and their bounding box
-   pure function ellipse_in_box(n, box, dx, dy) result(self)
+   pure function equivalent_ellipse(n, box, dx, dy) result(self)
       !> Number of elements, 0: the semi-axes are zero
       integer, intent(in) :: n
       !> See `contact_extent`
@@ -59,7 +45,7 @@ contains
       c = sqrt(n*dx*dy/pi)
       proportion = sqrt((box%ix1 - box%ix0 + 1)*dx/((box%iy1 - box%iy0 + 1)*dy))
       self = ellipse(c*proportion, c/proportion)
-   end function ellipse_in_box
+   end function equivalent_ellipse
 
    !> Number of elements in contact, and the smallest rectangle that contains them
    pure subroutine contact_extent(contact, n, box)

@@ -6,7 +6,7 @@ module contact_simplified_problem
    use contact_grid_element_division, only : bounding_box, element
    use contact_simplified_fastrip, only : apply_strip_theory, strip_data
    use contact_simplified_fastsim, only : march_fastsim, step_fastsim
-   use contact_simplified_flexibility, only : blended_flexibilities, contact_extent, ellipse, ellipse_in_box, slope_factor, &
+   use contact_simplified_flexibility, only : blended_flexibilities, contact_extent, ellipse, equivalent_ellipse, slope_factor, &
       & slope_reduction, three_flexibilities
    implicit none (type, external)
    private
@@ -105,7 +105,7 @@ contains
       my = size(problem%contact, 2)
       call contact_extent(problem%contact, n, box)
       if (n > 0) problem%centre = 0.5_wp*[problem%x(box%ix0) + problem%x(box%ix1), problem%y(box%iy0) + problem%y(box%iy1)]
-      problem%area = ellipse_in_box(n, box, problem%dx, problem%dy)
+      problem%area = equivalent_ellipse(n, box, problem%dx, problem%dy)
       problem%reference = problem%area
       if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz
       if (problem%model%choice == material_model%fastsim_single) then

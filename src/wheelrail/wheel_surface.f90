@@ -93,8 +93,9 @@ contains
       real(wp), intent(in) :: radius
       !> The plane in wheel coordinates
       type(frame), intent(in) :: seen
-      !> Positions in the plane [mm]
+      !> Positions along the row [mm]
       real(wp), contiguous, intent(in) :: x(:)
+      !> Position of the row [mm]
       real(wp), intent(in) :: s
       !> Position on the profile and height of each point [mm], estimates on entry
       real(wp), contiguous, intent(inout) :: place(:), n(:)

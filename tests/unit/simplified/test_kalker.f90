@@ -2,7 +2,8 @@
 program test_kalker
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_simplified_flexibility, only : blended_flexibilities, ellipse, equivalent_ellipse, slope_factor, &
+   use contact_grid_element_division, only : bounding_box
+   use contact_simplified_flexibility, only : blended_flexibilities, contact_extent, ellipse, equivalent_ellipse, slope_factor, &
       & slope_reduction, three_flexibilities
    use contact_simplified_kalker, only : creepage_coefficients, kalker_coefficients
    use contact_test_harness, only : test_suite
@@ -90,19 +91,32 @@ contains
       end do
    end subroutine limits
 
-   !> The equivalent ellipse of a rectangle and of an empty area
+   !> The equivalent ellipse of a rectangle, of one with holes and notches, and of an empty area
    subroutine ellipses(suite)
       type(test_suite), intent(inout) :: suite
       type(ellipse) :: area
+      type(bounding_box) :: box
       logical :: contact(9, 7)
+      integer :: n
 
       contact = .false.
       contact(3:6, 2:4) = .true.
-      area = equivalent_ellipse(contact, 0.5_wp, 2.0_wp)
+      call contact_extent(contact, n, box)
+      area = equivalent_ellipse(n, box, 0.5_wp, 2.0_wp)
       call suite%close_to(pi*area%aa*area%bb, 12.0_wp, closed, "area", relative=.true.)
       call suite%close_to(area%aa/area%bb, 2.0_wp/6.0_wp, closed, "proportions", relative=.true.)
+      ! a hole, an empty row, and a part that extends further in the last row
+      contact(4:5, 3) = .false.
+      contact(2:2, 6) = .true.
+      contact(9:9, 7) = .true.
+      call contact_extent(contact, n, box)
+      call suite%check(n == 12 .and. all([box%ix0, box%ix1, box%iy0, box%iy1] == [2, 9, 2, 7]), "extent of parts with holes")
+      area = equivalent_ellipse(n, box, 0.5_wp, 2.0_wp)
+      call suite%close_to(pi*area%aa*area%bb, 12.0_wp, closed, "area of parts with holes", relative=.true.)
+      call suite%close_to(area%aa/area%bb, 4.0_wp/12.0_wp, closed, "proportions of their box", relative=.true.)
       contact = .false.
-      area = equivalent_ellipse(contact, 0.5_wp, 2.0_wp)
+      call contact_extent(contact, n, box)
+      area = equivalent_ellipse(n, box, 0.5_wp, 2.0_wp)
       call suite%close_to([area%aa, area%bb], [0.0_wp, 0.0_wp], 0.0_wp, "no contact")
    end subroutine ellipses
 
