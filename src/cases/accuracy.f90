@@ -13,7 +13,7 @@ module contact_cases_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_grid, only : is_cut_off, is_worth, level_grid, next_counts, no_direction, &
       & set_elements, stay_below
-   use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level, use_curvatures
+   use contact_cases_accuracy_level, only : first_grid, held_solution, keeps_axes, solve_level, use_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
       & smaller_tolerance, solver_tolerance, stopping_share
@@ -37,6 +37,9 @@ module contact_cases_accuracy
    !> A finer grid of a case that continues others is designed for this fraction of the accuracy: later cases may need it, and each
    !> repetition solves all cases again; chosen
    real(wp), parameter :: series_share = 0.85_wp
+   !> Maximum ratio of the numbers of elements of two grids if the first one shows that the potential contact cuts off too much of
+   !> the contact; chosen
+   real(wp), parameter :: confirming = 4.0_wp
    !> Reason of an accuracy that is not reached although finer elements were tried
    character(len=*), parameter :: no_progress = "finer elements did not help"
 
@@ -182,12 +185,13 @@ contains
       type(accuracy_report) :: report
       type(patch_result), allocatable :: best
       type(accuracy_law) :: law
-      type(level_grid) :: grid, next
-      real(wp) :: expected, before
+      type(level_grid) :: grid, next, last
+      type(held_solution) :: held
+      real(wp) :: expected, before, most
       !> Estimate and number of elements of each grid
       real(wp) :: trail(2, most_levels)
       integer :: fixed(2), cases
-      logical :: is_solved, is_lost, near, tightened
+      logical :: is_solved, near, tightened
 
       report%required = spec%iteration%accuracy
       report%method = method
@@ -200,14 +204,20 @@ contains
       do while (report%levels < most_levels)
          report%eps = grid%eps
          call solve_level(session, spec, grid, report%levels > 0, log, result, is_solved, report%last_seconds, error, folder)
-         is_lost = allocated(error)
-         if (is_lost) then
-            call session%series%clear()
-            if (.not. (error%kind == error_kind%time .and. allocated(best))) return
+         if (allocated(error)) then
+            if (.not. (error%kind == error_kind%time .and. allocated(best))) then
+               call session%series%clear()
+               return
+            end if
             report%reason = "the time limit was reached on " // integer_text(grid%counts(1)) // " x " // &
                & integer_text(grid%counts(2)) // " elements"
-            report%estimated = -1.0_wp
             deallocate(error)
+            ! later cases continue from the solution that is the result
+            call held%restore(session)
+            result = best
+            report%estimated = before
+            grid = last
+            report%eps = grid%eps
             exit
          end if
          report%levels = report%levels + 1
@@ -221,13 +231,17 @@ contains
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          next = grid
          call tighten(result, report, next%eps, tightened)
-         near = is_near_enough(report%estimated, expected, law%share*report%required)
+         near = report%estimated <= report%required .and. is_near_enough(report%estimated, expected, law%share*report%required)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)
          if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
             & merge(series_share, 1.0_wp, has_history(spec))*law%share*report%required, fixed, next%counts)
-         call stay_below(most_elements(spec%limits), fixed, next%counts)
+         most = most_elements(spec%limits)
+         ! whether the potential contact cuts off too much is decided on the second grid, which need not be much finer
+         if (is_cut_off(result, report%required, most, fixed)) most = min(most, &
+            & confirming*product(real(grid%counts, wp)))
+         call stay_below(most, fixed, next%counts)
          trail(:, report%levels) = [report%estimated, product(real(grid%counts, wp))]
          report%reason = obstacle(spec, result, report, trail(:, :report%levels), next%counts, fixed, tightened, cases)
          if (report%reason /= "") exit
@@ -235,9 +249,11 @@ contains
          before = report%estimated
          if (report%estimated >= 0.0_wp) expected = report%estimated*(minval(real(grid%counts, wp)/next%counts))**law%falls
          best = result
+         call held%hold(session)
+         last = grid
          grid = next
       end do
-      if (.not. is_lost) call session%series%take(spec, grid, report%estimated)
+      call session%series%take(spec, grid, report%estimated)
       if (.not. result%status%has_result()) call session%series%clear()
       if (report%reason == "" .and. .not. is_solved) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(best, before, report, result)

@@ -13,13 +13,42 @@ module contact_cases_accuracy_level
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_patch_level_errors, only : share_of_residual
+   use contact_patch_problem, only : patch_state
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: first_grid, keeps_axes, solve_level, use_curvatures
+   public :: first_grid, held_solution, keeps_axes, solve_level, use_curvatures
+
+   !> Solution of the last case of a series on one grid, which later cases can continue if a finer grid is not completed
+   type :: held_solution
+      !> Tractions on the elements, and on those of the coarse level; unallocated for none
+      type(patch_state), allocatable :: state, coarse_state
+   contains
+      !> Store the solution of a session
+      procedure :: hold
+      !> Give it back to the session
+      procedure :: restore
+   end type held_solution
 
 contains
+
+   subroutine hold(self, session)
+      class(held_solution), intent(inout) :: self
+      !> Has solved the case, with estimated errors
+      type(contact_session), intent(in) :: session
+
+      self%state = session%state
+      if (allocated(session%coarse)) self%coarse_state = session%coarse%state
+   end subroutine hold
+
+   subroutine restore(self, session)
+      class(held_solution), intent(inout) :: self
+      type(contact_session), intent(inout) :: session
+
+      if (allocated(self%state)) session%state = self%state
+      if (allocated(self%coarse_state)) session%coarse%state = self%coarse_state
+   end subroutine restore
 
    !> Are there semi-axes that belong to the load of a previous case? Then the curvatures derived from them are kept
    pure logical function keeps_axes(spec)
