@@ -193,12 +193,12 @@ function [ config ] = find_config( out )
 % Configuration of each case; NaN for other modules. With O=1 there is no title; then total forces indicate the module
 
    config = NaN(1, out.ncase);
-   k = find_text(out.lines, 'FX(TR)      FY(TR)');
+   k = find_text(out, 'FX(TR)      FY(TR)');
    config(out.case_of(k)) = 1;
    titles = {'WHEEL-RAIL CONTACT, LEFT',0; 'WHEEL-RAIL CONTACT, RIGHT',1; ...
              'WHEEL-ROLLER CONTACT, LEFT',4; 'WHEEL-ROLLER CONTACT, RIGHT',5};
    for i = 1 : size(titles,1)
-      k = find_text(out.lines, titles{i,1});
+      k = find_text(out, titles{i,1});
       config(out.case_of(k)) = titles{i,2};
    end
 
@@ -210,7 +210,7 @@ function [ npatch ] = count_patches( out )
 % Number of patches with results in each module 1 case
 
    npatch = zeros(1, out.ncase);
-   for k = find_text(out.lines, 'DATA FOR CONTACT PATCH')
+   for k = find_text(out, 'DATA FOR CONTACT PATCH')
       j = out.case_of(k);
       npatch(j) = max(npatch(j), out.patch_of(k));
    end
@@ -224,7 +224,7 @@ function [ pos ] = previous_patches( out, m, pos )
 
    pos.prev1 = NaN(m, out.ncase);
    pos.prev2 = NaN(m, out.ncase);
-   for k = find_text(out.lines, 'DATA FOR CONTACT PATCH')
+   for k = find_text(out, 'DATA FOR CONTACT PATCH')
       i = out.patch_of(k);
       j = out.case_of(k);
       pos.prev1(i,j) = 0;
@@ -250,7 +250,7 @@ function [ s ] = rows( out, heading, nrow, names, from, s )
       s = struct();
    end
    new = empty_arrays(names, nrow, out.ncase);
-   for k = find_text(out.lines, heading)
+   for k = find_text(out, heading)
       j = out.case_of(k);
       if (j>0 && out.in_module1(j))
          new = collect(new, max(1,out.patch_of(k)), j, names, heading_values(out.lines, k), from);

@@ -80,11 +80,11 @@ function [ sol ] = parse_lines( out )
    sol.force  = empty_arrays({'fn','fx','fy','fx_true','fy_true','mz','elen','fricw','pmax','temp'}, 1, n);
    sol.stat   = empty_arrays({'npot','ncon','nadh','nslip','nplast','inorm','itang'}, 1, n);
 
-   results = find_text(out.lines, 'ELAST.EN.   FRIC');
+   results = find_text(out, 'ELAST.EN.   FRIC');
    results = results(out.patch_of(results)==0);
    solved  = out.case_of(results);
 
-   for k = find_text(out.lines, 'KINEMATIC CONSTANTS')
+   for k = find_text(out, 'KINEMATIC CONSTANTS')
       if (out.patch_of(k)>0)
          continue
       end
@@ -107,7 +107,7 @@ function [ sol ] = parse_lines( out )
                           {{'fx_fstat_fn','fx_fn'},{'fy_fstat_fn','fy_fn'},'pmax','max_t1_t2'});
    end
 
-   for k = find_text(out.lines, 'NPOT   NCON')
+   for k = find_text(out, 'NPOT   NCON')
       if (out.patch_of(k)==0)
          names = fieldnames(sol.stat);
          sol.stat = collect(sol.stat, 1, out.case_of(k), names, heading_values(out.lines, k), names);

@@ -9,11 +9,11 @@ function [ subs ] = collect_subs( out, npatch )
 %            with val and the position x, y, z [mm]
 
    subs = [];
-   found = find_text(out.lines, ' AT (X,Y,Z) = (');
+   found = find_text(out, ' AT (X,Y,Z) = (');
    if (isempty(found))
       return
    end
-   blocks = find_text(out.lines, 'SUBSURFACE STRESSES BLOCK');
+   blocks = find_text(out, 'SUBSURFACE STRESSES BLOCK');
    names = {'sighyd','sigvm','sigtr','sigma1','sigma3','sigxx','sigyy','sigzz'};
    nblock = 1;
    for k = blocks

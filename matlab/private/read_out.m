@@ -2,6 +2,8 @@ function [ out ] = read_out( fname, caller )
 % READ_OUT  Lines of an .out file, with the case (and contact patch) that each of them belongs to.
 %
 %   out.lines    the lines, a cell array
+%   out.text     all lines in one text, each followed by a line feed
+%   out.first    for each line: position of its first character in out.text
 %   out.complete false if the file reports missing cases or, for files of this program, if its end is missing
 %   out.ncase    number of cases
 %   out.icase    numbers of the cases as printed
@@ -14,17 +16,21 @@ function [ out ] = read_out( fname, caller )
    end
 
    out.lines   = lines;
-   ours = ~isempty(find_text(lines(1:min(end,6)), 'open source'));
-   out.complete = isempty(find_text(lines, ' Not complete: ')) && (~ours || ~isempty(find_text(lines, ' CONTACT ended ')));
+   parts       = [lines; repmat({char(10)}, 1, numel(lines))];
+   out.text    = [parts{:}];
+   out.first   = cumsum([1, cellfun('length', lines(1:end-1))+1]);
+   ours = any(find_text(out, 'open source')<=6);
+   out.complete = isempty(find_text(out, ' Not complete: ')) && (~ours || ~isempty(find_text(out, ' CONTACT ended ')));
    if (~out.complete)
-      told = find_text(lines, ' Not complete: ');
+      told = find_text(out, ' Not complete: ');
       what = 'it ends in the midst of a run';
       if (~isempty(told))
          what = strtrim(lines{told(end)});
       end
       warning('%s: "%s" does not have all cases: %s.', caller, fname, what);
    end
-   starts      = find(~cellfun('isempty', regexp(lines, '^ Case +\d+', 'once')));
+   starts      = find(strncmp(lines, ' Case', 5));
+   starts      = starts(~cellfun('isempty', regexp(lines(starts), '^ Case +\d+', 'once')));
    out.ncase   = numel(starts);
    out.icase   = zeros(1, out.ncase);
    for i = 1 : out.ncase
@@ -35,7 +41,7 @@ function [ out ] = read_out( fname, caller )
    out.case_of = cumsum(mark);
 
    out.patch_of = zeros(1, numel(lines));
-   patches = find_text(lines, 'DATA FOR CONTACT PATCH');
+   patches = find_text(out, 'DATA FOR CONTACT PATCH');
    ends = [patches(2:end)-1, numel(lines)];
    for i = 1 : numel(patches)
       k = patches(i) : ends(i);

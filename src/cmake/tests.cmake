@@ -52,10 +52,15 @@ function(contact_test name)
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
 endfunction()
 
-# Tests that start first, so that none of them runs alone at the end, with their approximate processor time [s]. From the second run
-# on ctest uses its own figures
-set(CONTACT_LONG_TESTS report_viewer:94 house_pages:48 campaign_module1:45 campaign_module3:41 report_browser:40 faults_of_files:40
-  worn_profiles:31 report_start:30 hdf5_file:26 performance_instructions:23 manual_tutorials:21)
+# Tests that start first, so that none of them runs alone at the end, with their duration when three run on two processors [s]. From
+# the second run on ctest uses its own figures
+set(CONTACT_LONG_TESTS report_viewer:101 faults_of_files:73 study_cluster:70 octave_figures:59 oblique_edges:53 house_pages:48
+  study_results:47 faults_resume:47 memcheck_readable:42 report_browser:40 performance_instructions:37 study_tables:36
+  octave_plots:35 campaign_module1:34 report_damaged:34 capi_second_order:32 study_wheel_wear:31 hdf5_file:30 memcheck_resume:28
+  octave_damaged:26 octave_hdf5:24 force_search:24 octave_results:23 memcheck_run:23 report_start:23 study_command:21
+  manual_tutorials:21 worn_profiles:21 reference:21 octave_habits_drawn:19 faults_of_host_files:19 order:18 study_notebook:17
+  sweeps:16 study_description:15 capi_past:15 capi_wheel:15 study_kills:14 capi_splits:14 report_server:14 hard_grids:13
+  crossings:13)
 
 # contact_command_test(<name> LABEL <labels> COMMAND <program> <arguments> [TIMEOUT <seconds>])
 #
