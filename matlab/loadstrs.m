@@ -84,7 +84,7 @@ function [ blocks ] = read_blocks( fname )
    while (first<=size(table,1))
       nx = table(first,1);  ny = table(first,2);  nz = table(first,3);
       np = nx*ny*nz;
-      if (any([nx ny nz]<1) || any([nx ny nz]~=fix([nx ny nz])))
+      if (any([nx ny nz]<0) || any([nx ny nz]~=fix([nx ny nz])))
          error('loadstrs: "%s" is damaged: block %d has invalid numbers of points.', fname, numel(blocks)+1);
       end
       if (first+np>size(table,1))
@@ -93,8 +93,8 @@ function [ blocks ] = read_blocks( fname )
       points = table(first+(1:np),:);
       b = struct('nx',nx, 'ny',ny, 'nz',nz, 'npoints',np);
       b.x = points(1:nx, 1);
-      b.y = points(1:nx:nx*ny, 2);
-      b.z = points(1:nx*ny:np, 3);
+      b.y = points(1:max(1,nx):nx*ny, 2);
+      b.z = points(1:max(1,nx*ny):np, 3);
       for i = 4 : ncol
          b.(names{i-3}) = reshape(points(:,i), [nx ny nz]);
       end

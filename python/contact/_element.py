@@ -329,6 +329,8 @@ class Stresses:
 
     def __repr__(self) -> str:
         nz, ny, nx = self.von_mises.shape
+        if self.von_mises.size == 0:
+            return "<Stresses: no points>"
         k, j, i = np.unravel_index(int(np.nanargmax(self.von_mises)), self.von_mises.shape)
         return (f"<Stresses: {nx} x {ny} x {nz} points, largest von Mises stress {self.von_mises[k, j, i]:.5g} at "
                 f"x={self.x[i]:.5g}, y={self.y[j]:.5g}, z={self.z[k]:.5g}>")
@@ -374,11 +376,13 @@ class Stresses:
         ImportError
             If matplotlib is not installed.
         ValueError
-            If there is no such field.
+            If there is no such field, or no points.
         """
         fields = self.fields()
         if field not in fields:
             raise ValueError(f"there is no field {field!r}; there are {', '.join(fields)}")
+        if self.von_mises.size == 0:
+            raise ValueError("there are no points: no column or no row of the block is in the grid")
         pyplot = optional("matplotlib.pyplot", "plot")
         if ax is None:
             ax = pyplot.subplots()[1]
@@ -407,7 +411,7 @@ def read_stresses(ire: int, icp: int, block: int, units: str = "mm") -> Stresses
     # The tensor comes by columns: xx, yx, zx, xy, ...
     tensor = values[12:21].reshape(3, 3, nz, ny, nx).swapaxes(0, 1)
     x, y, z, ux, uy, uz, hydrostatic, von_mises, tresca = values[:9]
-    return Stresses(x[0, 0, :], y[0, :, 0], z[:, 0, 0], ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor, units)
+    return Stresses(x[:1, :1, :].ravel(), y[:1, :, :1].ravel(), z[:, :1, :1].ravel(), ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor, units)
 
 
 class Element:

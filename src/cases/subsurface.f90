@@ -159,6 +159,12 @@ contains
       result%nx = size(points%x)
       result%ny = size(points%y)
       result%nz = size(points%z)
+      ! without columns in the grid there are no rows and depths either: their coordinates are those of points
+      if (n == 0) then
+         result%nx = 0
+         result%ny = 0
+         result%nz = 0
+      end if
       allocate(result%position(3, n), result%displacement(3, n), result%stress(6, n))
       allocate(result%sighyd(n), result%sigvm(n), result%sigtr(n), result%sigma1(n), result%sigma2(n), result%sigma3(n))
       call list_points(points, result%position)

@@ -378,12 +378,12 @@ contains
 
       associate (nx => block%nx, ny => block%ny, nz => block%nz)
          call file%scale(1, "x", "mm", "columns of points", block%position(1, :nx))
-         call file%scale(2, "y", "mm", "rows of points", block%position(2, :nx*ny:nx))
-         call file%scale(3, "z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:nx*ny))
+         call file%scale(2, "y", "mm", "rows of points", block%position(2, :nx*ny:max(1, nx)))
+         call file%scale(3, "z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:max(1, nx*ny)))
          call file%open_group("points")
          call file%numbers("x", "mm", "columns of points", block%position(1, :nx))
-         call file%numbers("y", "mm", "rows of points", block%position(2, :nx*ny:nx))
-         call file%numbers("z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:nx*ny))
+         call file%numbers("y", "mm", "rows of points", block%position(2, :nx*ny:max(1, nx)))
+         call file%numbers("z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:max(1, nx*ny)))
          call file%close_group()
       end associate
       do k = 1, 3

@@ -509,6 +509,24 @@ def checked_only():
             same(problem.solve().status, "solved" if digit < 2 else "checked", f"status of two bodies with R = {digit}")
 
 
+def no_points():
+    """Columns outside the grid: a block without points has no results, and the next block has all"""
+    with contact.Problem() as problem:
+        problem.set_material(g=82000.0, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(9, 9, aa=6.0, bb=6.0)
+        problem.set_normal_force(80e3)
+        # ISUBS = 7: columns, rows and depths
+        contact.cntc.subs_addblock(problem.number, 1, 1, 7, [210], [2], [0.5, 1.0])
+        contact.cntc.subs_addblock(problem.number, 1, 2, 7, [5, 210], [2], [0.5, 1.0])
+        problem.solve()
+        for block, shape in ((1, (0, 0, 0)), (2, (2, 1, 1))):
+            found = problem.stresses(block)
+            same(found.von_mises.shape, shape, f"points of block {block}")
+            same((len(found.z), len(found.y), len(found.x)), shape, f"coordinates of block {block}")
+            same("no points" in repr(found), block == 1, "text of a block")
+
+
 def output():
     """Files are written to the requested folder"""
     contact.output_to("results", "run")
@@ -538,6 +556,6 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
-                 older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, output):
+                 older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, no_points, output):
         part()
     finish()

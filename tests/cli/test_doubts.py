@@ -450,6 +450,18 @@ class Stresses(Program):
         # beside the contact there are no steps
         self.assertEqual(self.stepped("0 1\n9\n1 1 1\n2.0\n2.0\n0\n0"), [])
 
+    def test_blocks_without_points(self):
+        """Columns or rows outside the grid, in all forms of a block: it is empty, and the run goes on in all formats"""
+        with open(os.path.join(EXAMPLES, "subsurface.inp"), encoding="utf-8") as file:
+            ball = file.read().partition("% ---- case 2")[0]
+        head = ball[:ball.index("1                                       ISUBS")]
+        inside = "7\n1 1\n21\n21\n1\n0.5\n"
+        for block in ("7\n1 1\n210\n21\n2\n0.2 0.4\n", "7\n1 1\n21\n210\n2\n0.2 0.4\n", "3\n1 1\n210\n21\n2 0.5 0.5\n",
+                      "6\n100 4 137\n5 4 37\n2\n0.1 1\n", "2\n5 4 37\n100 4 137\n2 0.5 0.5\n"):
+            cases, _, said = self.run_text(head + block + inside + "0\n0\n", "--hdf5", "--vtk", "--errors")
+            self.assertEqual([case["status"] for case in cases], ["solved"], (block, said))
+            self.assertIn("max_mises", json.dumps(cases))
+
     def test_cases_that_are_not_solved(self):
         """R = 3 with points below the surface: there are no pressures and no stresses"""
         shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
