@@ -411,7 +411,8 @@ def read_stresses(ire: int, icp: int, block: int, units: str = "mm") -> Stresses
     # The tensor comes by columns: xx, yx, zx, xy, ...
     tensor = values[12:21].reshape(3, 3, nz, ny, nx).swapaxes(0, 1)
     x, y, z, ux, uy, uz, hydrostatic, von_mises, tresca = values[:9]
-    return Stresses(x[:1, :1, :].ravel(), y[:1, :, :1].ravel(), z[:, :1, :1].ravel(), ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor, units)
+    axes = x[:1, :1, :].ravel(), y[:1, :, :1].ravel(), z[:, :1, :1].ravel()
+    return Stresses(*axes, ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor, units)
 
 
 class Element:

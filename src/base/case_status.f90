@@ -108,7 +108,7 @@ contains
       class(case_status), intent(inout) :: self
 
       self%state = case_state%not_calculated
-      self%reason = "only the input was checked, R = 2 or 3; there are no results"
+      self%reason = "only the input was checked, as requested; there are no results"
    end subroutine only_check
 
    !> Record the outcome of an iteration; one that converged or was not started changes nothing

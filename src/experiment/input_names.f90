@@ -25,6 +25,7 @@ contains
    subroutine refuse_result_names(reader, place, error)
       !> The input, at its beginning
       type(experiment_reader), intent(in) :: reader
+      !> Names of the experiment and of its folders
       type(experiment_place), intent(in) :: place
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: copy

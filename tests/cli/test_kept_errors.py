@@ -84,8 +84,8 @@ class KeptErrors(unittest.TestCase):
         """Lines of the errors, and the text on the screen"""
         with open(os.path.join(self.folder, "x" + suffix), "w", encoding="utf-8") as file:
             file.write(text)
-        run = subprocess.run([PROGRAM, "3", "x" + suffix], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                             timeout=60, check=False)
+        run = subprocess.run([PROGRAM, "3", "x" + suffix], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                             text=True, timeout=60, check=False)
         errors = [line for line in run.stderr.splitlines() if "ERROR" in line]
         self.assertEqual(run.returncode, 1 if errors else 0, run.stderr)
         return [int(re.search(r"x\.\w+:(\d+)", line).group(1)) for line in errors], run.stdout

@@ -13,8 +13,8 @@ PROGRAM = os.environ["CONTACT_PROGRAM"]
 EXAMPLES = os.path.join(os.environ["CONTACT_SOURCE"], "examples")
 RAIL = "profiles/60E1.prr"
 #: Files that runs write or delete, after the name of the experiment
-RESULTS = (".out", ".jsonl", ".h5", ".pvd", ".unfinished", ".lock", ".0001.mat", ".0012a.mat", "_re005.0001.subs", ".0001.block2.vts",
-           ".h5.tmp", ".h5.part", ".0001.mat.tmp")
+RESULTS = (".out", ".jsonl", ".h5", ".pvd", ".unfinished", ".lock", ".0001.mat", ".0012a.mat", "_re005.0001.subs",
+           ".0001.block2.vts", ".h5.tmp", ".h5.part", ".0001.mat.tmp")
 #: Names that belong to no result
 OTHERS = (".prr", ".txt", "x.out", ".rail.out", "_rail.mat")
 COEFFICIENTS = """3
