@@ -1,14 +1,12 @@
 !> Cases with all their input, including what they keep from earlier cases, in the readable format
 module contact_experiment_complete_cases
-   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_parts, case_spec, part_source
-   use contact_experiment_place, only : choose_input, experiment_place, locate_experiment
+   use contact_experiment_input_cases, only : next_valid_case, open_cases
    use contact_input_experiment_file, only : experiment_reader, input_case
-   use contact_input_problems, only : severity
    use contact_output_toml_case_writer, only : toml_experiment_writer
    use contact_text_buffer, only : text_buffer
-   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 
@@ -24,28 +22,16 @@ contains
       type(text_buffer), intent(inout) :: cases
       !> Allocated if the input is invalid
       type(error_type), allocatable, intent(out) :: error
-      type(experiment_place) :: place
       type(experiment_reader) :: reader
       type(input_case) :: this
       type(text_buffer) :: written
-      character(len=:), allocatable :: text
-      integer :: number
-      logical :: has_both
+      character(len=:), allocatable :: input, text
+      logical :: is_case
 
-      place = locate_experiment(experiment, "")
-      call choose_input(place, has_both)
-      call reader%open_file(place%input, error)
-      number = 0
+      call open_cases(experiment, reader, input, error)
       do while (.not. allocated(error))
-         call reader%next_case(this, error)
-         if (allocated(error) .or. this%module_number == 0) exit
-         number = number + 1
-         if (this%problems%number_of(severity%error) > 0) then
-            call this%problems%first_failure(error)
-            if (.not. allocated(error)) call fatal_error(error, "case " // integer_text(number) // " has errors", &
-               & error_kind%input, place%input, this%first_line)
-            exit
-         end if
+         call next_valid_case(reader, this, is_case, error)
+         if (.not. is_case) exit
          call write_alone(this, text)
          call written%add(text)
       end do

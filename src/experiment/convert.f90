@@ -4,9 +4,9 @@ module contact_experiment_convert
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
    use contact_cases_spec, only : case_spec
+   use contact_experiment_input_cases, only : next_valid_case
    use contact_experiment_place, only : choose_input, experiment_place, input_suffix, locate_experiment, readable_suffix
    use contact_input_experiment_file, only : experiment_reader, input_case
-   use contact_input_problems, only : problem_text, severity
    use contact_output_finished_file, only : move_file, open_result
    use contact_output_input_case, only : write_input_case
    use contact_output_toml_case_writer, only : toml_experiment_writer
@@ -107,24 +107,6 @@ contains
       is_relative = scan(name(1:1), "/\") == 0 .and. index(name, ":") /= 2
    end function is_relative
 
-   !> Read the next case. Its problems are reported; errors end the conversion
-   subroutine next_good_case(reader, this, messages, error)
-      type(experiment_reader), intent(inout) :: reader
-      type(input_case), intent(out) :: this
-      !> As for convert_experiment
-      type(text_buffer), intent(inout) :: messages
-      type(error_type), allocatable, intent(out) :: error
-      integer :: k
-
-      call reader%next_case(this, error)
-      if (allocated(error)) return
-      do k = 1, this%problems%count
-         call messages%add_line(problem_text(this%problems%items(k)))
-      end do
-      if (this%problems%number_of(severity%error) > 0) call fatal_error(error, "case " // integer_text(this%number) // &
-         & ", which starts at this line, has errors; nothing was written", error_kind%input, reader%lexer%file, this%first_line)
-   end subroutine next_good_case
-
    !> Convert all cases to the readable format
    subroutine write_readable(input, file, messages, cases, names_files, error)
       character(len=*), intent(in) :: input
@@ -143,15 +125,15 @@ contains
       type(input_case) :: this
       character(len=:), allocatable :: remarks, text
       integer :: first, last
+      logical :: is_case
 
       names_files = .false.
       cases = 0
       call reader%open_file(input, error)
       do while (.not. allocated(error))
          last = reader%lexer%line
-         call next_good_case(reader, this, messages, error)
-         if (allocated(error)) return
-         if (this%module_number == 0) exit
+         call next_valid_case(reader, this, is_case, error, messages)
+         if (.not. is_case) exit
          names_files = names_files .or. has_relative_file(this%spec)
          call find_remarks(reader, last + 1, this%first_line - 1, "%", "# ", remarks)
          cases = cases + 1
@@ -192,7 +174,7 @@ contains
       type(input_case) :: this
       character(len=:), allocatable :: remarks
       type(unwritten_setting), allocatable :: lost(:)
-      logical :: begins_module
+      logical :: begins_module, is_case
       integer :: k
 
       names_files = .false.
@@ -200,9 +182,8 @@ contains
       begins_module = .true.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
-         call next_good_case(reader, this, messages, error)
-         if (allocated(error)) return
-         if (this%module_number == 0) exit
+         call next_valid_case(reader, this, is_case, error, messages)
+         if (.not. is_case) exit
          names_files = names_files .or. has_relative_file(this%spec)
          cases = cases + 1
          call find_remarks(reader, 1, this%first_line - 1, "#", "% ", remarks)
@@ -285,20 +266,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
       type(input_case) :: this
-      integer :: k
+      logical :: is_case
 
       cases = 0
       call reader%open_file(file, error)
       do while (.not. allocated(error))
-         call reader%next_case(this, error)
-         if (allocated(error)) exit
-         if (this%module_number == 0) return
+         call next_valid_case(reader, this, is_case, error)
+         if (.not. is_case) exit
          cases = cases + 1
-         do k = 1, this%problems%count
-            if (this%problems%items(k)%severity /= severity%error) cycle
-            error = this%problems%items(k)%what
-            exit
-         end do
       end do
       if (allocated(error)) call add_context(error, "in the file that was written, which is a program fault")
    end subroutine count_cases

@@ -2,9 +2,9 @@
 module contact_experiment_explain
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_experiment_place, only : choose_input, experiment_place, locate_experiment
+   use contact_experiment_input_cases, only : list_problems, open_cases
    use contact_input_experiment_file, only : experiment_reader, input_case
-   use contact_input_problems, only : problem_text, severity
+   use contact_input_problems, only : severity
    use contact_output_case_words, only : describe_case
    use contact_text_buffer, only : text_buffer
    use contact_text_words, only : integer_text
@@ -27,18 +27,15 @@ contains
       real(wp), intent(in), optional :: accuracy
       !> Will the run allow simplified methods?
       logical, intent(in), optional :: allows_approximate
-      type(experiment_place) :: place
       type(experiment_reader) :: reader
       type(input_case) :: this
-      integer :: cases, k
-      logical :: has_both
+      character(len=:), allocatable :: input
+      integer :: cases
 
-      place = locate_experiment(experiment, "")
-      call choose_input(place, has_both)
-      call reader%open_file(place%input, error)
+      call open_cases(experiment, reader, input, error)
       if (allocated(error)) return
       cases = 0
-      call messages%add_line(place%input)
+      call messages%add_line(input)
       do
          call reader%next_case(this, error)
          if (allocated(error) .or. this%module_number == 0) exit
@@ -57,9 +54,7 @@ contains
             call messages%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
                & ": its errors must be corrected first")
          end if
-         do k = 1, this%problems%count
-            call messages%add_line("  " // problem_text(this%problems%items(k)))
-         end do
+         call list_problems(this%problems, "  ", messages)
          call this%problems%first_failure(error)
          if (allocated(error)) exit
       end do

@@ -15,6 +15,7 @@ module contact_patch_normal_step
    use contact_numeric_vectors, only : copy_field
    use contact_patch_field_loops, only : mark_elements, subtract_approach
    use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_relative_tractions, only : divide_by_pressures, multiply_by_pressures
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
    implicit none (type, external)
@@ -155,17 +156,9 @@ contains
       logical, intent(in) :: scales
       !> Number of elements in contact
       integer, intent(out) :: ncon
-      integer :: ix, iy
 
       associate (now => state%now)
-         if (scales) then
-            do iy = 1, size(now%pn, 2)
-               do ix = 1, size(now%pn, 1)
-                  now%px(ix, iy) = now%px(ix, iy)*now%pn(ix, iy)
-                  now%py(ix, iy) = now%py(ix, iy)*now%pn(ix, iy)
-               end do
-            end do
-         end if
+         if (scales) call multiply_by_pressures(now%pn, now%px, now%py)
          ncon = mark_elements(size(now%pn), element%exterior, element%adhesion, now%pn, now%px, now%py, now%division)
       end associate
    end subroutine mark_contact
@@ -183,19 +176,7 @@ contains
       real(wp) :: change
       integer :: ix, iy
 
-      if (scales) then
-         do iy = 1, size(state%now%pn, 2)
-            do ix = 1, size(state%now%pn, 1)
-               if (state%now%pn(ix, iy) > 0.0_wp) then
-                  state%now%px(ix, iy) = state%now%px(ix, iy)/state%now%pn(ix, iy)
-                  state%now%py(ix, iy) = state%now%py(ix, iy)/state%now%pn(ix, iy)
-               else
-                  state%now%px(ix, iy) = 0.0_wp
-                  state%now%py(ix, iy) = 0.0_wp
-               end if
-            end do
-         end do
-      end if
+      if (scales) call divide_by_pressures(state%now%pn, state%now%px, state%now%py)
       change = problem%pen - state%now%pen
       if (.not. allocated(state%now%rate) .or. problem%force_prescribed) return
       if (.not. abs(change) < largest_change*problem%pen) return

@@ -6,7 +6,8 @@ module contact_wheelrail_patch_solution
    use contact_base_log, only : log_type
    use contact_patch_time_steps, only : link_time_steps
    use contact_patch_extrapolation, only : extrapolate
-   use contact_patch_problem, only : patch_state, traction_fields
+   use contact_patch_problem, only : traction_fields
+   use contact_patch_relative_tractions, only : divide_by_pressures, multiply_by_pressures
    use contact_patch_small_step, only : can_step
    use contact_patch_solve, only : solve_patch
    use contact_wheelrail_carry_over, only : carried_step, max_patches
@@ -56,7 +57,12 @@ contains
       call link_slot(geometry%before, number, geometry%is_first, geometry%ahead, slot, error)
       if (allocated(error)) return
       keeps_tractions = geometry%keeps_tractions .and. .not. has_friction .and. slot%state%started
-      if (keeps_tractions) call keep_ratio(slot%state, ratio)
+      if (keeps_tractions) then
+         allocate(ratio(size(slot%state%now%pn, 1), size(slot%state%now%pn, 2), 2))
+         ratio(:, :, 1) = slot%state%now%px
+         ratio(:, :, 2) = slot%state%now%py
+         call divide_by_pressures(slot%state%now%pn, ratio(:, :, 1), ratio(:, :, 2))
+      end if
       if (geometry%coarser > 1) then
          call make_coarse_workspace(slot)
          call solve_patch(slot%problem, slot%state, slot%coarse_workspace, log, slot%result, error)
@@ -73,42 +79,17 @@ contains
       if (.not. with_friction) slot%shares%estimate = slot%friction_share
    end subroutine solve_slot
 
-   !> Tractions relative to the pressures
-   pure subroutine keep_ratio(state, ratio)
-      !> Estimate for a patch
-      type(patch_state), intent(in) :: state
-      !> Shape of the grid, for both components [-]
-      real(wp), allocatable, intent(out) :: ratio(:, :, :)
-      integer :: ix, iy
-
-      associate (now => state%now)
-         allocate(ratio(size(now%pn, 1), size(now%pn, 2), 2))
-         do iy = 1, size(now%pn, 2)
-            do ix = 1, size(now%pn, 1)
-               ratio(ix, iy, :) = 0.0_wp
-               if (now%pn(ix, iy) > 0.0_wp) ratio(ix, iy, :) = [now%px(ix, iy), now%py(ix, iy)]/now%pn(ix, iy)
-            end do
-         end do
-      end associate
-   end subroutine keep_ratio
-
    !> Estimate the tractions of a patch whose normal problem is solved, and the ratio of friction to the normal force
    pure subroutine estimate_tractions(ratio, ahead, slot)
-      !> See `keep_ratio`
+      !> Tractions relative to the pressures [-], x and y, shape (mx, my, 2)
       real(wp), intent(in) :: ratio(:, :, :)
       !> See wheel_rail_geometry
       real(wp), intent(in) :: ahead
       type(patch_slot), intent(inout) :: slot
-      integer :: ix, iy
 
-      associate (now => slot%state%now)
-         do iy = 1, size(now%pn, 2)
-            do ix = 1, size(now%pn, 1)
-               now%px(ix, iy) = ratio(ix, iy, 1)*now%pn(ix, iy)
-               now%py(ix, iy) = ratio(ix, iy, 2)*now%pn(ix, iy)
-            end do
-         end do
-      end associate
+      slot%state%now%px = ratio(:, :, 1)
+      slot%state%now%py = ratio(:, :, 2)
+      call multiply_by_pressures(slot%state%now%pn, slot%state%now%px, slot%state%now%py)
       ! more accurate than the sum of these tractions
       call slot%shares%extrapolate(ahead, slot%friction_share)
    end subroutine estimate_tractions
