@@ -17,7 +17,7 @@ function cntc_setinterfaciallayer( ire, icp, imeth, params )
    methods = [0 2 3 4];
    counts  = [0 4 3 4];
    if (~any(methods==imeth) || numel(params)~=counts(methods==imeth))
-      error('cntc_setinterfaciallayer: method %d with %d values; known are 0 with none, 2 with 4, 3 with 3, 4 with 4.', ...
+      error('cntc_setinterfaciallayer: method %d with %d values; accepted: 0 with none, 2 with 4, 3 with 3, 4 with 4.', ...
             imeth, numel(params));
    end
    if (isempty(icp) || icp==-1)

@@ -13,7 +13,8 @@ function cntc_settrackdimensions_old( ire, ztrack, params )
 
    counts = [4 6 10];
    if (~any(ztrack==[1 2 3]) || numel(params)~=counts(ztrack))
-      error('cntc_settrackdimensions_old: ztrack = %d with %d values; known are 1 with 4, 2 with 6, 3 with 10.', ztrack, numel(params));
+      error('cntc_settrackdimensions_old: ztrack = %d with %d values; accepted: 1 with 4, 2 with 6, 3 with 10.', ...
+            ztrack, numel(params));
    end
    params = params(:)';
    if (ztrack~=2)

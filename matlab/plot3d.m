@@ -210,7 +210,7 @@ end % function check_blocks
 function one_of( value, allowed, name )
 
    if (~any(strcmp(value, allowed)))
-      error('plot3d: option %s = ''%s'' is not known; it can be %s.', name, value, ...
+      error('plot3d: unknown %s ''%s''; accepted: %s.', name, value, ...
             ['''', strjoin(allowed, ''', '''), '''']);
    end
 

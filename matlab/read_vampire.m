@@ -116,7 +116,7 @@ function [ v ] = datum( text, words, values, fname )
    elseif (strncmpi(text, 'CUSTOM', 6))
       v = number(text(7:end), fname);
    else
-      error('read_vampire: "%s": "%s" is unknown; expected %s or CUSTOM.', fname, text, strjoin(words, ', '));
+      error('read_vampire: "%s": unknown word "%s"; accepted: %s, CUSTOM.', fname, text, strjoin(words, ', '));
    end
 
 end % function datum

@@ -240,7 +240,7 @@ def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike 
     reals = _reals(params if more is None else more)
     count = {0: 0, 2: 4, 3: 3, 4: 4}.get(imeth)
     if count is None or reals.size != count:
-        raise ValueError(f"an interfacial layer {imeth} with {reals.size} values; known are 0 with none, 2 with 4, 3 with 3, "
+        raise ValueError(f"an interfacial layer {imeth} with {reals.size} values; accepted: 0 with none, 2 with 4, 3 with 3, "
                          "4 with 4")
     elastic = _elastic.get((_element(ire), _problem(icp)))
     if elastic is None:
@@ -406,7 +406,7 @@ def settrackdimensions_old(ire: Number, ztrack: int, params: ArrayLike) -> None:
     """
     reals = _reals(params)
     if {1: 4, 2: 6, 3: 10}.get(ztrack) != reals.size:
-        raise ValueError(f"settrackdimensions_old with ztrack = {ztrack} and {reals.size} values; known are 1 with 4, 2 with 6, "
+        raise ValueError(f"settrackdimensions_old with ztrack = {ztrack} and {reals.size} values; accepted: 1 with 4, 2 with 6, "
                          "3 with 10")
     if ztrack != 2:
         width, height, cant, radius = reals[:4]

@@ -9,7 +9,7 @@ module contact_capi_calculate
    use contact_capi_calculate1, only : check_data, finish_wheel_rail, solve_wheel_rail
    use contact_capi_calculate3, only : finish_contact, solve_contact
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, first_refusal, keep_status, library_log, say
+   use contact_capi_messages, only : report_error, first_refusal, keep_status, library_log, log_message
    use contact_capi_problem, only : library_problem, max_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type
    use contact_control_digits, only : case_digits
@@ -57,7 +57,7 @@ contains
 
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
-         call say(1, this, "calculating...")
+         call log_message(1, this, "calculating...")
          cpu = problem%watch%cpu
          wall = problem%watch%wall
          call problem%watch%start()
@@ -66,8 +66,8 @@ contains
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)
-         if (code > 0) call say(1, this, trim(code_text(code)))
-         call say(1, this, "done...")
+         if (code > 0) call log_message(1, this, trim(code_text(code)))
+         call log_message(1, this, "done...")
          call leave_calculation(problem)
       end if
       call set_argument(code, ierror)
@@ -105,7 +105,7 @@ contains
       if (allocated(error)) then
          call log%translate_choices(error)
          call status%refuse(full_text(error))
-         call complain(this, full_text(error), code)
+         call report_error(this, full_text(error), code)
       else if (problem%module_number == 1) then
          call finish_wheel_rail(this, problem, log, status, code)
       else
@@ -123,7 +123,7 @@ contains
 
       digits = problem%digits
       if (.not. problem%has_result) then
-         if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+         if (digits%p /= 2) call log_message(1, this, "the first case starts a new sequence, P = 2")
          digits%p = 2
          digits%i = 0
       end if

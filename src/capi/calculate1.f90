@@ -7,7 +7,7 @@ module contact_capi_calculate1
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_wheel_rail_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, say
+   use contact_capi_messages, only : report_error, log_message
    use contact_capi_problem, only : library_problem, max_patches
    use contact_cases_continuation, only : describe_search
    use contact_cases_wheel_rail_accuracy, only : solve_wheel_on_rail
@@ -84,7 +84,7 @@ contains
             status = result%status
             if (.not. status%is_solved()) then
                code = code_of_wheel_rail(status, size(result%patches))
-               call complain(this, status%reason, code)
+               call report_error(this, status%reason, code)
             end if
             if (allocated(problem%solved)) then
                call write_results(this, problem, problem%solved, log)
@@ -94,8 +94,8 @@ contains
          else
             call status%only_check()
          end if
-         if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
-         if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
+         if (size(result%patches) == 0) call log_message(1, this, "wheel and rail do not touch")
+         if (size(result%patches) > max_patches) call log_message(0, this, "more than " // integer_text(max_patches) // &
             & " contact patches, the last ones are not available")
          if (.not. problem%has_result) result%patches = result%patches(:0)
       end associate
@@ -198,6 +198,6 @@ contains
       call find_result_file("caddon", path)
       call write_wheel_rail_files(path, problem%cases, problem%ire, spec, problem%wheel_rail_result, error, &
          & problem%metadata%time)
-      if (allocated(error)) call complain(this, full_text(error))
+      if (allocated(error)) call report_error(this, full_text(error))
    end subroutine write_results
 end module contact_capi_calculate1

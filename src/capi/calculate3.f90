@@ -8,7 +8,7 @@ module contact_capi_calculate3
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_contact_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_problem, only : library_problem
    use contact_cases_accuracy, only : solve_contact_case
    use contact_cases_continuation, only : describe_coefficients, frame_of
@@ -85,7 +85,7 @@ contains
       end if
       code = code_of_contact(status)
       if (code /= library_code%success) then
-         call complain(this, status%reason, code)
+         call report_error(this, status%reason, code)
       else if (problem%has_result) then
          code = border_elements(problem%result%division)
       end if
@@ -197,7 +197,7 @@ contains
       write(name, '("caddon_re", I3.3, "_cp", I1, ".", I0.4, ".mat")') problem%ire, problem%icp, problem%cases
       call find_result_file(trim(name), path)
       call write_mat_file(path, spec, problem%result, problem%result%status, error, place_of(problem))
-      if (allocated(error)) call complain(this, full_text(error))
+      if (allocated(error)) call report_error(this, full_text(error))
    end subroutine write_results
 
    !> Metadata of the case, as given by the caller

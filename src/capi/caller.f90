@@ -4,7 +4,7 @@ module contact_capi_caller
    use contact_base_kinds, only : long, wp
    use contact_capi_arguments, only : no_number, raised
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, count_fits, warn
+   use contact_capi_messages, only : report_error, count_fits, warn
    use contact_cases_archive, only : case_archive
    use contact_control_units, only : inward, quantity_of, unit_convention
    use contact_text_bounds, only : bounds_table, describe_breach, is_within
@@ -162,7 +162,7 @@ contains
       !> One sentence without the name of the setting
       character(len=*), intent(in) :: reason
 
-      if (self%is_good) call complain(self%call_of, reason)
+      if (self%is_good) call report_error(self%call_of, reason)
       self%is_good = .false.
    end subroutine refuse_call
 

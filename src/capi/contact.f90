@@ -3,7 +3,7 @@ module contact_capi_contact
    use contact_base_choices, only : grid_form, motion, slip_source
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : raised
-   use contact_capi_messages, only : fits, is_heard, say
+   use contact_capi_messages, only : fits, is_heard, log_message
    use contact_capi_problem, only : library_problem
    use contact_capi_caller, only : caller
    use contact_cases_grid_inputs, only : largest_grid, visit_grid
@@ -182,7 +182,7 @@ contains
       call move_alloc(slip, problem%spec%extra_slip)
       problem%digits%e = 1
       problem%spec%slip_source = slip_source%given
-      if (is_heard(2)) call say(2, a%call_of, integer_text(given) // " values for " // integer_text(n) // " elements")
+      if (is_heard(2)) call log_message(2, a%call_of, integer_text(given) // " values for " // integer_text(n) // " elements")
    end subroutine set_extra_slip
 
    !> Set the rolling velocity

@@ -7,7 +7,7 @@ module contact_capi_failure
    use contact_capi_arguments, only : integer_of, set_argument
    use contact_capi_host, only : call_stage, find_call, give_floats_back, note_call
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, keep_status, refuse_for_ever
+   use contact_capi_messages, only : report_error, keep_status, refuse_for_ever
    use contact_capi_problem, only : abandon_problem, abandon_results, library_problem
    use contact_capi_registry, only : forget_call, is_setting
    use contact_control_library_codes, only : library_code
@@ -56,7 +56,7 @@ contains
          reason = reason // "; the settings of the problem are lost, finalise and initialise the result element"
          call refuse_for_ever(problem, this, reason)
       end if
-      call complain(this, reason)
+      call report_error(this, reason)
       if (associated(problem)) then
          if (stage >= call_stage%inside) then
             call give_floats_back()

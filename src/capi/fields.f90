@@ -3,7 +3,7 @@ module contact_capi_fields
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_capi_caller, only : caller
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_view, only : result_view
    use contact_control_units, only : outward, quantity, quantity_of, quantity_type
    use contact_patch_quantities, only : element_field
@@ -25,9 +25,9 @@ contains
       call view%patch%fields(rows)
       row = findloc(rows%code, a%single(1), 1)
       if (row == 0) then
-         call complain(a%call_of, "there is no field " // integer_text(a%single(1)))
+         call report_error(a%call_of, "there is no field " // integer_text(a%single(1)))
       else if (.not. associated(rows(row)%values)) then
-         call complain(a%call_of, "field " // integer_text(a%single(1)) // " is not available in this case")
+         call report_error(a%call_of, "field " // integer_text(a%single(1)) // " is not available in this case")
       else
          call give_field(a, 1, view, rows(row))
       end if
@@ -73,7 +73,7 @@ contains
       type(result_view), intent(in) :: view
       character(len=16) :: names(12)
 
-      if (.not. allocated(view%patch%errors)) call complain(a%call_of, &
+      if (.not. allocated(view%patch%errors)) call report_error(a%call_of, &
          & "no errors were estimated: set the flag CNTC_own_errors before the calculation")
       names = [character(len=16) :: "fn", "fx", "fy", "mz", "pen", "pmax", "contact_area", "cksi", "ceta", "friction_power", &
          & "elastic_energy", "max_temp1"]
@@ -86,7 +86,7 @@ contains
       type(caller), intent(in) :: a
       type(result_view), intent(in) :: view
 
-      if (.not. allocated(view%patch%wear)) call complain(a%call_of, &
+      if (.not. allocated(view%patch%wear)) call report_error(a%call_of, &
          & "there is no wear: set the flag CNTC_own_wear, or call cntc_setwear, before the calculation")
       call a%set_result(1, view%totals([character(len=16) :: "t_gamma", "wear_index", "max_power", "max_wear", "worn_section", &
          & "traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]))
@@ -100,7 +100,7 @@ contains
       if (allocated(view%patch%temp1)) then
          call a%set_each_result([maxval(view%patch%temp1), maxval(view%patch%temp2)])
       else
-         call complain(a%call_of, "surface temperatures are not calculated in this case")
+         call report_error(a%call_of, "surface temperatures are not calculated in this case")
          call a%set_each_result([0.0_wp, 0.0_wp])
       end if
    end subroutine get_largest_temperatures

@@ -6,7 +6,7 @@ module contact_capi_flags
    use contact_capi_caller, only : caller
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
-   use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say, warn
+   use contact_capi_messages, only : begin_setting, report_error, end_setting, fits, is_heard, log_message, warn
    use contact_capi_problem, only : library_problem
    use contact_capi_timers, only : set_timer_level
    use contact_cases_accuracy_plan, only : largest_accuracy
@@ -98,14 +98,14 @@ contains
       end if
       if (stored /= number) call warn(this, flag_text(code, number) // " is none of its values and is replaced by " // &
          & integer_text(stored))
-      if (is_heard(2)) call say(2, this, flag_text(code, stored))
+      if (is_heard(2)) call log_message(2, this, flag_text(code, stored))
       call store_flag(this, code, stored, problem)
 
    contains
 
       subroutine refuse(reason)
          character(len=*), intent(in) :: reason
-         call complain(this, flag_text(code, number) // reason)
+         call report_error(this, flag_text(code, number) // reason)
       end subroutine refuse
    end subroutine set_flag
 
@@ -128,19 +128,20 @@ contains
       is_wheel_rail = problem%module_number == 1
       place => place_of(problem, code)
       if (associated(place)) place = number
-      if (code == flag%npomax .and. .not. is_wheel_rail) call say(0, this, &
+      if (code == flag%npomax .and. .not. is_wheel_rail) call log_message(0, this, &
          & "the number of elements is limited for wheel and rail only, the flag is ignored")
       if (associated(place)) return
       associate (spec => problem%spec)
          select case (code)
          case (flag%units)
             call find_convention(number, problem%units, known)
-            if (number == convention_code%imperial) call complain(this, "imperial units are not available; give another convention")
+            if (number == convention_code%imperial) &
+               & call report_error(this, "imperial units are not available; give another convention")
          case (flag%config)
             if (is_wheel_rail) problem%digits%c1 = number
          case (flag%discns)
             if (.not. is_wheel_rail) then
-               call say(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
+               call log_message(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
             else
                problem%digits%d = number
                if (number >= 2) spec%wheel_rail%search%location = choice_of("D", number, 1)
@@ -152,11 +153,11 @@ contains
             if (.not. is_wheel_rail) then
                problem%digits%e = number
             else if (number /= 0) then
-               call complain(this, "an extra term in the rigid slip is not available for wheel and rail; nothing is stored")
+               call report_error(this, "an extra term in the rigid slip is not available for wheel and rail; nothing is stored")
             end if
          case (flag%force)
             if (is_wheel_rail .and. number == 2) then
-               call complain(this, "a prescribed pitching moment, F = 2, is not available; nothing is stored. 0, 1 and 3 are")
+               call report_error(this, "a prescribed pitching moment, F = 2, is not available; nothing is stored. 0, 1 and 3 are")
             else
                problem%digits%f = number
             end if
@@ -170,8 +171,8 @@ contains
             spec%has_wear = number /= 0
          case (flag%own_accuracy)
             if (number > 0 .and. number*largest_accuracy < 1.0_wp) then
-               call complain(this, "an accuracy of one part in " // integer_text(number) // " is too rough; nothing is stored. " &
-                  & // "10 to 1000000 are accepted, and 0 for none")
+               call report_error(this, "an accuracy of one part in " // integer_text(number) // " is too rough; " &
+                  & // "nothing is stored. 10 to 1000000 are accepted, and 0 for none")
             else
                spec%iteration%accuracy = 0.0_wp
                if (number > 0) spec%iteration%accuracy = 1.0_wp/number
@@ -184,7 +185,7 @@ contains
             problem%cases = max(0, number - 1)
          case (flag%idebug, flag%licdbg, flag%openmp)
             if (omp_in_parallel()) then
-               call complain(this, "flags of the library as a whole cannot be set inside a parallel region")
+               call report_error(this, "flags of the library as a whole cannot be set inside a parallel region")
             else
                call set_global_flag(code, number)
             end if
@@ -236,7 +237,7 @@ contains
                   cycle
                end if
             end if
-            call complain(a%call_of, "the flag " // integer_text(codes(k)) // " cannot be read")
+            call report_error(a%call_of, "the flag " // integer_text(codes(k)) // " cannot be read")
          end do
       end associate
    end subroutine get_flags
@@ -381,7 +382,7 @@ contains
          case (metadata_code%run); metadata%run = whole(value)
          case (metadata_code%axle); metadata%axle = whole(value)
          case (metadata_code%side); metadata%side = whole(value)
-         case default; call complain(this, "there is no metadata code " // integer_text(code) // ", it is ignored")
+         case default; call report_error(this, "there is no metadata code " // integer_text(code) // ", it is ignored")
          end select
       end associate
    end subroutine set_value

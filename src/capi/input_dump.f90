@@ -4,7 +4,7 @@ module contact_capi_input_dump
    use contact_base_kinds, only : wp
    use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
    use contact_capi_library, only : entry_type, library
-   use contact_capi_messages, only : complain, warn
+   use contact_capi_messages, only : report_error, warn
    use contact_capi_problem, only : given_profile, library_problem
    use contact_cases_spec, only : case_parts, case_spec, part_source
    use contact_output_finished_file, only : finished_file
@@ -111,7 +111,7 @@ contains
             end do
             call file%finish(error)
          end if
-         if (allocated(error)) call complain(this, "the file " // path // &
+         if (allocated(error)) call report_error(this, "the file " // path // &
             & " for the profile in the input file cannot be written")
       end if
       profile%name = given%written_as

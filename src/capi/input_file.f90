@@ -5,7 +5,7 @@ module contact_capi_input_file
    use contact_capi_arguments, only : integer_of, path_of, set_argument
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, say
+   use contact_capi_messages, only : report_error, log_message
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : read_given_profile
    use contact_capi_registry, only : enter, leave, scope
@@ -56,13 +56,13 @@ contains
             case (input_type%simpack)
                call read_simpack_file(this, file, problem, error)
             case default
-               call fatal_error(error, "the kind " // integer_text(integer_of(inp_type)) // " of input files is not known; " // &
-                  & "1988 and 1990 are")
+               call fatal_error(error, "unknown kind of input files " // integer_text(integer_of(inp_type)) // &
+                  & "; accepted: 1988, 1990")
             end select
          end if
          if (allocated(error)) then
             code = library_code%input_file
-            call complain(this, full_text(error), code)
+            call report_error(this, full_text(error), code)
          end if
          call leave(problem)
       end if
@@ -125,7 +125,7 @@ contains
       do k = 1, size(kept_digits)
          name = trim(kept_digits(k))
          digit = digit_value(problem%digits, name)
-         if (digit_value(found, name) /= digit .and. k <= n_reported) call complain(this, "the digit " // name // " = " // &
+         if (digit_value(found, name) /= digit .and. k <= n_reported) call report_error(this, "the digit " // name // " = " // &
             & integer_text(digit_value(found, name)) // " of the file is not used, it stays " // integer_text(digit), &
             & library_code%success)
          call put_digit(found, name, digit)
@@ -191,7 +191,7 @@ contains
             pair%wheel_profile = wheel
          end if
       end associate
-      call say(2, this, "the settings are those of " // file)
+      call log_message(2, this, "the settings are those of " // file)
    end subroutine adopt
 
    !> Make the name of a profile relative to the folder of the input file

@@ -4,7 +4,7 @@ module contact_capi_jacobian
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, set_argument, set_message
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : inward, orientation, outward, quantity, quantity_type
@@ -55,7 +55,7 @@ contains
                reason = jacobian%reason
             end if
          end if
-         if (found == jacobian_state%none) call complain(this, "no derivatives: " // reason)
+         if (found == jacobian_state%none) call report_error(this, "no derivatives: " // reason)
          if (any(found == [jacobian_state%exact, jacobian_state%one_sided]) .and. present(values)) then
             call convert(problem, jacobian%values)
             n = min(max(0, integer_of(room)), size(jacobian%values))

@@ -7,7 +7,7 @@ module contact_capi_lifecycle
    use contact_base_case_status, only : case_state, case_status
    use contact_capi_arguments, only : integer_of, integers_of, path_of, set_argument, set_message
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, last_complaint, last_status, say, set_debugging
+   use contact_capi_messages, only : report_error, stored_error, last_status, log_message, set_debugging
    use contact_capi_registry, only : is_running, max_threads, record_units, register_element, remove_element, set_threads, &
       & start_library, stop_library
    use contact_control_flags, only : flag
@@ -29,8 +29,8 @@ contains
 
       this%name = "cntc_setFileUnits"
       call record_units(accepted)
-      if (.not. accepted) call complain(this, "file units can be given before initialisation only, and once")
-      if (accepted .and. size(integers_of(nunits, iunits)) == 0) call say(1, this, "no file unit is given")
+      if (.not. accepted) call report_error(this, "file units can be given before initialisation only, and once")
+      if (accepted .and. size(integers_of(nunits, iunits)) == 0) call log_message(1, this, "no file unit is given")
    end subroutine cntc_setfileunits
 
    !> Initialise the library: working folder, folder of results, name of the experiment
@@ -60,7 +60,7 @@ contains
 
       call cntc_initializefirst(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, len_expnam)
       this%name = "cntc_initializeFirst_new"
-      call say(0, this, "the same as cntc_initializeFirst")
+      call log_message(0, this, "the same as cntc_initializeFirst")
    end subroutine cntc_initializefirst_new
 
    !> Create a result element of module 1 or 3; initialises the library if needed
@@ -79,14 +79,14 @@ contains
       was_active = .false.
       if (integer_of(imodul) == 1 .or. integer_of(imodul) == 3) then
          call register_element(this%ire, integer_of(imodul), code, was_active)
-         if (code /= library_code%success) call complain(this, trim(code_text(code)), code)
+         if (code /= library_code%success) call report_error(this, trim(code_text(code)), code)
          ! the published interface returns this code for a number that is out of range
          if (code == library_code%bad_element) code = library_code%no_patch
       else
          code = library_code%other
-         call complain(this, "the module must be 1, wheel and rail, or 3, a contact problem", code)
+         call report_error(this, "the module must be 1, wheel and rail, or 3, a contact problem", code)
       end if
-      if (was_active) call complain(this, "the result element is active already, nothing is changed", library_code%success)
+      if (was_active) call report_error(this, "the result element is active already, nothing is changed", library_code%success)
       call set_argument(code, ierror)
    end subroutine cntc_initialize
 
@@ -106,7 +106,7 @@ contains
          if (any(codes(k) == [flag%idebug, flag%licdbg, flag%openmp])) then
             call set_global_flag(codes(k), numbers(k))
          else if (is_running()) then
-            call complain(this, "the flag " // integer_text(codes(k)) // " is not one of the library as a whole")
+            call report_error(this, "the flag " // integer_text(codes(k)) // " is not one of the library as a whole")
          end if
       end do
    end subroutine cntc_setglobalflags
@@ -137,7 +137,7 @@ contains
       if (.not. is_running()) return
       if (is_parallel(this)) return
       call remove_element(this, removed, was_last)
-      if (.not. removed) call complain(this, "there is no such result element, or another thread is at work on it")
+      if (.not. removed) call report_error(this, "there is no such result element, or another thread is at work on it")
       if (was_last) call cntc_finalizelast()
    end subroutine cntc_finalize
 
@@ -150,7 +150,7 @@ contains
       if (.not. is_running()) return
       if (is_parallel(this)) return
       call stop_library(stopped)
-      if (.not. stopped) call complain(this, "another thread is calculating, nothing is freed")
+      if (.not. stopped) call report_error(this, "another thread is calculating, nothing is freed")
    end subroutine cntc_finalizelast
 
    !> Is the call refused because it is made inside a parallel region?
@@ -158,7 +158,7 @@ contains
       type(entry_type), intent(in) :: this
 
       is_parallel = omp_in_parallel()
-      if (is_parallel) call complain(this, "the routine cannot be called inside a parallel region")
+      if (is_parallel) call report_error(this, "the routine cannot be called inside a parallel region")
    end function is_parallel
 
    !> Last error of a problem or of the library, and its code
@@ -176,7 +176,7 @@ contains
       character(len=:), allocatable :: text
       integer :: number
 
-      call last_complaint(number, text, int(ire), int(icp))
+      call stored_error(number, text, int(ire), int(icp))
       code = int(number, c_int)
       call set_message(text, message, message_length)
    end function contact_last_error

@@ -13,15 +13,15 @@ module contact_capi_messages
    implicit none (type, external)
    private
 
-   public :: complain, warn, say, is_heard, set_debugging, library_log
-   public :: keep_status, last_complaint, last_status, forget_complaint, set_last_error
+   public :: report_error, warn, log_message, is_heard, set_debugging, library_log
+   public :: keep_status, stored_error, last_status, forget_error, set_last_error
    public :: begin_setting, end_setting, first_refusal, refuse_for_ever
    public :: fits, count_fits
 
 contains
 
    !> Report an error of a call: it is logged at every debugging level, and stored for the caller
-   subroutine complain(call_of, text, code)
+   subroutine report_error(call_of, text, code)
       type(entry_type), intent(in) :: call_of
       !> One sentence without the name of the routine
       character(len=*), intent(in) :: text
@@ -38,7 +38,7 @@ contains
       call library%log%line(trim(prefix_of(call_of)) // " " // message)
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)
-   end subroutine complain
+   end subroutine report_error
 
    !> Report a warning: it is logged at every debugging level, and stored for the caller with the code of success
    !>
@@ -49,7 +49,7 @@ contains
       character(len=*), intent(in) :: text
       type(library_problem), pointer :: problem
 
-      call complain(call_of, "Warning: " // text, library_code%success)
+      call report_error(call_of, "Warning: " // text, library_code%success)
       !$omp critical (contact_registry)
       if (library%last_code == library_code%success) library%last_error = trim(call_of%name) // ": Warning: " // text
       problem => existing_problem(call_of%ire, call_of%icp)
@@ -60,7 +60,7 @@ contains
    end subroutine warn
 
    !> Write a message at or above a debugging level
-   subroutine say(level, call_of, text)
+   subroutine log_message(level, call_of, text)
       !> Minimum debugging level at which it is written
       integer, intent(in) :: level
       type(entry_type), intent(in) :: call_of
@@ -71,7 +71,7 @@ contains
       !$omp critical (contact_registry)
       call library%log%line(trim(prefix_of(call_of)) // " " // text)
       !$omp end critical (contact_registry)
-   end subroutine say
+   end subroutine log_message
 
    !> Are messages of this level written?
    logical function is_heard(level)
@@ -102,14 +102,14 @@ contains
    end function library_log
 
    !> A calculation begins: remove earlier errors of the problem
-   subroutine forget_complaint(problem)
+   subroutine forget_error(problem)
       type(library_problem), intent(inout) :: problem
 
       !$omp critical (contact_registry)
       problem%last_code = library_code%success
       if (allocated(problem%last_error)) deallocate(problem%last_error)
       !$omp end critical (contact_registry)
-   end subroutine forget_complaint
+   end subroutine forget_error
 
    !> Store the status of a calculation that has ended
    subroutine keep_status(problem, status)
@@ -142,7 +142,7 @@ contains
    end subroutine last_status
 
    !> Last error, "" if there was none; it is removed
-   subroutine last_complaint(code, text, ire, icp)
+   subroutine stored_error(code, text, ire, icp)
       !> Code returned by the call, 0 for a warning
       integer, intent(out) :: code
       !> One sentence
@@ -167,7 +167,7 @@ contains
          end if
       end if
       !$omp end critical (contact_registry)
-   end subroutine last_complaint
+   end subroutine stored_error
 
    !> Store an error, inside the critical section
    subroutine set_last_error(code, text, call_of)
@@ -313,7 +313,7 @@ contains
          if (.not. allocated(complaint)) cycle
          fits = .false.
          if (size(values) > words .and. k >= words) complaint = "value " // integer_text(k) // ": " // complaint
-         call complain(call_of, complaint // "; nothing is stored")
+         call report_error(call_of, complaint // "; nothing is stored")
          return
       end do
    end function fits
@@ -341,10 +341,10 @@ contains
       fits = n >= lowest .and. n <= highest
       if (fits) return
       if (lowest == highest) then
-         call complain(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " values, not " // &
+         call report_error(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " values, not " // &
             & integer_text(n))
       else
-         call complain(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " to " // &
+         call report_error(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " to " // &
             & integer_text(highest) // " values, not " // integer_text(n))
       end if
    end function count_fits

@@ -6,7 +6,7 @@ module contact_capi_profile_values
    use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_problem, only : given_profile, library_problem
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
@@ -82,7 +82,7 @@ contains
       if (requested_task >= task%along_u) sample%method = 1
       if (size(reals) >= 1) sample%step = reals(1)
       if (sample%method == 1 .and. .not. sample%step >= min_step) then
-         call complain(this, "the step of an even sampling is too small, the points of the spline are used")
+         call report_error(this, "the step of an even sampling is too small, the points of the spline are used")
          sample%method = 0
       end if
       if (size(reals) >= 2) sample%place = reals(2)
@@ -108,10 +108,10 @@ contains
          call a%set_result(1, [real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail])
          return
       else if (requested_task < task%status .or. requested_task > task%dump) then
-         call complain(a%call_of, "there is no task " // integer_text(requested_task) // "; -1 to 9 are")
+         call report_error(a%call_of, "there is no task " // integer_text(requested_task) // "; -1 to 9 are")
          return
       else if (given%detail /= 0) then
-         call complain(a%call_of, "the profile is missing or cannot be used", library_code%profile)
+         call report_error(a%call_of, "the profile is missing or cannot be used", library_code%profile)
          return
       else if (requested_task >= task%along_u) then
          call get_values_along(a, requested_task, given, sample)
@@ -133,7 +133,7 @@ contains
             & curve%z%value(s)))
       case (task%gauge)
          if (is_wheel) then
-            call complain(a%call_of, "a wheel has no gauge point")
+            call report_error(a%call_of, "a wheel has no gauge point")
             call a%set_result(1, [real(library_code%profile, wp)])
          else
             call a%set_result(1, gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
@@ -168,7 +168,7 @@ contains
          if (section%present) then
             curve = section%curve
          else
-            call complain(this, "the variable profile has no section at this position")
+            call report_error(this, "the variable profile has no section at this position")
          end if
       else if (sample%method < 0) then
          ! without smoothing, pieces end at the input points
@@ -197,7 +197,8 @@ contains
       integer :: i, n
 
       if (.not. allocated(given%surface)) then
-         call complain(a%call_of, "the profile does not vary, task " // integer_text(requested_task) // " is for variable profiles")
+         call report_error(a%call_of, "the profile does not vary, task " // integer_text(requested_task) // &
+            & " is for variable profiles")
          return
       else if (requested_task == task%dump) then
          call write_surface(a%call_of, given%surface)
@@ -252,7 +253,7 @@ contains
          end do
          call file%finish(error)
       end if
-      if (allocated(error)) call complain(this, "the file " // path // " cannot be written")
+      if (allocated(error)) call report_error(this, "the file " // path // " cannot be written")
 
    contains
 

@@ -8,7 +8,7 @@ module contact_capi_profiles
    use contact_base_log, only : log_type
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, fits, library_log
+   use contact_capi_messages, only : report_error, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
    use contact_capi_caller, only : caller
    use contact_cases_wheel_rail_session, only : load_profile
@@ -157,6 +157,6 @@ contains
       if (allocated(given%written_as)) deallocate(given%written_as)
       if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)
-      call complain(this, full_text(error), library_code%profile)
+      call report_error(this, full_text(error), library_code%profile)
    end subroutine read_given_profile
 end module contact_capi_profiles

@@ -12,7 +12,7 @@ module contact_capi_registry
    use contact_capi_files, only : place_result, set_folders
    use contact_capi_host, only : begin_turn, call_stage, end_turn, give_floats_back, hold_floats, is_forked, note_call
    use contact_capi_library, only : element_slot, entry_type, finalised, library, max_elements, running, units_given, virgin
-   use contact_capi_messages, only : begin_setting, complain, end_setting, forget_complaint, set_last_error
+   use contact_capi_messages, only : begin_setting, report_error, end_setting, forget_error, set_last_error
    use contact_capi_problem, only : library_problem, max_patches, new_problem, release_problem
    use contact_capi_timers, only : book_times, write_timers
    use contact_control_library_codes, only : code_text, library_code
@@ -176,7 +176,7 @@ contains
             call begin_setting(problem, call_of)
          end if
       end if
-      if (found /= library_code%success) call complain(call_of, trim(code_text(found)), found)
+      if (found /= library_code%success) call report_error(call_of, trim(code_text(found)), found)
       if (present(code)) code = found
    end subroutine enter
 
@@ -213,13 +213,13 @@ contains
             call set_owner(problem%owner)
             ! arrays of wheel and rail follow a contact that moves
             if (problem%module_number == 1) call problem%kept%use_them()
-            call forget_complaint(problem)
+            call forget_error(problem)
             problem%threads_of_caller = omp_get_max_threads()
             call omp_set_num_threads(threads_inside())
          end if
          if (code /= library_code%success) call leave(problem)
       end if
-      if (code /= library_code%success) call complain(call_of, trim(code_text(code)), code)
+      if (code /= library_code%success) call report_error(call_of, trim(code_text(code)), code)
    end subroutine enter_calculation
 
    !> Update the maximum number of threads, which callers may increase at any time

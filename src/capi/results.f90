@@ -4,7 +4,7 @@ module contact_capi_results
    use contact_base_choices, only : motion
    use contact_base_kinds, only : long, wp
    use contact_capi_caller, only : caller
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_problem, only : library_problem
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
@@ -29,7 +29,7 @@ contains
       case (1); call a%set_result(1, kinematic_constants(problem, a%call_of%icp))
       case (2); call a%set_result(1, material_constants(problem, a%call_of%icp))
       case (3); call a%set_result(1, friction_constants(problem%spec))
-      case default; call complain(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2 and 3 are")
+      case default; call report_error(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2 and 3 are")
       end select
    end subroutine get_parameters
 

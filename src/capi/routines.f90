@@ -11,7 +11,7 @@ module contact_capi_routines
       & set_velocity
    use contact_capi_fields, only : get_errors, get_field, get_fields, get_largest_temperatures, get_wear
    use contact_capi_flags, only : get_flags, set_flags, set_metadata
-   use contact_capi_messages, only : say
+   use contact_capi_messages, only : log_message
    use contact_capi_physics, only : set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, &
       & set_time_step, set_wear
    use contact_capi_problem, only : library_problem
@@ -100,7 +100,7 @@ contains
       case ("cntc_getProfileValues"); call get_profile_values(a, problem)
       case ("cntc_getProfileValues_new")
          call get_profile_values(a, problem)
-         call say(0, a%call_of, "the same as cntc_getProfileValues")
+         call log_message(0, a%call_of, "the same as cntc_getProfileValues")
       case ("cntc_getWheelsetPosition"); call get_wheelset_position(a, problem)
       case ("cntc_getWheelsetVelocity"); call get_wheelset_velocity(a, problem)
       case ("cntc_getNumContactPatches"); call a%set_each_result([size(problem%wheel_rail_result%patches)])

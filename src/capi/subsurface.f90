@@ -8,7 +8,7 @@ module contact_capi_subsurface
    use contact_capi_caller, only : caller
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, count_fits, first_refusal, library_log
+   use contact_capi_messages, only : report_error, count_fits, first_refusal, library_log
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope
    use contact_capi_view, only : look_at, result_view
@@ -119,7 +119,7 @@ contains
       n = 0
       if (allocated(list)) n = size(list)
       if (number < 0 .or. number > min(n + 1, max_blocks)) then
-         call complain(this, "the number of the block is " // integer_text(number) // ", it must be 0 to " // &
+         call report_error(this, "the number of the block is " // integer_text(number) // ", it must be 0 to " // &
             & integer_text(min(n + 1, max_blocks)))
          return
       end if
@@ -144,10 +144,10 @@ contains
          k = first_refusal(problem, "subs_addBlock")
          if (k > 0) then
             code = problem%refused(k)%code
-            call complain(this, "a block of points was refused and not given again: " // problem%refused(k)%reason, code)
+            call report_error(this, "a block of points was refused and not given again: " // problem%refused(k)%reason, code)
          else if (.not. problem%has_result) then
             code = library_code%other
-            call complain(this, "nothing has been calculated yet", code)
+            call report_error(this, "nothing has been calculated yet", code)
          else if (problem%module_number == 3) then
             call calculate_patch(this, problem, 0, problem%result, code)
          else if (this%icp > 0) then
@@ -208,7 +208,7 @@ contains
       if (.not. allocated(error)) return
       if (number > 0) call add_context(error, "contact patch " // integer_text(number))
       code = library_code%other
-      call complain(this, full_text(error), code)
+      call report_error(this, full_text(error), code)
    end subroutine calculate_patch
 
    !> Name of the file with the stresses
@@ -269,7 +269,7 @@ contains
       rows = max(0, a%single(2))
       associate (number => a%single(1), columns => a%integers(1)%v)
          if (.not. has_block(view, number)) then
-            call complain(a%call_of, "there are no results in block " // integer_text(number))
+            call report_error(a%call_of, "there are no results in block " // integer_text(number))
             return
          end if
          values => a%numbers_at(1, int(rows, long)*size(columns))

@@ -3,7 +3,7 @@ module contact_capi_view
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain
+   use contact_capi_messages, only : report_error
    use contact_capi_problem, only : library_problem
    use contact_control_units, only : outward, quantity_of, unit_convention
    use contact_patch_quantities, only : total_list
@@ -42,7 +42,7 @@ contains
 
       view%units = problem%units
       if (.not. problem%has_result) then
-         call complain(this, "nothing has been calculated yet")
+         call report_error(this, "nothing has been calculated yet")
          return
       end if
       if (problem%module_number == 1) then

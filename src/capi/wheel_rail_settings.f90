@@ -1,7 +1,7 @@
 !> Settings of track, rail and wheelset (module 1)
 module contact_capi_wheel_rail_settings
    use contact_base_kinds, only : wp
-   use contact_capi_messages, only : say
+   use contact_capi_messages, only : log_message
    use contact_capi_problem, only : library_problem
    use contact_capi_caller, only : caller
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_springs, &
@@ -112,7 +112,7 @@ contains
          case ("cntc_setWheelsetPosition")
             e = max(1, e)
          case ("cntc_setWheelsetVelocity")
-            if (method == 1) call say(1, a%call_of, "method 1 is treated as 2")
+            if (method == 1) call log_message(1, a%call_of, "method 1 is treated as 2")
             if (is_roller) wheelset%vs = 0.0_wp
             if (e <= 1) e = max(2, method)
          case default

@@ -87,7 +87,7 @@ module contact_cases_archive
       procedure :: warn
       procedure :: report => report_nothing
       !> Reading cannot continue, with the reason; the name is blank if no number of the last line is the cause
-      procedure :: fail => say_nothing
+      procedure :: fail => ignore_message
       !> Begin and end a group of numbers; groups are not nested
       procedure :: open_group => ignore_name
       procedure :: close_group => ignore
@@ -396,7 +396,7 @@ contains
    end subroutine report_nothing_of_group
 
    !> Nothing, since values that are not set are valid
-   subroutine say_nothing(self, name, text)
+   subroutine ignore_message(self, name, text)
       class(case_archive), intent(inout) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
@@ -405,7 +405,7 @@ contains
 
       associate (unused => self, no_name => name, no_text => text)
       end associate
-   end subroutine say_nothing
+   end subroutine ignore_message
 
    !> Nothing, for formats without groups and for values that are not set
    subroutine ignore_name(self, text)

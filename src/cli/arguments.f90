@@ -247,16 +247,16 @@ contains
          case ("moving-source")
             requested%heat_source = heat_source%moving
          case default
-            call fatal_error(error, "the way to compute temperatures, '" // value // &
-               & "', is not known; established and moving-source are")
+            call fatal_error(error, 'unknown heat model "' // value // &
+               & '"; accepted: established, moving-source')
          end select
          return
       case ("--order")
          call read_value("the order of the discretisation of rolling: 1 or 2")
          if (allocated(error)) return
          requested%order = to_number(value)
-         if (all(requested%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
-            & "', is not known; 1 and 2 are")
+         if (all(requested%order /= [1, 2])) call fatal_error(error, 'unknown order of the discretisation "' // value // &
+            & '"; accepted: 1, 2')
          return
       case ("--accuracy")
          call read_value("the largest relative error of the forces, 1e-6 to 0.1")
@@ -272,8 +272,8 @@ contains
          call read_value("where contact angles are taken: established or contact")
          if (allocated(error)) return
          requested%angle_below_axle = value == "established"
-         if (value /= "contact" .and. value /= "established") call fatal_error(error, "the contact angle, '" // value // &
-            & "', is not known; established and contact are")
+         if (value /= "contact" .and. value /= "established") call fatal_error(error, 'unknown contact angle "' // value // &
+            & '"; accepted: established, contact')
          return
       case ("--classical")
          requested%classical = .true.

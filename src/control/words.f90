@@ -10,7 +10,7 @@ module contact_control_words
    implicit none (type, external)
    private
 
-   public :: key_row, key_table, key_of, digit_of_word, word_of_digit, is_choice, choice_words, words_of
+   public :: key_row, key_table, key_of, digit_of_word, word_of_digit, is_choice, choice_words
    public :: form_row, form_table, form_title, form_value, form_word, form_words, form_key, key_of_item
    public :: translate_to_words
 
@@ -158,26 +158,6 @@ contains
 
       words = merge(digit_table%word, no_word, digit_table%name == name .and. belongs(digit_table, module_number))
    end function choice_words
-
-   !> Words as listed in messages: "a", "b" and "c"
-   pure subroutine words_of(words, text)
-      !> Words; blank ones are ignored
-      character(len=*), intent(in) :: words(:)
-      !> Text for messages
-      character(len=:), allocatable, intent(out) :: text
-      integer :: k, n, total
-
-      text = ""
-      total = count(words /= "")
-      n = 0
-      do k = 1, size(words)
-         if (words(k) == "") cycle
-         n = n + 1
-         if (n > 1 .and. n < total) text = text // ", "
-         if (n > 1 .and. n == total) text = text // " and "
-         text = text // '"' // trim(words(k)) // '"'
-      end do
-   end subroutine words_of
 
    !> Number selected by a word
    pure subroutine form_value(name, word, value, is_known_word)

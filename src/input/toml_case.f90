@@ -10,8 +10,7 @@ module contact_input_toml_case
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
    use contact_control_translation, only : apply_digits, digits_of
-   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, translate_to_words, &
-      & words_of
+   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, translate_to_words
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
@@ -19,7 +18,7 @@ module contact_input_toml_case
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_line_words, only : printable
-   use contact_text_nearest, only : nearest_word
+   use contact_text_nearest, only : unknown_word, words_of
    use contact_text_words, only : integer_text
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    implicit none (type, external)
@@ -185,9 +184,9 @@ contains
       logical, intent(out) :: is_known
       character(len=word_length) :: accepted(size(digit_table))
       character(len=:), allocatable :: message, list
-      integer :: place
 
       digit = -1
+      is_known = .false.
       associate (node => a%document%nodes(index))
          if (.not. is_choice(name)) then
             is_known = node%kind == toml_kind%integer .and. node%i >= 0 .and. node%i <= 9
@@ -196,23 +195,17 @@ contains
                & " must be an integer from 0 to 9")
             return
          end if
-         message = a%document%key_of(index) // " must be a word in quotes."
-         place = 0
          accepted = choice_words(name, module_number)
          if (node%kind == toml_kind%string) then
             digit = digit_of_word(name, a%document%text_of(index), module_number)
-            message = a%document%key_of(index) // ' = "' // printable(a%document%text_of(index)) // '" is not known'
-            place = nearest_word(a%document%text_of(index), accepted)
-            if (place > 0) then
-               message = message // '; did you mean "' // trim(accepted(place)) // '"?'
-            else
-               message = message // "."
-            end if
+            is_known = digit >= 0
+            if (is_known) return
+            call unknown_word(a%document%key_of(index), a%document%text_of(index), accepted, message)
+         else
+            call words_of(accepted, list)
+            message = a%document%key_of(index) // " must be a word in quotes; accepted: " // list
          end if
-         is_known = digit >= 0
-         if (is_known) return
-         call words_of(accepted, list)
-         call a%add_problem(severity%error, index, message // " Known are " // list)
+         call a%add_problem(severity%error, index, message)
       end associate
    end subroutine read_word
 

@@ -6,13 +6,13 @@
 module contact_input_toml_reader
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, item_kind, own_word, shown_length
-   use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, key_of_item, words_of
+   use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, key_of_item
    use contact_input_problems, only : problem_list, severity
    use contact_input_toml_tables, only : find, is_tables, key_with_value, leaves_of, number_of, sets_of, toml_memory, &
       & toml_tables
    use contact_input_toml_values, only : check_item, count_values, fill_list, set_number
    use contact_text_bounds, only : bounds_of, bounds_table
-   use contact_text_nearest, only : nearest_word
+   use contact_text_nearest, only : unknown_word, words_of
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    implicit none (type, external)
@@ -252,7 +252,6 @@ contains
       integer, intent(in) :: node
       character(len=len(form_table%word)) :: list(size(form_table))
       character(len=:), allocatable :: words, complaint
-      integer :: place
       logical :: is_known
 
       if (self%document%nodes(node)%kind == toml_kind%string) then
@@ -261,16 +260,13 @@ contains
       end if
       self%line_is_bad = .true.
       list = form_words(trim(item%name))
-      place = 0
-      if (self%document%nodes(node)%kind == toml_kind%string) place = nearest_word(self%document%text_of(node), list)
-      call words_of(list, words)
-      complaint = key_with_value(self, key, node) // " is not known"
-      if (place > 0) then
-         complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
+      if (self%document%nodes(node)%kind == toml_kind%string) then
+         call unknown_word(key, self%document%text_of(node), list, complaint)
       else
-         complaint = complaint // "."
+         call words_of(list, words)
+         complaint = key // " must be a word in quotes; accepted: " // words
       end if
-      call self%add_problem(severity%error, node, complaint // " Known are " // words)
+      call self%add_problem(severity%error, node, complaint)
       ! the meaning of the following keys depends on it
       self%is_good = .false.
    end subroutine set_form

@@ -2,11 +2,11 @@
 !> read
 module contact_input_toml_tables
    use contact_cases_archive, only : case_archive
-   use contact_control_words, only : key_length, words_of
+   use contact_control_words, only : key_length
    use contact_input_problems, only : problem_list, severity
    use contact_text_bounds, only : bounds_of
    use contact_text_line_words, only : printable
-   use contact_text_nearest, only : nearest_word
+   use contact_text_nearest, only : nearest_word, words_of
    use contact_text_words, only : capital
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    implicit none (type, external)
@@ -355,16 +355,16 @@ contains
             if (bounds_of(capital(self%document%key_of(index))) > 0) then
                message = message // " has no meaning in this case, whose choices do not use it"
             else
-               message = message // " is not known"
+               message = "unknown key " // message
             end if
             message = message // '; did you mean "' // trim(keys(place)) // '"?'
          else
             place = nearest_word(self%document%key_of(index), known)
             if (place > 0) then
-               message = message // ' is not known; did you mean "' // trim(known(place)) // '"?'
+               message = "unknown key " // message // '; did you mean "' // trim(known(place)) // '"?'
             else
                call words_of(keys, words)
-               message = message // " is not known, or has no meaning in this case; known here are " // words
+               message = "unknown key " // message // ", or one without meaning in this case; accepted: " // words
             end if
          end if
       end if

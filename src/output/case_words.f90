@@ -41,61 +41,61 @@ contains
       if (reid > 0) title = trim(title) // ", result element " // integer_text(reid)
       call description%add_line("Case " // integer_text(number) // ", line " // integer_text(first_line) // ": " // trim(title))
       if (.not. spec%solve) then
-         call say("Only its input is stored; nothing is computed.")
+         call add("Only its input is stored; nothing is computed.")
          return
       end if
-      call say("Motion: " // trim(digit("T", spec%motion)))
-      call say("Given: " // trim(digit("N", spec%normal)) // merge(";", " ", spec%motion /= motion%none) // &
+      call add("Motion: " // trim(digit("T", spec%motion)))
+      call add("Given: " // trim(digit("N", spec%normal)) // merge(";", " ", spec%motion /= motion%none) // &
          & trim(digit_if(spec%motion /= motion%none, "F", spec%force)))
-      call say("Pressures: " // trim(digit("B", spec%pressure)))
+      call add("Pressures: " // trim(digit("B", spec%pressure)))
       if (spec%motion /= motion%none) then
-         call say("Friction: " // trim(digit("L", spec%friction_law)) // "; " // trim(digit("V", spec%variation)))
-         call say("Solver: " // trim(digit("G", spec%solver)) // merge("; order 2", "         ", spec%iteration%order == 2))
+         call add("Friction: " // trim(digit("L", spec%friction_law)) // "; " // trim(digit("V", spec%variation)))
+         call add("Solver: " // trim(digit("G", spec%solver)) // merge("; order 2", "         ", spec%iteration%order == 2))
       end if
-      if (spec%estimates_errors) call say("Errors of the totals are estimated.")
-      if (spec%iteration%accuracy > 0.0_wp) call say("Accuracy: the forces to " // real_text(spec%iteration%accuracy) // &
+      if (spec%estimates_errors) call add("Errors of the totals are estimated.")
+      if (spec%iteration%accuracy > 0.0_wp) call add("Accuracy: the forces to " // real_text(spec%iteration%accuracy) // &
          & "; elements, order and EPS are chosen")
       if (spec%iteration%accuracy > 0.0_wp .and. spec%iteration%allows_approximate) call choose_method(spec, chosen)
-      if (chosen%words /= "") call say("Simplified methods are allowed: " // trim(chosen%words))
-      call say("Material: " // trim(digit("M", spec%material_model)))
-      if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))
+      if (chosen%words /= "") call add("Simplified methods are allowed: " // trim(chosen%words))
+      call add("Material: " // trim(digit("M", spec%material_model)))
+      if (.not. is_simplified(spec%material_model)) call add("Elasticity: " // trim(digit("C", spec%kernel)))
       if (module_number == 1) then
-         call say("Contact search: " // trim(digit("D", spec%wheel_rail%search%location)))
-         call say("Elements: " // real_text(spec%wheel_rail%search%dx) // " mm along the track, " // &
+         call add("Contact search: " // trim(digit("D", spec%wheel_rail%search%location)))
+         call add("Elements: " // real_text(spec%wheel_rail%search%dx) // " mm along the track, " // &
             & real_text(spec%wheel_rail%search%ds) // " mm across")
          if (allocated(spec%wheel_rail%rail_profile%name) .and. allocated(spec%wheel_rail%wheel_profile%name)) &
-            & call say("Profiles: " // spec%wheel_rail%rail_profile%name // " and " // spec%wheel_rail%wheel_profile%name)
+            & call add("Profiles: " // spec%wheel_rail%rail_profile%name // " and " // spec%wheel_rail%wheel_profile%name)
       else
-         call say("Elements: " // integer_text(spec%grid%mx) // " along x, " // integer_text(spec%grid%my) // &
+         call add("Elements: " // integer_text(spec%grid%mx) // " along x, " // integer_text(spec%grid%my) // &
             & " along y; " // trim(form_title("IPOTCN", spec%grid%form)))
-         if (spec%grid%needs_geometry()) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%form)))
+         if (spec%grid%needs_geometry()) call add("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%form)))
          if (spec%slip_source /= slip_source%none .and. spec%motion /= motion%none) &
-            & call say("Rigid slip: " // trim(digit("E", spec%slip_source)))
+            & call add("Rigid slip: " // trim(digit("E", spec%slip_source)))
       end if
-      call say("History: " // trim(digit("P", spec%link)) // "; " // trim(digit("I", spec%estimate)))
-      if (spec%has_heat) call say("Surface temperatures: flash heating" // &
+      call add("History: " // trim(digit("P", spec%link)) // "; " // trim(digit("I", spec%estimate)))
+      if (spec%has_heat) call add("Surface temperatures: flash heating" // &
          & trim(merge(", moving sources               ", ", as in the established program", &
          & spec%heat%source == heat_source%moving)))
-      if (spec%has_wear) call say("Wear and fatigue are computed.")
-      if (spec%has_damping) call say("Damping: proportional to the rates of the forces")
-      if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call say("Stresses below the surface: " // &
+      if (spec%has_wear) call add("Wear and fatigue are computed.")
+      if (spec%has_damping) call add("Damping: proportional to the rates of the forces")
+      if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call add("Stresses below the surface: " // &
          & integer_text(size(spec%subsurface%blocks)) // " blocks of points")
-      call say("Not simulated: " // trim(absent(spec)))
+      call add("Not simulated: " // trim(absent(spec)))
       if (is_usable) then
          call estimate_cost(spec, cost)
-         call say("Expected on one thread: " // trim(cost_text(cost)))
+         call add("Expected on one thread: " // trim(cost_text(cost)))
       end if
 
    contains
 
       !> Add one line
-      subroutine say(line)
+      subroutine add(line)
          character(len=*), intent(in) :: line
          character(len=:), allocatable :: text
 
          call translate_to_words(line, module_number, text)
          call description%add_line("  " // trim(text))
-      end subroutine say
+      end subroutine add
 
       !> Description of a choice, padded with blanks
       pure function digit(name, choice) result(text)

@@ -128,7 +128,7 @@ contains
             expected_now = section%point
             next = section%spline
          case default
-            call fatal_error(error, '"' // printable(word) // '" is not known here; expected header.begin, header.end, &
+            call fatal_error(error, 'unknown word "' // printable(word) // '"; accepted: header.begin, header.end, &
                &spline.begin, point.begin, point.end, spline.end, or key = value', file=text%file, line=place%line, &
                & column=verify(line, " "))
             return

@@ -1,9 +1,10 @@
 !> The word of a list that is most similar to a mistyped word
 module contact_text_nearest
+   use contact_text_line_words, only : printable
    implicit none (type, external)
    private
 
-   public :: edit_distance, nearest_word
+   public :: edit_distance, nearest_word, unknown_word, words_of
 
    !> Maximum length of words that are compared
    integer, parameter :: longest = 32
@@ -53,4 +54,45 @@ contains
          place = k
       end do
    end function nearest_word
+
+   !> Words as listed in messages: "a", "b" and "c"
+   pure subroutine words_of(words, text)
+      !> Words; blank ones are ignored
+      character(len=*), intent(in) :: words(:)
+      !> Text for messages
+      character(len=:), allocatable, intent(out) :: text
+      integer :: k, n
+
+      text = ""
+      n = 0
+      do k = 1, size(words)
+         if (words(k) == "") cycle
+         n = n + 1
+         if (n > 1) text = text // ", "
+         text = text // '"' // trim(words(k)) // '"'
+      end do
+   end subroutine words_of
+
+   !> Message about an unknown word: unknown motion "shfit"; did you mean "shift"? Accepted: "none", "shift"
+   pure subroutine unknown_word(what, word, accepted, message)
+      !> Kind of the word, for example the name of its key
+      character(len=*), intent(in) :: what
+      !> The word as given
+      character(len=*), intent(in) :: word
+      !> Accepted words; blank ones are ignored
+      character(len=*), intent(in) :: accepted(:)
+      !> One sentence or two
+      character(len=:), allocatable, intent(out) :: message
+      character(len=:), allocatable :: list
+      integer :: place
+
+      call words_of(accepted, list)
+      message = "unknown " // what // ' "' // printable(word) // '"'
+      place = nearest_word(word, accepted)
+      if (place > 0) then
+         message = message // '; did you mean "' // trim(accepted(place)) // '"? Accepted: ' // list
+      else
+         message = message // "; accepted: " // list
+      end if
+   end subroutine unknown_word
 end module contact_text_nearest

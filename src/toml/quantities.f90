@@ -75,7 +75,7 @@ contains
       name = trim(adjustl(text(blank:)))
       call read_unit(name, given, is_known)
       if (.not. is_known) then
-         complaint = 'has the unit "' // name // '", which is not known; expected is ' // trim(required_unit(expected))
+         complaint = 'has the unknown unit "' // name // '"; expected is ' // trim(required_unit(expected))
          return
       end if
       fits = .false.

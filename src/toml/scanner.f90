@@ -306,7 +306,7 @@ contains
          code = 16*code + modulo(which - 1, 16)
       end do
       if (width == 0 .or. code >= 1114112 .or. (code >= 55296 .and. code < 57344)) then
-         call fail(p, "the escape is not known; \b \t \n \f \r \"" \\ \uXXXX and \UXXXXXXXX are, or use single quotes, " // &
+         call fail(p, "unknown escape; accepted: \b, \t, \n, \f, \r, \"", \\, \uXXXX, \UXXXXXXXX; or use single quotes, " // &
             & "where a backslash has no meaning")
          return
       end if

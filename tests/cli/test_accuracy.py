@@ -366,7 +366,8 @@ class Accuracy(Runs):
         unused = "simplified methods are allowed, but no accuracy is requested"
         self.assertIn(unused, self.solve("u.inp", no_spin, *allow[1:])[0])
         self.assertNotIn(unused, words)
-        self.assertIn("is not known; approximate is", self.run_program("--allow", "all", "2", "a", status=1))
+        self.assertIn('unknown replacement of the full theory "all"; accepted: approximate',
+                      self.run_program("--allow", "all", "2", "a", status=1))
         text = self.run_program("explain", *allow, "a.inp")
         self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", text)
         self.assertIn("about 400 elements", text)

@@ -316,7 +316,8 @@ iteration = {{ order = {order}, eps = 1e-6 }}
 
     def test_refused(self):
         (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
-        self.assertIn("1 and 2 are", self.run_program("--order", "3", "2", "a", status=1))
+        self.assertIn('unknown order of the discretisation "3"; accepted: 1, 2',
+                      self.run_program("--order", "3", "2", "a", status=1))
         self.run_program("convert", "a.inp")
         for word in ("3", '"2"', "1.5"):
             text = re.sub(r"order = 1.*\n", "", (self.folder / "a.toml").read_text())

@@ -204,7 +204,7 @@ def variants(code, whole, language):
         ):
             yield "missing update", [(indent, len(code), nothing)]
         elif re.match(r"\s*call\s", code, re.IGNORECASE):
-            error = re.match(r"\s*call\s+[\w%]*(fail|refuse|error|complain|warn|add)\w*\s*\(", code, re.IGNORECASE)
+            error = re.match(r"\s*call\s+[\w%]*(fail|refuse|error|report_error|warn|add)\w*\s*\(", code, re.IGNORECASE)
             yield "error dropped" if error else "missing update", [(indent, len(code), nothing)]
         if re.match(r"\s*if \(allocated\((error|fatal|problem)\w*\)\) (return|exit|cycle)", code) or \
                 re.match(r"\s*if \(.*(error|status|stat|code|ierr)\b.*\) (return|exit|cycle)$",

@@ -66,7 +66,7 @@ def _known(found: Mapping[str, Any], keys: tuple[str, ...], where: str) -> None:
     """Refuse unknown keys"""
     for key in found:
         if key not in keys:
-            raise ContactError(f"{where}: '{key}' has no meaning there; known are {', '.join(keys)}")
+            raise ContactError(f"{where}: unknown key '{key}'; accepted: {', '.join(keys)}")
 
 
 def _vary(content: Mapping[str, Any], path: Path, home: Path) -> list[Any]:

@@ -339,7 +339,7 @@ class Study:
             return
         done = solve_task(self._task(todo[:1], self.keys()))
         reason = done.reasons.get("0,0", "")
-        mistakes = ("is not known", "has no meaning", "gives no number", "is outside of a case")
+        mistakes = ("unknown ", "has no meaning", "gives no number", "is outside of a case")
         if done.states[0, 0, 0] == 2 and any(words in reason for words in mistakes):
             raise ContactError(f"the inputs of the study do not fit its base: {reason}")
         if done.columns and self._totals is not None:

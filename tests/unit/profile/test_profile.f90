@@ -446,7 +446,7 @@ contains
       call refused(suite, request, "header.begin" // nl // "type = 0 1", "has 2 values", 2, "a header value too many")
       call refused(suite, request, "header.begin" // nl // "spline.begin", "inside the block header", 2, "wrong nesting")
       call refused(suite, request, "point.begin", "is outside its block", 1, "points without a block")
-      call refused(suite, request, "spline.start", "is not known", 1, "a word that is not known")
+      call refused(suite, request, "spline.start", "unknown word", 1, "a word that is not known")
       call refused(suite, request, simpack_head // "rotate = 5" // nl // "point.begin" // nl // roof // simpack_tail, &
          & "rotate = 5", 9, "a rotation in degrees without their unit")
       call refused(suite, request, simpack_head // "units.ang.f = 0", "expected a positive number", 9, "a unit of zero")
