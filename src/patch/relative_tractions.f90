@@ -11,9 +11,9 @@ contains
    !> Divide the tractions of each element by its pressure; 0 where there is no pressure
    pure subroutine divide_by_pressures(pn, px, py)
       !> Pressures [N/mm2], shape (mx, my)
-      real(wp), intent(in) :: pn(:, :)
+      real(wp), contiguous, intent(in) :: pn(:, :)
       !> Tractions [N/mm2] on entry, relative to the pressures [-] on exit, shape (mx, my)
-      real(wp), intent(inout) :: px(:, :), py(:, :)
+      real(wp), contiguous, intent(inout) :: px(:, :), py(:, :)
       integer :: ix, iy
 
       do iy = 1, size(pn, 2)
@@ -32,9 +32,9 @@ contains
    !> Multiply relative tractions by the pressures of the elements
    pure subroutine multiply_by_pressures(pn, px, py)
       !> Pressures [N/mm2], shape (mx, my)
-      real(wp), intent(in) :: pn(:, :)
+      real(wp), contiguous, intent(in) :: pn(:, :)
       !> Relative to the pressures [-] on entry, tractions [N/mm2] on exit, shape (mx, my)
-      real(wp), intent(inout) :: px(:, :), py(:, :)
+      real(wp), contiguous, intent(inout) :: px(:, :), py(:, :)
       integer :: ix, iy
 
       do iy = 1, size(pn, 2)
