@@ -240,7 +240,7 @@ def line_of(title, pairs, against=1):
     high = sum(r > 5.0 for r in ratios)
     median = sorted(pair[against] for pair in pairs)[n // 2]
     return (f"| {title} | {n} | {median:.1e} | {at(0.0):.2f} | {at(0.05):.2f} | {at(0.5):.2f} | {at(0.95):.2f} | {at(1.0):.3g} "
-            f"| {100 * within:.0f} | {low} | {high} |")
+            f"| {100 * within:.1f} | {low} | {high} |")
 
 
 def misses(by_total, unsolved, bounds, against=1):
@@ -282,8 +282,8 @@ def logged(path):
 def judge_in_batches(path, asked, kinds, limits, program, folder):
     """Judge the contacts and wheels that a log does not have yet; batches of both take turns."""
     _, done = logged(path)
-    batches = [(kind, first) for kind, count in (("contact", asked.count), ("wheel", asked.wheels)) for first in range(0, count, BATCH)]
     counts = {"contact": asked.count, "wheel": asked.wheels}
+    batches = [(kind, first) for kind, count in counts.items() for first in range(0, count, BATCH)]
     # the same fraction of both at any time
     for kind, first in sorted(batches, key=lambda b: (b[1] / counts[b[0]], b[0])):
         if (kind, first) in done:
@@ -343,8 +343,8 @@ def main():
     parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "peaks", "first",
                                                                                "signed"),
                         help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, their largest "
-                        "pressures, moments and sliding by the first order, or energy and stresses by the first order; fail if "
-                        "bounds are missed")
+                        "pressures, moments and sliding by the first order, or energy and stresses by the first "
+                        "order; fail if bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
