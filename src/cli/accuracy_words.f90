@@ -38,7 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       allows = word == allowances(2)
-      if (.not. allows) call fatal_error(error, 'unknown replacement of the full theory "' // word // &
+      if (.not. allows) call fatal_error(error, 'unknown value of --allow "' // word // &
          & '"; accepted: approximate')
    end subroutine read_permission
 end module contact_cli_accuracy_words

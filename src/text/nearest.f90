@@ -55,7 +55,7 @@ contains
       end do
    end function nearest_word
 
-   !> Words as listed in messages: "a", "b" and "c"
+   !> Words as listed in messages: "a", "b", "c"
    pure subroutine words_of(words, text)
       !> Words; blank ones are ignored
       character(len=*), intent(in) :: words(:)

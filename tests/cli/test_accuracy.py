@@ -366,7 +366,7 @@ class Accuracy(Runs):
         unused = "simplified methods are allowed, but no accuracy is requested"
         self.assertIn(unused, self.solve("u.inp", no_spin, *allow[1:])[0])
         self.assertNotIn(unused, words)
-        self.assertIn('unknown replacement of the full theory "all"; accepted: approximate',
+        self.assertIn('unknown value of --allow "all"; accepted: approximate',
                       self.run_program("--allow", "all", "2", "a", status=1))
         text = self.run_program("explain", *allow, "a.inp")
         self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", text)
