@@ -573,7 +573,7 @@ class Temperatures(Program):
         run = subprocess.run([PROGRAM, "--heat", "hot", "2", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
                              capture_output=True, text=True, timeout=20)
         self.assertEqual(run.returncode, 1)
-        self.assertIn("established and moving-source", run.stderr)
+        self.assertIn("accepted: established, moving-source", run.stderr)
 
 
 class Area(Program):
