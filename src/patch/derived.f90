@@ -197,39 +197,47 @@ contains
       type(bounding_box), intent(in) :: box
       !> Element states and tractions on entry; the numbers, tangential forces and moments are set
       type(patch_result), intent(inout) :: result
-      !> Sums of each column: pressures, tractions, and their moments about the x axis and about the normal
-      real(wp) :: sums(box%ix0:max(box%ix0, box%ix1), 5)
-      real(wp) :: area, moment(3), x, y
-      integer :: ix, iy, touching, adhering, slipping
+      !> Number of columns whose sums are formed together; the sums of each: pressures, tractions, and their moments about the x axis
+      !> and about the normal. An array of the width of the contact would come from the heap
+      integer, parameter :: columns = 64
+      real(wp) :: sums(columns, 5)
+      real(wp) :: area, moment(3), force(2), x, y
+      integer :: first, n, k, ix, iy, touching, adhering, slipping
 
       area = problem%grid%dx*problem%grid%dy
-      sums = 0.0_wp
+      force = 0.0_wp
+      moment = 0.0_wp
       touching = 0
       adhering = 0
       slipping = 0
-      do iy = box%iy0, box%iy1
-         y = problem%grid%y(iy)
-         do ix = box%ix0, box%ix1
-            sums(ix, 1) = sums(ix, 1) + result%pn(ix, iy)
-            sums(ix, 2) = sums(ix, 2) + result%px(ix, iy)
-            sums(ix, 3) = sums(ix, 3) + result%py(ix, iy)
-            sums(ix, 4) = sums(ix, 4) + y*result%pn(ix, iy)
-            sums(ix, 5) = sums(ix, 5) - y*result%px(ix, iy)
+      do first = box%ix0, box%ix1, columns
+         n = min(columns, box%ix1 - first + 1)
+         sums(:n, :) = 0.0_wp
+         do iy = box%iy0, box%iy1
+            y = problem%grid%y(iy)
+            do k = 1, n
+               ix = first - 1 + k
+               sums(k, 1) = sums(k, 1) + result%pn(ix, iy)
+               sums(k, 2) = sums(k, 2) + result%px(ix, iy)
+               sums(k, 3) = sums(k, 3) + result%py(ix, iy)
+               sums(k, 4) = sums(k, 4) + y*result%pn(ix, iy)
+               sums(k, 5) = sums(k, 5) - y*result%px(ix, iy)
+            end do
+            do ix = first, first - 1 + n
+               touching = touching + merge(1, 0, result%division(ix, iy) > element%exterior)
+               adhering = adhering + merge(1, 0, result%division(ix, iy) == element%adhesion)
+               slipping = slipping + merge(1, 0, result%division(ix, iy) == element%slip)
+            end do
          end do
-         do ix = box%ix0, box%ix1
-            touching = touching + merge(1, 0, result%division(ix, iy) > element%exterior)
-            adhering = adhering + merge(1, 0, result%division(ix, iy) == element%adhesion)
-            slipping = slipping + merge(1, 0, result%division(ix, iy) == element%slip)
+         do k = 1, n
+            x = problem%grid%x(first - 1 + k)
+            force = force + sums(k, 2:3)
+            moment = moment + [sums(k, 4), -x*sums(k, 1), x*sums(k, 3) + sums(k, 5)]
          end do
-      end do
-      moment = 0.0_wp
-      do ix = box%ix0, box%ix1
-         x = problem%grid%x(ix)
-         moment = moment + [sums(ix, 4), -x*sums(ix, 1), x*sums(ix, 3) + sums(ix, 5)]
       end do
       if (problem%motion == motion%none) moment(3) = 0.0_wp
-      result%fx = area*sum(sums(:, 2))
-      result%fy = area*sum(sums(:, 3))
+      result%fx = area*force(1)
+      result%fy = area*force(2)
       result%ncon = touching
       result%nadh = adhering
       result%nslip = slipping

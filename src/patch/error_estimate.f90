@@ -13,8 +13,8 @@ module contact_patch_error_estimate
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_driver
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
-   use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_error_scales, only : mean_friction, scale_type, scales
+   use contact_patch_coarse_level, only : coarsen_patch, coarsening
+   use contact_patch_error_scales, only : mean_friction, normal_order, scale_type, scales
    use contact_patch_level_errors, only : error_of, irregularity, scale_of, share_of_residual
    use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
@@ -22,8 +22,9 @@ module contact_patch_error_estimate
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, error_scale, total, total_list
    use contact_patch_result, only : patch_result
+   use contact_patch_sliding_errors, only : find_direction_errors
    use contact_patch_solve, only : solve_patch
-   use contact_patch_traction_errors, only : traction_error
+   use contact_patch_traction_errors, only : is_sliding, traction_error
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
    private
@@ -41,6 +42,8 @@ module contact_patch_error_estimate
       type(log_type) :: log
    end type coarse_level
 
+   !> Exponent of the normal force to which the moment is proportional, by Hertz's theory with fixed creepages
+   real(wp), parameter :: moment_power = 4.0_wp/3.0_wp
    !> Reason why there is no estimate when the coarse level failed
    character(len=*), parameter :: no_solution = "the coarser level has no solution"
 
@@ -160,6 +163,7 @@ contains
          if (problem%friction%driver() == friction_driver%temperature) &
             & scale%warmed = abs(mean_friction(level%result) - mean_friction(result))/max(mean_friction(result), tiny(load))
       end if
+      call compare_directions(problem, result, level, load, scale)
       result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
@@ -169,7 +173,6 @@ contains
          if (.not. scale_of(fine%rows(k), scale) > 0.0_wp) cycle
          difference = difference/scale_of(fine%rows(k), scale)
          scale%friction = max(scale%friction, difference)
-         if (fine%rows(k)%scale /= error_scale%moment) scale%forces = max(scale%forces, difference)
       end do
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled
@@ -208,6 +211,35 @@ contains
       scale%coarse_surplus = load*level%result%friction_power - power(2)
    end subroutine compare_powers
 
+   !> Errors of the directions of tractions in full sliding, and the rest of the difference of the levels, of second order
+   pure subroutine compare_directions(problem, result, level, load, scale)
+      type(patch_problem), intent(in) :: problem
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Solved
+      type(coarse_level), intent(in) :: level
+      !> Ratio of the normal force to that of the coarse level [-]
+      real(wp), intent(in) :: load
+      !> The components that concern directions are set
+      type(scale_type), intent(inout) :: scale
+      !> Largest fraction of the bound without a resolved direction of slip; chosen
+      real(wp), parameter :: most_unresolved = 0.01_wp
+      real(wp), dimension(3) :: unit, fine, coarse, change, ratio
+      real(wp) :: unresolved, coarse_unresolved
+
+      scale%has_turned = is_sliding(scale)
+      if (.not. scale%has_turned) return
+      unit = max([scale%force, scale%force, scale%moment], tiny(load))
+      ratio = load**[1.0_wp, 1.0_wp, moment_power]
+      call find_direction_errors(problem, result, fine, unresolved)
+      scale%has_turned = unresolved <= most_unresolved
+      if (.not. scale%has_turned) return
+      call find_direction_errors(level%problem, level%result, coarse, coarse_unresolved)
+      change = ratio*([level%result%fx, level%result%fy, level%result%mz] - coarse) - ([result%fx, result%fy, result%mz] - fine)
+      scale%turned = fine/unit
+      scale%not_turned = change/((coarsening**normal_order - 1.0_wp)*unit)
+   end subroutine compare_directions
+
    !> Derivative of the normal force with respect to the approach: computed, or by Hertz's theory [N/mm]
    pure real(wp) function normal_stiffness(result) result(stiffness)
       !> Solved
@@ -229,7 +261,7 @@ contains
       case (error_law%friction)
          power = 0.0_wp
          if (row%scale == error_scale%force) power = 1.0_wp
-         if (row%scale == error_scale%moment) power = 4.0_wp/3.0_wp
+         if (row%scale == error_scale%moment) power = moment_power
       case (error_law%energy)
          power = 5.0_wp/3.0_wp
       case (error_law%peak)

@@ -60,8 +60,6 @@ module contact_patch_error_scales
       real(wp) :: gain = 0.0_wp
       !> Maximum difference of the levels in tangential forces, relative to their scale [-]
       real(wp) :: friction = 0.0_wp
-      !> The same without the moment [-]
-      real(wp) :: forces = 0.0_wp
       !> Are both tangential forces prescribed, so that only the moment has an error?
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
@@ -109,6 +107,10 @@ module contact_patch_error_scales
       real(wp) :: coarse_surplus = 0.0_wp
       !> Is the power of the motion known? Does frictional power equal it in the exact solution?
       logical :: has_motion_power = .false., balances = .false.
+      !> Errors of FX, FY and MZ in full sliding, over the maximum frictional force and moment: of the directions of tractions, and
+      !> by the rest of the difference of the levels [-]; are they known?
+      real(wp), dimension(3) :: turned = 0.0_wp, not_turned = 0.0_wp
+      logical :: has_turned = .false.
       !> Elastic energy of pressures and of tractions, and differences of the levels in them [J]
       real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
       !> Error of the elastic energy of pressures with its sign [J]; is it known?

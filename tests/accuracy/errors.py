@@ -51,6 +51,9 @@ SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9
 #: seeds, counts, numbers of the wheels, and bounds against the rms over sizes of the elements
 PEAK_WHEELS = ((90101, 30, (7, 11, 17, 22)), (98001, 100, (84,)))
 PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
+#: Sliding wheels with errors of forces down to 1e-5, by the first order: seeds, counts, numbers, bounds against the same rms
+SLIDING_WHEELS = ((62001, 30, (0, 2, 10, 16, 18, 23, 29)),)
+SLIDING_BOUNDS = {"forces": (0.2, 5.0, 0.95)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
 #: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
@@ -341,9 +344,9 @@ def main():
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
     parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "peaks", "first",
-                                                                               "signed"),
+                                                                               "signed", "sliding"),
                         help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, their largest "
-                        "pressures, moments and sliding by the first order, or energy and stresses by the first "
+                        "pressures, sliding wheels, moments and sliding by the first order, or energy and stresses by the first "
                         "order; fail if bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
@@ -361,7 +364,7 @@ def main():
         asked.kinds, asked.order = "unlike,extreme,warm,steps", ("--order", "2")
     elif asked.check == "wheels":
         asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
-    elif asked.check == "peaks":
+    elif asked.check in ("peaks", "sliding"):
         asked.count, asked.places = 0, len(WHEEL_PLACES)
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
@@ -388,7 +391,7 @@ def main():
         only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
-        wheels = PEAK_WHEELS if asked.check == "peaks" else ((asked.seed, asked.wheels, ()),)
+        wheels = {"peaks": PEAK_WHEELS, "sliding": SLIDING_WHEELS}.get(asked.check, ((asked.seed, asked.wheels, ()),))
         for seed, count, numbers in wheels:
             rows += judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers) if count else []
     by_total, by_kind = tables(rows, asked)
@@ -402,6 +405,8 @@ def main():
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), SIGNED_BOUNDS, against=3) or 0)
     elif asked.check == "peaks":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), PEAK_BOUNDS, against=3) or 0)
+    elif asked.check == "sliding":
+        sys.exit(misses(by_total, sum(not places for _, _, places in rows), SLIDING_BOUNDS, against=3) or 0)
     elif asked.check == "wheels":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), WHEEL_BOUNDS) or 0)
     elif asked.check:
