@@ -61,8 +61,8 @@ module contact_cases_stress_errors
    !> 301)
    real(wp), parameter :: unclean = 0.5_wp
 
-   !> Ratio of the error to the root of the sum of squares of its parts by the first-order scheme: parts of opposite signs cancel. The
-   !> median of 908 stresses of contacts of all kinds was 0.85 (seeds 99301 and 99302)
+   !> Ratio of the error to the root of the sum of squares of its parts by the first-order scheme, as parts of opposite signs
+   !> cancel: median of 908 stresses of contacts of all kinds (seeds 99301 and 99302)
    real(wp), parameter :: cancelling = 0.85_wp
 
    !> Stresses at a point, and their errors: xx, xy, xz, yy, yz, zz [N/mm2]

@@ -197,9 +197,9 @@ contains
       type(bounding_box), intent(in) :: box
       !> Element states and tractions on entry; the numbers, tangential forces and moments are set
       type(patch_result), intent(inout) :: result
-      !> Number of columns whose sums are formed together; the sums of each: pressures, tractions, and their moments about the x axis
-      !> and about the normal. An array of the width of the contact would come from the heap
+      !> Number of columns whose sums are formed together; an array of the width of the contact would come from the heap
       integer, parameter :: columns = 64
+      !> Sums of each column: pressures, tractions, and their moments about the x axis and about the normal
       real(wp) :: sums(columns, 5)
       real(wp) :: area, moment(3), force(2), x, y
       integer :: first, n, k, ix, iy, touching, adhering, slipping

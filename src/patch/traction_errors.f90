@@ -68,8 +68,8 @@ module contact_patch_traction_errors
    !> changes the slip as well; lower bound, factor of n^-2, for contacts in which slip has the same direction everywhere. Of wheels
    !> (seed 62001) and contacts (seed 99411)
    real(wp), parameter :: turned_part = 0.8_wp, sliding_floor = 0.02_wp
-   !> Moment in full sliding: factor of n^-2 and of the ratio of the error of the normal problem to the general one, as the centre of
-   !> the pressures has an error of that kind; about a third of the error of the approach. Of contacts of seeds 99301 and 99302
+   !> Moment in full sliding: factor of n^-2 and of the ratio of the error of the normal problem to the general one, as the centre
+   !> of the pressures has an error of that kind; about a third of that of the approach. Of contacts of seeds 99301 and 99302
    real(wp), parameter :: displaced_centre = 0.045_wp
    !> Forces with the second-order scheme if friction decreases with slip: factor of its relative deviations times n^-2; if the
    !> direction of slip turns: of its turn across the contact times n^-2 (seeds 31001 and 31002)
