@@ -231,7 +231,7 @@ contains
          grid%lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          next = grid
          call tighten(result, report, next%eps, tightened)
-         near = report%estimated <= report%required .and. is_near_enough(report%estimated, expected, law%share*report%required)
+         near = is_near_enough(report%estimated, expected, report%required, law%share)
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)

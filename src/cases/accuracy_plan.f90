@@ -331,17 +331,24 @@ contains
       across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), law%bound/goal)
    end function expected_across
 
-   !> Is an estimate small enough?
-   pure logical function is_near_enough(estimated, expected, required)
+   !> Is an estimate small enough? None above the accuracy is, whatever the share
+   pure logical function is_near_enough(estimated, expected, required, share)
       !> Estimate of this grid, negative for none; and error predicted from the previous grid, 0 for none [-]
       real(wp), intent(in) :: estimated, expected
       !> Accuracy [-]
       real(wp), intent(in) :: required
+      !> Part of the accuracy that estimates must meet, see accuracy_law; default: 1
+      real(wp), intent(in), optional :: share
+      real(wp) :: goal
 
-      is_near_enough = estimated >= 0.0_wp .and. max(estimated, share_before*expected) <= enough*required
-      if (is_near_enough .or. .not. (estimated > 0.0_wp .and. expected > 0.0_wp)) return
-      is_near_enough = estimated <= enough_alone*required .and. share_before*expected <= enough*required &
-         & .and. estimated**(1.0_wp - weight_before)*expected**weight_before <= enough_of_both*required
+      goal = required
+      if (present(share)) goal = share*required
+      is_near_enough = estimated >= 0.0_wp .and. estimated <= required
+      if (.not. is_near_enough .or. max(estimated, share_before*expected) <= enough*goal) return
+      is_near_enough = estimated > 0.0_wp .and. expected > 0.0_wp
+      if (.not. is_near_enough) return
+      is_near_enough = estimated <= enough_alone*goal .and. share_before*expected <= enough*goal &
+         & .and. estimated**(1.0_wp - weight_before)*expected**weight_before <= enough_of_both*goal
    end function is_near_enough
 
    !> Order observed between the estimates of two grids, limited to the range from one to the expected order

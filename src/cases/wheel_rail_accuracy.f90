@@ -132,7 +132,7 @@ contains
          if (result%status%is_solved()) report%estimated = error_of_pair(session%memory)
          report%order = order_of(session%memory)
          report%sides = sides
-         if (report%estimated <= report%required .and. is_near_enough(report%estimated, expected, law%share*report%required)) exit
+         if (is_near_enough(report%estimated, expected, report%required, law%share)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(session%memory) /= 2) law = first_order_alone(law)
          call next_sides(spec, session%memory, law%share*report%required, report%estimated, &

@@ -48,7 +48,7 @@ contains
          end if
          if (.not. allocated(this%spec%material%cfname)) cycle
          if (.not. is_result(this%spec%material%cfname, place)) cycle
-         call fatal_error(error, complaint(this%spec%material%cfname), error_kind%input, place%input, this%first_line)
+         call fatal_error(error, message(this%spec%material%cfname), error_kind%input, place%input, this%first_line)
          return
       end do
    end subroutine refuse_result_names
@@ -60,7 +60,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. allocated(profile%name)) return
-      if (is_result(profile%name, place)) call fatal_error(error, complaint(profile%name), error_kind%input, place%input, &
+      if (is_result(profile%name, place)) call fatal_error(error, message(profile%name), error_kind%input, place%input, &
          & profile%line, profile%column)
    end subroutine refuse_profile
 
@@ -86,11 +86,11 @@ contains
    end function is_result
 
    !> The whole message
-   pure function complaint(name) result(text)
+   pure function message(name) result(text)
       !> Name in the input
       character(len=*), intent(in) :: name
       character(len=len_trim(name) + len(reason)) :: text
 
       text = trim(name) // reason
-   end function complaint
+   end function message
 end module contact_experiment_input_names
