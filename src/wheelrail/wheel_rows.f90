@@ -50,6 +50,8 @@ module contact_wheelrail_wheel_rows
       !> All points, their positions on the profile, and the previous rows as in `rows`: for rows without polynomials. The arrays
       !> may be larger than the number of points of this patch
       real(wp), allocatable :: x(:), place(:), all_rows(:, :)
+      !> Workspace: positions and heights of one row
+      real(wp), allocatable :: row(:)
       logical, allocatable :: found(:)
       !> Do they belong to this patch?
       logical :: has_all = .false.
@@ -211,13 +213,11 @@ contains
       !> Height of each point [mm], set if found
       real(wp), intent(out) :: n(:)
 
-      real(wp) :: row(2*self%points)
-
       associate (m => self%points)
          if (self%known > 0) then
-            call estimate(2*m, self%all_rows, self%known, row)
-            self%place(:m) = row(:m)
-            n = row(m + 1:)
+            call estimate(2*m, self%all_rows, self%known, self%row)
+            self%place(:m) = self%row(:m)
+            n = self%row(m + 1:2*m)
             call row_from_estimates(wheel, radius, seen, self%x(:m), s, self%place(:m), n, self%found(:m))
          else
             call wheel_row(wheel, radius, seen, self%x(:m), s, self%start, self%place(:m), n, self%found(:m))
@@ -233,11 +233,10 @@ contains
       type(wheel_rows), intent(inout) :: self
       !> Height of each point [mm]
       real(wp), intent(in) :: n(:)
-      real(wp) :: row(2*self%points)
 
-      row(:self%points) = self%place(:self%points)
-      row(self%points + 1:) = n
-      call keep(2*self%points, row, all(self%found(:self%points)), self%all_rows, self%known)
+      self%row(:self%points) = self%place(:self%points)
+      self%row(self%points + 1:2*self%points) = n
+      call keep(2*self%points, self%row, all(self%found(:self%points)), self%all_rows, self%known)
    end subroutine keep_all
 
    !> Allocate the arrays for all points
@@ -248,10 +247,11 @@ contains
       if (self%has_all) return
       self%has_all = .true.
       if (allocated(self%x)) then
-         if (size(self%x) < self%points) deallocate(self%x, self%place, self%found, self%all_rows)
+         if (size(self%x) < self%points) deallocate(self%x, self%place, self%found, self%all_rows, &
+            & self%row)
       end if
       if (.not. allocated(self%x)) allocate(self%x(self%points), self%place(self%points), self%found(self%points), &
-         & self%all_rows(2*self%points, remembered))
+         & self%all_rows(2*self%points, remembered), self%row(2*self%points))
       do i = 1, self%points
          self%x(i) = point_at(self, i)
       end do
