@@ -215,6 +215,15 @@ def test_workers_of_another_build_are_refused(cluster, tmp_path):
     assert study.explain().there < 200
 
 
+def test_a_worker_ends_while_it_is_asked_for_its_build(cluster):
+    study = contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, 20)})
+    cluster.worker()
+    ending = cluster.worker()
+    ending.send_signal(signal.SIGSTOP)
+    threading.Timer(0.5, ending.kill).start()
+    assert (study.run(scheduler=cluster.address).status == 0).all()
+
+
 def test_no_scheduler_is_told():
     with pytest.raises(contact.ContactError, match="no scheduler of Dask answers at tcp:"):
         contact.study.Engine(scheduler="tcp://127.0.0.1:9")

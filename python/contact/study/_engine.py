@@ -125,13 +125,16 @@ class Engine:
         if self._client is None:
             return
         import distributed
+        from distributed.comm.core import CommClosedError
         try:
             # as client.run, but with a time limit
             builds = self._client.sync(self._client._run, build, on_error="return", callback_timeout=_PATIENCE)
         except distributed.TimeoutError:
             # a worker does not respond
             return
-        others = [f"{address} ({found})" for address, found in sorted(builds.items()) if found != build()]
+        # a worker that ends while it is asked has not told its build
+        others = [f"{address} ({found})" for address, found in sorted(builds.items())
+                  if found != build() and not isinstance(found, CommClosedError)]
         if others:
             raise ContactError(f"workers of the cluster are of another build than the study ({build()}), install the same there: "
                                + ", ".join(others))
