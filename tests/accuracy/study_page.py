@@ -19,8 +19,8 @@ HEAD = """# Error against time over many contacts
 Written by `{command} --write doc/validation`,
 from {cases} solutions of {contacts} contacts in {kinds} kinds, each at {offsets} offsets of each grid; {machine},
 shared with other work. Times are processor time of one thread for a case of the program, including input and output.
-Consequences for the user: [how exact](../user/how_exact.md). One contact with all methods and tolerances:
-[accuracy against time](accuracy.md).
+In short: [what an accuracy costs](#cost-of-an-accuracy-of-the-forces), and [how exact](../user/how_exact.md) results are
+for the user. One contact with all methods and tolerances: [accuracy against time](accuracy.md).
 
 ![error of the forces against processor time](accuracy_study.svg)
 

@@ -125,6 +125,9 @@ def table(points):
 
 TEXT = """# Accuracy against time
 
+Errors of single contacts with each method, grid and tolerance, and what they cost. At the end: times for a required error
+compared with the [goals](#goals). Many contacts: [error against time](accuracy_study.md).
+
 Written by `sh tests/performance/accuracy.sh`; {machine}. Times are processor time of one thread
 for a case that starts from zero on a grid that is already set up.
 
