@@ -1,29 +1,32 @@
 !> Time of a case with a prescribed accuracy: expected time per element, and grids for which there is time before the deadline
 !>
-!> Times were measured with random contacts and wheels by tests/accuracy/cost.py, for the first case of its size in a process,
-!> including the plans of transforms, on one core of a server of 2022 shared with other work (seed 99801 at 2e-4). Single contacts
-!> take half or twice the time.
+!> Times were measured with random contacts and wheels by tests/accuracy/cost.py (seed 99821, 1e-2 to 2e-4), for the first case of
+!> its size in a process, including the plans of transforms, with the build of 2026-11-27, on the machine whose speed is the unit of
+!> contact_cases_machine_pace. Single contacts take half or twice the time.
 module contact_cases_accuracy_time
    use contact_base_choices, only : force_control, material_model, motion
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine, combined_material
+   use contact_friction_new_law, only : is_varying_law
    implicit none (type, external)
    private
 
    public :: constant_time, has_outer_iterations, most_in_time, time_is_left, time_per_element
 
-   !> All grids of a case, time per element of the last one [s]: pressures; with tractions; of a wheel, whose height is searched
-   real(wp), parameter :: with_pressures = 2.6e-6_wp, with_tractions = 6.5e-6_wp, with_wheel = 1.1e-5_wp
-   !> Time of each case, of files of profiles, and of each value of a profile [s]
-   real(wp), parameter :: each_case = 1.0e-3_wp, each_files = 6.0e-3_wp, each_value = 3.0e-6_wp
-   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; potential contacts of profiles, of
-   !> which contact covers a smaller part
-   real(wp), parameter :: outer_iterations = 1.7_wp, remembering = 1.7_wp, trials = 1.4_wp, partly_covered = 0.8_wp
+   !> All grids of a case, time per element of the last one [s]: pressures; with tractions of a shift; in rolling; of a wheel, whose
+   !> height is searched
+   real(wp), parameter :: with_pressures = 1.1e-6_wp, with_shift = 2.2e-6_wp, with_rolling = 2.9e-6_wp, with_wheel = 4.6e-6_wp
+   !> Time of each case, of files of profiles, of each value of a profile, and of coefficients of viscoelastic bodies [s]
+   real(wp), parameter :: each_case = 1.5e-3_wp, each_files = 3.5e-3_wp, each_value = 1.75e-6_wp, each_memory = 1.3e-3_wp
+   !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; friction that varies with slip; an
+   !> interfacial layer, which needs few iterations; potential contacts of profiles, of which contact covers a smaller part
+   real(wp), parameter :: outer_iterations = 1.8_wp, remembering = 1.3_wp, trials = 1.1_wp, changing_friction = 1.8_wp, &
+      & with_layer = 0.6_wp, partly_covered = 0.7_wp
    !> Fraction of the remaining time that the first grid may be expected to take: slow machines and slow contacts take several times
    !> what is expected, and a case without a first grid has no result; chosen
-   real(wp), parameter :: first_share = 0.035_wp
+   real(wp), parameter :: first_share = 0.015_wp
    !> Number of elements of a first grid that is tried in any time; chosen
    real(wp), parameter :: fewest = 200.0_wp
    !> Exponent of the number of elements in the time of a grid, and factor of reserve, to decide if there is time for another grid
@@ -32,18 +35,21 @@ module contact_cases_accuracy_time
 contains
 
    !> Expected time of all grids of a case per element of the last one [s]
-   pure real(wp) function time_per_element(spec) result(rate)
+   real(wp) function time_per_element(spec) result(rate)
       !> Case with an accuracy
       type(case_spec), intent(in) :: spec
 
-      rate = with_tractions
+      rate = with_rolling
+      if (spec%motion == motion%shift) rate = with_shift
       if (spec%motion == motion%none) rate = with_pressures
       if (allocated(spec%wheel_rail)) rate = with_wheel
       if (has_outer_iterations(spec)) rate = outer_iterations*rate
-      if (spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none) rate = remembering*rate
-      if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
-         & rate = trials*rate
       if (allocated(spec%geometry%profile)) rate = partly_covered*rate
+      if (spec%motion == motion%none) return
+      if (spec%material_model == material_model%viscoelastic) rate = remembering*rate
+      if (spec%material_model == material_model%interfacial_layer) rate = with_layer*rate
+      if (is_varying_law(spec%friction_law)) rate = changing_friction*rate
+      if (spec%force /= force_control%creepages .and. .not. allocated(spec%wheel_rail)) rate = trials*rate
    end function time_per_element
 
    !> Expected time that does not depend on the number of elements [s]
@@ -53,6 +59,7 @@ contains
 
       seconds = each_case
       if (allocated(spec%wheel_rail)) seconds = seconds + each_files
+      if (spec%material_model == material_model%viscoelastic) seconds = seconds + each_memory
       if (allocated(spec%geometry%profile)) seconds = seconds + each_value*size(spec%geometry%profile)
    end function constant_time
 

@@ -1,10 +1,11 @@
 !> Estimated cost of a case before it starts: elements, memory, time on one thread
 !>
-!> Times are rough, sufficient to distinguish seconds from hours. They were measured for a ball on a plane, with half of the
-!> potential contact area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of
-!> 2022. Subsurface stresses are included in the memory only. Times of prescribed accuracies: contact_cases_accuracy_time.
+!> Times are rough: those of published and own examples on 11 x 11 to 610 x 610 elements, with the build of 2026-11-27, on the
+!> machine whose speed is the unit of contact_cases_machine_pace. The first case on a grid takes up to twice the time, later ones of
+!> a sequence a half to a quarter. Subsurface stresses are included in the memory only. Times of prescribed accuracies:
+!> contact_cases_accuracy_time.
 module contact_cases_estimate
-   use contact_base_choices, only : force_control, motion, normal_control, solver_choice
+   use contact_base_choices, only : force_control, is_simplified, motion, normal_control, pressure_model, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_accuracy_grid, only : first_counts, no_direction
@@ -34,20 +35,21 @@ module contact_cases_estimate
    end type case_cost
 
    !> Constant time of a case, and of a search for its patches [s]
-   real(wp), parameter :: every_case = 1.0e-4_wp, every_search = 2.0e-3_wp
+   real(wp), parameter :: every_case = 1.0e-4_wp, every_search = 8.0e-4_wp
    !> Time per element [s]: pressures; tractions in shifts and transient rolling; in steady rolling
-   real(wp), parameter :: pressures = 2.2e-6_wp, by_step = 4.5e-6_wp, steadily = 1.1e-5_wp
+   real(wp), parameter :: pressures = 6.0e-7_wp, by_step = 1.0e-6_wp, steadily = 1.5e-6_wp
    !> Time per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
    real(wp), parameter :: by_convex_gs = 3.6e-7_wp, by_steady_gs = 2.2e-7_wp
    !> Factors of the time: friction that varies with slip; trials for a prescribed force; maximum number of outer iterations
-   real(wp), parameter :: changing_friction = 1.7_wp, trials = 8.0_wp
-   integer, parameter :: turns = 8
+   real(wp), parameter :: changing_friction = 1.7_wp, trials = 2.0_wp
+   integer, parameter :: turns = 2
    !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
    !> Ratio of the number of elements of the last grid of a case with an accuracy to that of the expected one, since some contacts
    !> need a finer one
    real(wp), parameter :: more_elements = 1.05_wp
-   !> Simplified methods, if allowed: time of one march per element [s]; number of marches that determine creepages for forces
+   !> Simplified methods: time per element of pressures and of one march of the tractions [s]; number of marches that determine
+   !> creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, usual_margin = 1.25_wp
@@ -61,7 +63,7 @@ contains
       type(case_cost), intent(out) :: cost
       type(potential_contact) :: grid
       type(combined_material) :: material
-      real(wp) :: n, tangential
+      real(wp) :: n, normal, tangential
 
       cost%seconds = every_case
       if (.not. spec%solve) return
@@ -83,6 +85,8 @@ contains
       end if
       cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
       tangential = 0.0_wp
+      normal = pressures*n
+      if (.not. any(spec%pressure == [pressure_model%full, pressure_model%thin_sheet])) normal = simplified*n
       select case (spec%motion)
       case (motion%none)
          continue
@@ -96,15 +100,16 @@ contains
       if (spec%classical .and. spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) &
          & tangential = by_convex_gs*n**1.5_wp
       if (is_varying_law(spec%friction_law)) tangential = changing_friction*tangential
+      if (is_simplified(spec%material_model) .and. spec%motion /= motion%none) tangential = simplified*n
       if (has_outer_iterations(spec)) then
          tangential = tangential*min(spec%iteration%maxout, turns)
-         cost%seconds = cost%seconds + pressures*n*(min(spec%iteration%maxout, turns) - 1)
+         cost%seconds = cost%seconds + normal*(min(spec%iteration%maxout, turns) - 1)
       end if
-      cost%seconds = cost%seconds + pressures*n + tangential
+      cost%seconds = cost%seconds + normal + tangential
       if (.not. allocated(spec%wheel_rail)) return
       cost%seconds = cost%seconds + every_search
       if (.not. (spec%normal == normal_control%force .or. spec%force /= force_control%creepages)) return
-      cost%seconds = cost%seconds + trials*pressures*n
+      cost%seconds = cost%seconds + trials*normal
       ! tractions change the pressures of unlike bodies: every trial computes them
       material = combine(spec%material%poiss, spec%material%gg)
       if (material%coupled()) cost%seconds = cost%seconds + trials*tangential
@@ -182,16 +187,21 @@ contains
    end function typical_half_side
 
    !> A cost in words, padded with blanks
-   pure function cost_text(cost) result(text)
+   pure function cost_text(cost, pace) result(text)
       !> Cost: elements, seconds and bytes
       type(case_cost), intent(in) :: cost
+      !> Time of a computation on this machine over that on the machine of the tables
+      real(wp), intent(in) :: pace
       character(len=240) :: text
       character(len=12) :: memory, time
+      real(wp) :: seconds
 
+      seconds = pace*cost%seconds
       write(memory, "(I0)") int(cost%bytes/1.0e6_wp, long) + 1_long
-      write(time, "(ES9.0)") cost%seconds
-      if (cost%seconds < 1.0e6_wp) write(time, "(F9.3)") cost%seconds
-      if (cost%seconds >= 1.0_wp .and. cost%seconds < 1.0e6_wp) write(time, "(I0)") nint(cost%seconds)
+      write(time, "(ES9.0)") seconds
+      if (seconds < 1.0e6_wp) write(time, "(F9.3)") seconds
+      if (seconds < 0.01_wp) write(time, "(F9.5)") seconds
+      if (seconds >= 1.0_wp .and. seconds < 1.0e6_wp) write(time, "(I0)") nint(seconds)
       write(text, "(2A, I0, 5A)") trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
          & trim(memory), " MB, ", trim(adjustl(time)), " s"
       if (cost%beyond_most) text = trim(text) // ": more elements than NPOT_MAX, which are not enlarged in shifts and transient &

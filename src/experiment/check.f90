@@ -4,6 +4,7 @@ module contact_experiment_check
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
+   use contact_cases_machine_pace, only : machine_pace
    use contact_cases_session, only : check_case
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
@@ -68,7 +69,7 @@ contains
       if (hidden > 0) call state%log%line(" " // integer_text(hidden) // " of the faulty cases " // &
          & trim(merge("keeps", "keep ", hidden == 1)) // " values of a case with errors; check again when these are corrected")
       if (state%cases > faulty) call state%log%line(" Estimate on one thread, largest case and time of all: " // &
-         & trim(cost_text(total)))
+         & trim(cost_text(total, machine_pace())))
    end subroutine check_all_cases
 
    !> Checks that require the preparation of a case: profiles, files, compatibility of its motion
@@ -106,6 +107,6 @@ contains
       total%bytes = max(total%bytes, cost%bytes)
       total%seconds = total%seconds + cost%seconds
       if (cost%seconds > reported_seconds .or. cost%bytes > reported_bytes) call state%log%line(" Estimate of case " // &
-         & integer_text(this%number) // " on one thread: " // trim(cost_text(cost)))
+         & integer_text(this%number) // " on one thread: " // trim(cost_text(cost, machine_pace())))
    end subroutine add_cost
 end module contact_experiment_check

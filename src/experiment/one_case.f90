@@ -4,6 +4,7 @@ module contact_experiment_one_case
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
+   use contact_cases_machine_pace, only : machine_pace
    use contact_cases_spec, only : case_spec
    use contact_experiment_errors, only : find_refusal, place_error, report_error, report_problems
    use contact_experiment_resume, only : record_case
@@ -66,7 +67,7 @@ contains
                & call state%log%warning("simplified methods are allowed, but no accuracy is requested: the case is solved as given")
             call estimate_cost(this%spec, cost)
             if (cost%seconds > large_seconds .or. cost%bytes > large_bytes .or. cost%beyond_most) call state%log%line( &
-               & " Estimate of this case on one thread: " // trim(cost_text(cost)))
+               & " Estimate of this case on one thread: " // trim(cost_text(cost, machine_pace())))
          end if
          solving_before = state%solving%wall
          call state%solving%start()

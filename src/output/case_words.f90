@@ -4,6 +4,7 @@ module contact_output_case_words
    use contact_base_kinds, only : wp
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
+   use contact_cases_machine_pace, only : machine_pace
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_of, digit_text
    use contact_control_translation, only : digits_of
@@ -83,7 +84,7 @@ contains
       call add("Not simulated: " // trim(absent(spec)))
       if (is_usable) then
          call estimate_cost(spec, cost)
-         call add("Expected on one thread: " // trim(cost_text(cost)))
+         call add("Expected on one thread: " // trim(cost_text(cost, machine_pace())))
       end if
 
    contains

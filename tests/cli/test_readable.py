@@ -29,8 +29,8 @@ def figures(path):
 
 
 def words(text):
-    """An explanation without positions and warnings"""
-    return re.sub(r"line \d+|\.inp|\.toml|.*Input: WARNING.*\n", "", text)
+    """An explanation without positions, warnings, and seconds, in which the measured speed of the machine appears"""
+    return re.sub(r"line \d+|\.inp|\.toml|.*Input: WARNING.*\n|[-+.0-9E]+ s\b", "", text)
 
 
 class Readable(unittest.TestCase):
