@@ -14,7 +14,7 @@ module contact_cases_machine_pace
    !> shortest counts, because other processes only add time
    integer, parameter :: side = 40, transforms = 8, measurements = 7
    !> Ratio found, 0 before the first measurement
-   real(wp), save :: found = 0.0_wp
+   real(wp) :: found = 0.0_wp
 
 contains
 
