@@ -29,6 +29,10 @@ module contact_wheelrail_flat_patch
       integer :: n = 0
       type(profile_section), private :: section
       type(wheel_rows), private :: rows
+      !> A roller, turned over like a wheel, and its heights over one row of elements [mm]
+      type(profile_curve), private :: roller
+      type(wheel_rows), private :: roller_rows
+      real(wp), allocatable, private :: roller_row(:)
    end type distance_scratch
 
    !> Initial size of `places`: for one stretch, and its reference
@@ -237,16 +241,27 @@ contains
       real(wp), intent(out) :: approach
       !> Number of elements that are left out, see `shift_distance`
       integer, intent(out) :: left_out
-      type(frame) :: seen
+      type(frame) :: seen, on_roller
       real(wp) :: s, n_rail
       integer :: ix, iy
-      logical :: found
+      logical :: rolls, found
 
       if (allocated(h)) then
          if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
       end if
       if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
-      if (.not. placement%roller_radius > 0.0_wp) then
+      rolls = placement%roller_radius > 0.0_wp
+      if (rolls) then
+         call turn_over(rail, scratch%roller)
+         ! the plane in the axes of a wheel: z is reversed
+         on_roller = new_frame([plane%origin(1:2), -plane%origin(3)], -plane%roll(), 0.0_wp)
+         call scratch%roller_rows%begin([grid%x(1), grid%x(grid%mx)], grid%mx, &
+            & [rail%s_at(plane%origin(2) + plane%axes(2, 2)*grid%y(1)), 0.0_wp])
+         if (allocated(scratch%roller_row)) then
+            if (size(scratch%roller_row) < grid%mx) deallocate(scratch%roller_row)
+         end if
+         if (.not. allocated(scratch%roller_row)) allocate(scratch%roller_row(grid%mx))
+      else
          call scratch%section%follow(rail, plane%origin(2:3), plane%roll(), scratch%places(:scratch%n), &
             & [grid%yl - grid%dy, grid%yl + (grid%my + 1)*grid%dy])
       end if
@@ -256,12 +271,13 @@ contains
       do iy = 1, grid%my
          s = grid%y(iy)
          call scratch%rows%find(wheel, placement%wheel_radius, seen, s, -nothing_there, h(:, iy))
-         if (placement%roller_radius > 0.0_wp) then
-            do ix = 1, grid%mx
-               n_rail = nothing_there
-               call roller_height(plane, rail, placement%roller_radius, grid%x(ix), s, n_rail)
-               h(ix, iy) = n_rail - h(ix, iy)
-            end do
+         if (rolls) then
+            associate (row => scratch%roller_row(:grid%mx))
+               call scratch%roller_rows%find(scratch%roller, placement%roller_radius, on_roller, s, -nothing_there, row)
+               do ix = 1, grid%mx
+                  h(ix, iy) = -row(ix) - h(ix, iy)
+               end do
+            end associate
          else
             n_rail = nothing_there
             call scratch%section%height(rail, s, n_rail, found)
@@ -273,36 +289,21 @@ contains
       call shift_distance(grid, scratch%n > 2, h, approach, left_out)
    end subroutine undeformed_distance
 
-   !> Height of a roller's surface over the plane: root of the distance to the surface below the track point at n
-   subroutine roller_height(plane, rail, radius, x, s, n)
-      type(frame), intent(in) :: plane
+   !> The profile of a roller as that of a wheel, whose axle is above it
+   pure subroutine turn_over(rail, roller)
+      !> In track coordinates
       type(profile_curve), intent(in) :: rail
-      real(wp), intent(in) :: radius, x, s
-      !> Height [mm], unchanged if there is no surface
-      real(wp), intent(inout) :: n
-      real(wp) :: point(3), rho, z, trial, correction, slope, facing
-      !> Corrections below this fraction of the radius are round-off; Newton's method takes three to five steps
-      real(wp), parameter :: on_surface = 1.0e-12_wp
-      integer, parameter :: max_steps = 30
-      integer :: step
+      !> The same with z reversed, without visible parts; its arrays are kept if they have the right size
+      type(profile_curve), intent(inout) :: roller
 
-      trial = 0.0_wp
-      do step = 1, max_steps
-         point = plane%to_parent([x, s, trial])
-         if (.not. rail%has(point(2))) return
-         rho = radius - rail%height(point(2))
-         if (abs(point(1)) >= rho) return
-         z = radius - sqrt(rho**2 - point(1)**2)
-         ! the surface is z - point(3) below the trial point; its slope across the track changes the distance along n
-         slope = tan(rail%inclination(rail%s_at(point(2))))
-         facing = plane%axes(3, 3) - slope*plane%axes(2, 3)
-         correction = (z - point(3))/facing
-         trial = trial + correction
-         if (abs(correction) < on_surface*radius) then
-            ! a surface that faces away from the plane is not the one in contact
-            if (facing > 0.0_wp) n = trial
-            return
-         end if
-      end do
-   end subroutine roller_height
+      if (allocated(roller%y%s)) then
+         if (size(roller%y%s) /= size(rail%y%s)) deallocate(roller%y%s, roller%y%c, roller%z%s, roller%z%c)
+      end if
+      if (.not. allocated(roller%y%s)) allocate(roller%y%s, roller%z%s, mold=rail%y%s)
+      if (.not. allocated(roller%y%c)) allocate(roller%y%c, roller%z%c, mold=rail%y%c)
+      roller%y%s(:) = rail%y%s
+      roller%z%s(:) = rail%y%s
+      roller%y%c(:, :) = rail%y%c
+      roller%z%c(:, :) = -rail%z%c
+   end subroutine turn_over
 end module contact_wheelrail_flat_patch

@@ -8,7 +8,7 @@ module contact_wheelrail_gap
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_gap_survey, only : furthest, gap_survey
-   use contact_wheelrail_locus, only : locus_at, locus_in_piece, roller_drop
+   use contact_wheelrail_locus, only : locus_at, locus_in_piece
    use contact_wheelrail_placement, only : wheel_rail_placement
    implicit none (type, external)
    private
@@ -100,7 +100,7 @@ contains
       type(gap_curve), allocatable, intent(inout), optional :: closer(:)
       !> Are rail and elements the same as in the previous call with `gap`? Default no
       logical, intent(in), optional :: keeps_rail
-      !> Gaps that exceed the smallest one by more than this are estimates [mm]; default none, and none on a roller
+      !> Gaps that exceed the smallest one by more than this are estimates [mm]; default none
       real(wp), intent(in), optional :: reach
       logical :: keeps
       real(wp) :: range(2), dy
@@ -118,8 +118,7 @@ contains
       keeps = .false.
       if (present(keeps_rail)) keeps = keeps_rail
       if (.not. keeps) call lay_mesh(rail, range(1), dy, n, gap)
-      gap%is_surveyed = .false.
-      if (present(reach)) gap%is_surveyed = .not. placement%roller_radius > 0.0_wp
+      gap%is_surveyed = present(reach)
       if (gap%is_surveyed) then
          call survey_gap(rail, wheel, placement, reach, gap)
       else
@@ -195,7 +194,7 @@ contains
             if (.not. lateral(k) > lateral(k + 1)) cycle
             if (y - lateral(k) > tiny_part*gap%dy .or. lateral(k + 1) - y > tiny_part*gap%dy) cycle
             point = locus_at(wheel, placement, rail, y, k, lateral(k), lateral(k + 1))
-            lowest = min(lowest, z + roller_drop(placement, point(1), z) - point(3))
+            lowest = min(lowest, z + placement%roller_drop(point(1), z) - point(3))
          end do
       end associate
    end function gap_at
@@ -287,7 +286,7 @@ contains
             & min(gap%n, floor((lateral(1) - start)/gap%dy + tiny_part) + 1)
             if (.not. gap%on_rail(i)) cycle
             point = locus_at(wheel, placement, rail, gap%y(i), piece, lateral(1), lateral(2))
-            vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
+            vertical = gap%z(i) + placement%roller_drop(point(1), gap%z(i)) - point(3)
             if (vertical >= gap%gap(i)) cycle
             gap%x(i) = point(1)
             gap%gap(i) = vertical
@@ -341,7 +340,7 @@ contains
       real(wp), intent(in) :: y, z
       !> Gap, and longitudinal position of the locus [mm]
       real(wp), intent(inout) :: lowest, x
-      real(wp) :: point(3), high, low
+      real(wp) :: point(3), high, low, vertical
       integer :: k, n
 
       n = size(wheel%y%s)
@@ -359,8 +358,9 @@ contains
             low = point(2)
             if (.not. high > low .or. y - high > tiny_part*gap%dy .or. low - y > tiny_part*gap%dy) cycle
             point = locus_at(wheel, placement, rail, y, k, high, low)
-            if (z - point(3) >= lowest) cycle
-            lowest = z - point(3)
+            vertical = z + placement%roller_drop(point(1), z) - point(3)
+            if (vertical >= lowest) cycle
+            lowest = vertical
             x = point(1)
          end do
       end associate

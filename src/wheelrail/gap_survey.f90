@@ -44,8 +44,8 @@ module contact_wheelrail_gap_survey
       integer(c_int), allocatable, private :: below(:)
       !> Lower bound of the gap by the estimate [mm], shape (n)
       real(wp), allocatable, private :: least(:)
-      !> Lateral positions, pieces and results of the points that are computed together; shape (n)
-      real(wp), allocatable, private :: target(:), place(:), found_x(:), found_z(:)
+      !> Lateral positions, heights of the rail, pieces and results of the points that are computed together; shape (n)
+      real(wp), allocatable, private :: target(:), rail(:), place(:), found_x(:), found_z(:)
       integer(c_int), allocatable, private :: piece(:), found(:)
       integer, allocatable, private :: index(:)
    contains
@@ -110,7 +110,7 @@ contains
       class(gap_survey), intent(inout) :: self
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      !> Position of the bodies, on a track
+      !> Position of the bodies
       type(wheel_rail_placement), intent(in) :: placement
       !> Mesh over the rail at even distances and heights of the rail, in the track [mm]
       real(wp), intent(in) :: y(:), z(:)
@@ -150,11 +150,11 @@ contains
       end if
       if (.not. allocated(self%x)) allocate(self%x(nodes), self%y(nodes), self%z(nodes), self%below(nodes))
       if (allocated(self%near)) then
-         if (size(self%near) /= n) deallocate(self%near, self%pieces, self%least, self%target, self%place, self%found_x, &
-            & self%found_z, self%piece, self%found, self%index)
+         if (size(self%near) /= n) deallocate(self%near, self%pieces, self%least, self%target, self%rail, self%place, &
+            & self%found_x, self%found_z, self%piece, self%found, self%index)
       end if
-      if (.not. allocated(self%near)) allocate(self%near(n), self%pieces(2, n), self%least(n), self%target(n), self%place(n), &
-         & self%found_x(n), self%found_z(n), self%piece(n), self%found(n), self%index(n))
+      if (.not. allocated(self%near)) allocate(self%near(n), self%pieces(2, n), self%least(n), self%target(n), self%rail(n), &
+         & self%place(n), self%found_x(n), self%found_z(n), self%piece(n), self%found(n), self%index(n))
    end subroutine make_room
 
    !> The locus at the nodes that may be above the mesh
@@ -190,7 +190,8 @@ contains
          first = first - modulo(first - 1, lanes)
          last = last + modulo(-last, lanes)
          call survey_nodes(last - first + 1, of%y(first), of%z(first), of%lean(first), origin, axes, placement%wheel_radius, &
-            & furthest, y(1), 1.0_wp/(y(2) - y(1)), size(y), self%x(first), self%y(first), self%z(first), self%below(first))
+            & furthest, placement%roller_radius, placement%lowest_on_roller(), y(1), 1.0_wp/(y(2) - y(1)), size(y), &
+            & self%x(first), self%y(first), self%z(first), self%below(first))
          range = [first, min(last, n)]
       end associate
    end subroutine estimate_nodes
@@ -207,7 +208,7 @@ contains
       !> First and last node of the estimates
       integer, intent(in) :: range(2)
       real(wp), intent(inout) :: gap(:), x(:)
-      real(wp) :: t, slope, vertical, error, by_yaw
+      real(wp) :: t, slope, along, vertical, error, by_yaw
       integer :: i, k
 
       ! the second step of the iteration for the locus is smaller than the first one by a factor of the square of the yaw angle
@@ -223,11 +224,12 @@ contains
                self%pieces(1, i) = min(self%pieces(1, i), k)
                self%pieces(2, i) = k
                t = y(i) - left
-               vertical = z(i) - (self%z(k + 1) + t*slope)
+               along = self%x(k + 1) + t/(right - left)*(self%x(k) - self%x(k + 1))
+               vertical = z(i) + placement%roller_drop(along, z(i)) - (self%z(k + 1) + t*slope)
                self%least(i) = min(self%least(i), vertical - error)
                if (vertical >= gap(i)) cycle
                gap(i) = vertical
-               x(i) = self%x(k + 1) + t/(right - left)*(self%x(k) - self%x(k + 1))
+               x(i) = along
             end do
          end associate
       end do
@@ -304,18 +306,20 @@ contains
          n = n + 1
          self%index(n) = i
          self%target(n) = y(i)
+         self%rail(n) = z(i)
          self%piece(n) = k
          self%place(n) = (self%y(k) - y(i))/(self%y(k) - self%y(k + 1))*(wheel%y%s(k + 1) - wheel%y%s(k))
       end do
       associate (wheel_frame => placement%wheel)
-         call find_locus(n, self%target, self%piece, self%profile%n - 1, wheel%y%s, wheel%y%c, wheel%z%c, wheel_frame%origin, &
-            & wheel_frame%axes, placement%wheel_radius, furthest, steepest, lateral_accuracy, along_accuracy, most_steps, &
-            & self%place, self%found_x, self%found_z, self%found)
+         call find_locus(n, self%target, self%rail, self%piece, self%profile%n - 1, wheel%y%s, wheel%y%c, wheel%z%c, &
+            & wheel_frame%origin, wheel_frame%axes, placement%wheel_radius, furthest, placement%roller_radius, &
+            & placement%lowest_on_roller(), steepest, lateral_accuracy, along_accuracy, most_steps, self%place, self%found_x, &
+            & self%found_z, self%found)
       end associate
       do j = 1, n
          i = self%index(j)
          if (self%found(j) == 1) then
-            gap(i) = z(i) - self%found_z(j)
+            gap(i) = z(i) + placement%roller_drop(self%found_x(j), z(i)) - self%found_z(j)
             x(i) = self%found_x(j)
          else
             n_left = n_left + 1

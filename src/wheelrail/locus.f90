@@ -7,10 +7,7 @@ module contact_wheelrail_locus
    implicit none (type, external)
    private
 
-   public :: locus_at, locus_in_piece, locus_point, roller_drop
-
-   !> Lower bound of heights above the axle of a roller, relative to its radius: points beside the roller would have none
-   real(wp), parameter :: lowest_on_roller = 0.01_wp
+   public :: locus_at, locus_in_piece, locus_point
 
 contains
 
@@ -76,10 +73,10 @@ contains
          depth = sqrt(radius**2 - x**2)
       end function depth
 
-      !> Height of a point of the track above the axle of the roller, at least `lowest_on_roller` of its radius [mm]
+      !> Height of a point of the track above the axle of the roller, at least `lowest_on_roller` [mm]
       pure real(wp) function axle_depth(point)
          real(wp), intent(in) :: point(3)
-         axle_depth = max(lowest_on_roller*placement%roller_radius, placement%roller_radius - point(3))
+         axle_depth = max(placement%lowest_on_roller(), placement%roller_radius - point(3))
       end function axle_depth
    end function locus_in_piece
 
@@ -111,20 +108,6 @@ contains
       rho = placement%roller_radius - z
       slope = x/sqrt(max(tiny(rho), rho**2 - x**2))
    end function roller_slope
-
-   !> Vertical distance of a roller's surface below its top at a longitudinal position [mm]; 0 on a track
-   pure real(wp) function roller_drop(placement, x, z) result(drop)
-      !> Radius of the roller, 0 for a track, and its top
-      type(wheel_rail_placement), intent(in) :: placement
-      !> Longitudinal position, and height of its profile there [mm]
-      real(wp), intent(in) :: x, z
-      real(wp) :: rho
-
-      drop = 0.0_wp
-      if (.not. placement%roller_radius > 0.0_wp) return
-      rho = placement%roller_radius - z
-      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
-   end function roller_drop
 
    !> Point of the locus with a given lateral position on a piece of the profile, by the Illinois method
    function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)

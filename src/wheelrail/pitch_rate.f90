@@ -9,7 +9,6 @@ module contact_wheelrail_pitch_rate
    use contact_numeric_root_search, only : root_search
    use contact_patch_result, only : patch_result
    use contact_wheelrail_geometry, only : measure
-   use contact_wheelrail_locus, only : roller_drop
    use contact_wheelrail_height, only : contact_reach, find_height, small_step
    use contact_wheelrail_memory, only : wheel_rail_memory, total_force
    use contact_wheelrail_problem, only : wheel_rail_problem, rate_of_pure_rolling
@@ -115,7 +114,7 @@ contains
       if (memory%geometry%touch - z > contact_reach) return
       associate (gap => memory%geometry%gap, placement => memory%geometry%placement)
          i = minloc(gap%gap, dim=1)
-         on_wheel = placement%wheel%to_local([gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) &
+         on_wheel = placement%wheel%to_local([gap%x(i), gap%y(i), gap%z(i) + placement%roller_drop(gap%x(i), gap%z(i)) &
             & - gap%gap(i)])
          radius = (placement%wheel_radius + on_wheel(3))/problem%spec%wheelset%nomradw
          on_roller = 1.0_wp

@@ -21,12 +21,40 @@ module contact_wheelrail_placement
       real(wp) :: wheel_radius = 460.0_wp
       !> Nominal radius of the roller [mm]; 0 on a track
       real(wp) :: roller_radius = 0.0_wp
+   contains
+      !> Vertical distance of a roller's surface below its top; 0 on a track
+      procedure :: roller_drop
+      !> Least height above the axle of a roller that is used
+      procedure :: lowest_on_roller
    end type wheel_rail_placement
+
+   !> This height relative to the radius: points beside the roller would have none
+   real(wp), parameter :: lowest_part = 0.01_wp
 
    !> Values of YTAPE from this one on mean that there is no tape line [mm]
    real(wp), parameter :: no_tape = 999.0_wp
 
 contains
+
+   !> Vertical distance of a roller's surface below its top at a longitudinal position [mm]; 0 on a track
+   pure real(wp) function roller_drop(self, x, z) result(drop)
+      class(wheel_rail_placement), intent(in) :: self
+      !> Longitudinal position, and height of its profile there [mm]
+      real(wp), intent(in) :: x, z
+      real(wp) :: rho
+
+      drop = 0.0_wp
+      if (.not. self%roller_radius > 0.0_wp) return
+      rho = self%roller_radius - z
+      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
+   end function roller_drop
+
+   !> Least height above the axle of a roller that is used [mm]; 0 on a track
+   pure real(wp) function lowest_on_roller(self) result(lowest)
+      class(wheel_rail_placement), intent(in) :: self
+
+      lowest = lowest_part*self%roller_radius
+   end function lowest_on_roller
 
    !> -1 for the left side of the track, 1 for the right one
    pure real(wp) function side_sign(wheel_rail)

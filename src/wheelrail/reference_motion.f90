@@ -10,7 +10,7 @@ module contact_wheelrail_reference_motion
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, no_surface
    use contact_wheelrail_geometry, only : wheel_rail_geometry
-   use contact_wheelrail_locus, only : locus_point, roller_drop
+   use contact_wheelrail_locus, only : locus_point
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_region, only : contact_region, parts_of
@@ -205,7 +205,7 @@ contains
          do i = 1, gap%n
             if (gap%gap(i) >= no_surface) cycle
             if (minval(gap%gap(max(1, i - points_beside):min(gap%n, i + points_beside))) - (z - geometry%gap_height) > near) cycle
-            point = [gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) - gap%gap(i)]
+            point = [gap%x(i), gap%y(i), gap%z(i) + placement%roller_drop(gap%x(i), gap%z(i)) - gap%gap(i)]
             local = placement%wheel%to_local(point)
             place = wheel%s_at(local(2))
             along = (locus_point(wheel, placement, place + place_step, rail) &
@@ -226,8 +226,8 @@ contains
                by = by + across*along
                motion%x(i, number) = by(1)
                motion%gap(i, number) = -by(3)
-               if (rolls) motion%gap(i, number) = motion%gap(i, number) + by(1)*(roller_drop(placement, gap%x(i) + place_step, &
-                  & gap%z(i)) - roller_drop(placement, gap%x(i) - place_step, gap%z(i)))/(2.0_wp*place_step)
+               if (rolls) motion%gap(i, number) = motion%gap(i, number) + by(1)*(placement%roller_drop(gap%x(i) + place_step, &
+                  & gap%z(i)) - placement%roller_drop(gap%x(i) - place_step, gap%z(i)))/(2.0_wp*place_step)
             end do
          end do
       end associate

@@ -103,15 +103,36 @@ TARGET static void OF(spread)(const double *powers, const double *node, int n, d
   }
 }
 
-/* The locus at the nodes of a profile, a multiple of four, by the first step of its iteration; the number of mesh points that are not
- * beyond each of them */
+/* The next longitudinal position of the locus in its iteration on a roller, whose surface falls along the track: from the position
+ * before, with the depth below the axle there, slope times radius of the wheel, and radius of the roller below. `lowest` is the least height
+ * above the axle of the roller */
+TARGET static inline void OF(along_roller)(const four *before, const four *depth, const four *local, const four *lean, const four *below,
+                                           double radius, double roller, double lowest, const double *origin, const double *axes,
+                                           four *along) {
+  const four zero = {0.0, 0.0, 0.0, 0.0}, least = zero + lowest, tiny = zero + 1e-300, drop = *depth - radius;
+  const four x = origin[0] + (axes[0] * *before + axes[3] * *local + axes[6] * drop);
+  const four over_axle = roller - (origin[2] + (axes[2] * *before + axes[5] * *local + axes[8] * drop));
+  const four square = *below * *below - x * x, fall = x / ROOTS(CHOOSE(square > tiny, square, tiny));
+  const four next =
+      ((axes[3] + fall * axes[5]) * *lean - (axes[6] + fall * axes[8]) * *depth) / (axes[0] + fall * axes[2]);
+  *along = *before + (next - *before) / (1.0 + *depth / CHOOSE(over_axle > least, over_axle, least));
+}
+
+/* The locus at the nodes of a profile, a multiple of four, by the first step of its iteration, two on a roller; the number of mesh points that are not
+ * beyond each of them. `roller` is the radius of a roller, 0 on a track */
 TARGET static void OF(nodes)(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
-                             double radius, double furthest, double start, double per_step, int points, double *x, double *across,
-                             double *height, int *below) {
+                             double radius, double furthest, double roller, double lowest, double start, double per_step, int points, double *x,
+                             double *across, double *height, int *below) {
   const four zero = {0.0, 0.0, 0.0, 0.0}, most = zero + furthest * radius, last = zero + (double)points;
   for (int i = 0; i < n; i += 4) {
     const four r = radius + READ_FOUR(z + i), local = READ_FOUR(y + i);
     four along = r * (axes[3] * READ_FOUR(lean + i) - axes[6]) / axes[0];
+    if (roller > 0.0) {
+      const four slope = r * READ_FOUR(lean + i), top = zero + roller;
+      OF(along_roller)(&zero, &r, &local, &slope, &top, radius, roller, lowest, origin, axes, &along);
+      const four before = along, deep = ROOTS(r * r - before * before);
+      OF(along_roller)(&before, &deep, &local, &slope, &top, radius, roller, lowest, origin, axes, &along);
+    }
     along = CHOOSE(along > most, most, CHOOSE(along < -most, -most, along));
     const four drop = ROOTS(r * r - along * along) - radius, place = origin[1] + (axes[1] * along + axes[4] * local + axes[7] * drop);
     FOUR(x + i) = origin[0] + (axes[0] * along + axes[3] * local + axes[6] * drop);
@@ -122,18 +143,21 @@ TARGET static void OF(nodes)(int n, const double *y, const double *z, const doub
   }
 }
 
-/* Points of the locus at given lateral positions, each on its piece, by Newton's method */
-TARGET static void OF(locus)(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
-                             const double *origin, const double *axes, double radius, double furthest, double steepest,
-                             double accuracy, double tolerance, int most_steps, const double *place, double *x, double *z, int *found) {
+/* Points of the locus at given lateral positions, each on its piece, by Newton's method. `roller` is the radius of a roller, 0 on a
+ * track, and `rail` the height of its profile at these positions */
+TARGET static void OF(locus)(int n, const double *target, const double *rail, const int *piece, int pieces, const double *ends,
+                             const double *cy, const double *cz, const double *origin, const double *axes, double radius,
+                             double furthest, double roller, double lowest, double steepest, double accuracy, double tolerance, int most_steps,
+                             const double *place, double *x, double *z, int *found) {
   const four zero = {0.0, 0.0, 0.0, 0.0}, most = zero + furthest * radius, steep = zero + steepest;
   for (int i = 0; i < n; i += 4) {
     int k[4];
-    four aim, t, length;
+    four aim, t, length, top;
     for (int lane = 0; lane < 4; lane++) {
       const int point = i + lane < n ? i + lane : n - 1;
       k[lane] = (piece[point] < pieces ? piece[point] : pieces) - 1;
       aim[lane] = target[point];
+      top[lane] = rail[point];
       t[lane] = place[point];
       length[lane] = ends[k[lane] + 1] - ends[k[lane]];
     }
@@ -145,7 +169,11 @@ TARGET static void OF(locus)(int n, const double *target, const int *piece, int 
       const four local = y0 + t * (y1 + t * (y2 + t * y3)), r = radius + z0 + t * (z1 + t * (z2 + t * z3));
       const four y_s = y1 + t * (2.0 * y2 + t * 3.0 * y3), z_s = z1 + t * (2.0 * z2 + t * 3.0 * z3);
       const four before = along, lean = r * (z_s / CHOOSE(y_s < steep, y_s, steep));
-      along = (axes[3] * lean - axes[6] * ROOTS(r * r - before * before)) / axes[0];
+      if (roller > 0.0) {
+        const four deep = ROOTS(r * r - before * before), below = roller - top;
+        OF(along_roller)(&before, &deep, &local, &lean, &below, radius, roller, lowest, origin, axes, &along);
+      } else
+        along = (axes[3] * lean - axes[6] * ROOTS(r * r - before * before)) / axes[0];
       along = CHOOSE(along > most, most, CHOOSE(along < -most, -most, along));
       const four depth = ROOTS(r * r - along * along), drop = depth - radius;
       const four miss = origin[1] + (axes[1] * along + axes[4] * local + axes[7] * drop) - aim;

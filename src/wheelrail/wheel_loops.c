@@ -6,11 +6,12 @@ void contact_wheel_meet(int pieces, const double *ends, const double *cy, const 
                         int *piece, double *place, double *n, int *found);
 void contact_wheel_spread(const double *powers, const double *node, int n, double *values, double *last);
 void contact_wheel_nodes(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
-                         double radius, double furthest, double start, double per_step, int points, double *x, double *across,
-                         double *height, int *below);
-void contact_wheel_locus(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
-                         const double *origin, const double *axes, double radius, double furthest, double steepest, double accuracy,
-                         double tolerance, int most_steps, const double *place, double *x, double *z, int *found);
+                         double radius, double furthest, double roller, double lowest, double start, double per_step, int points, double *x,
+                         double *across, double *height, int *below);
+void contact_wheel_locus(int n, const double *target, const double *rail, const int *piece, int pieces, const double *ends,
+                         const double *cy, const double *cz, const double *origin, const double *axes, double radius, double furthest,
+                         double roller, double lowest, double steepest, double accuracy, double tolerance, int most_steps, const double *place,
+                         double *x, double *z, int *found);
 
 #define LOOPS "../wheelrail/wheel_bodies.h"
 #include "../base/twice.h"
@@ -26,14 +27,15 @@ void contact_wheel_spread(const double *powers, const double *node, int n, doubl
 }
 
 void contact_wheel_nodes(int n, const double *y, const double *z, const double *lean, const double *origin, const double *axes,
-                         double radius, double furthest, double start, double per_step, int points, double *x, double *across,
-                         double *height, int *below) {
-  CALL(nodes, n, y, z, lean, origin, axes, radius, furthest, start, per_step, points, x, across, height, below);
+                         double radius, double furthest, double roller, double lowest, double start, double per_step, int points, double *x,
+                         double *across, double *height, int *below) {
+  CALL(nodes, n, y, z, lean, origin, axes, radius, furthest, roller, lowest, start, per_step, points, x, across, height, below);
 }
 
-void contact_wheel_locus(int n, const double *target, const int *piece, int pieces, const double *ends, const double *cy, const double *cz,
-                         const double *origin, const double *axes, double radius, double furthest, double steepest, double accuracy,
-                         double tolerance, int most_steps, const double *place, double *x, double *z, int *found) {
-  CALL(locus, n, target, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, tolerance, most_steps, place, x, z,
-       found);
+void contact_wheel_locus(int n, const double *target, const double *rail, const int *piece, int pieces, const double *ends,
+                         const double *cy, const double *cz, const double *origin, const double *axes, double radius, double furthest,
+                         double roller, double lowest, double steepest, double accuracy, double tolerance, int most_steps, const double *place,
+                         double *x, double *z, int *found) {
+  CALL(locus, n, target, rail, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, roller, lowest, steepest, accuracy, tolerance,
+       most_steps, place, x, z, found);
 }

@@ -51,10 +51,10 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(inout) :: last(2)
       end subroutine spread_polynomial
 
-      !> The contact locus of a round wheel on a track at the nodes of its profile, by the first step of the iteration for its
-      !> longitudinal position
-      pure subroutine survey_nodes(n, y, z, lean, origin, axes, radius, furthest, start, per_step, points, x, across, height, &
-         & below) bind(c, name="contact_wheel_nodes")
+      !> The contact locus of a round wheel at the nodes of its profile, by the first step of the iteration for its longitudinal
+      !> position; on a roller by two steps, as if its profile were a straight line at its top
+      pure subroutine survey_nodes(n, y, z, lean, origin, axes, radius, furthest, roller, lowest, start, per_step, points, x, &
+         & across, height, below) bind(c, name="contact_wheel_nodes")
          import :: c_double, c_int
          !> Number of nodes, a multiple of four
          integer(c_int), value :: n
@@ -64,6 +64,8 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(in) :: origin(3), axes(3, 3)
          !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it
          real(c_double), value :: radius, furthest
+         !> Radius of a roller, 0 on a track, and least height above its axle [mm]
+         real(c_double), value :: roller, lowest
          !> First lateral position of a mesh [mm], and reciprocal of its width [1/mm]
          real(c_double), value :: start, per_step
          !> Number of points of the mesh
@@ -74,14 +76,14 @@ module contact_wheelrail_wheel_loops
          integer(c_int), intent(inout) :: below(n)
       end subroutine survey_nodes
 
-      !> Points of the contact locus of a round wheel on a track at given lateral positions
-      pure subroutine find_locus(n, y, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, steepest, accuracy, &
-         & tolerance, most_steps, place, x, z, found) bind(c, name="contact_wheel_locus")
+      !> Points of the contact locus of a round wheel at given lateral positions
+      pure subroutine find_locus(n, y, rail, piece, pieces, ends, cy, cz, origin, axes, radius, furthest, roller, lowest, &
+         & steepest, accuracy, tolerance, most_steps, place, x, z, found) bind(c, name="contact_wheel_locus")
          import :: c_double, c_int
          !> Number of points
          integer(c_int), value :: n
-         !> Lateral positions in the track [mm]
-         real(c_double), intent(in) :: y(n)
+         !> Lateral positions in the track, and heights of the rail's profile there, which are used on a roller only [mm]
+         real(c_double), intent(in) :: y(n), rail(n)
          !> Piece of the profile on which each point is expected
          integer(c_int), intent(in) :: piece(n)
          !> Number of pieces
@@ -92,6 +94,8 @@ module contact_wheelrail_wheel_loops
          real(c_double), intent(in) :: origin(3), axes(3, 3)
          !> Radius of the wheel [mm]; maximum distance from the plane through the axle, relative to it
          real(c_double), value :: radius, furthest
+         !> Radius of a roller, 0 on a track, and least height above its axle [mm]
+         real(c_double), value :: roller, lowest
          !> Upper bound of dy/ds along the profile [-]
          real(c_double), value :: steepest
          !> Accuracy of the lateral position [mm], and of the longitudinal one relative to the radius

@@ -37,6 +37,8 @@ KNOWN = {
     "__contact_fft_kept_plans_MOD_n_kept": "their number, the same",
     ".gomp_critical_user_contact_registry": "lock of the registry",
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
+    "__contact_cases_machine_pace_MOD_found": "speed of the machine; every access is inside `contact_machine_pace`",
+    ".gomp_critical_user_contact_machine_pace": "lock of its measurement",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
 }
 # Tables of types, which are read only; in C++, addresses that are set when the code is loaded

@@ -370,6 +370,8 @@ contains
       !> [rad]
       real(wp), parameter :: yaw(4) = [0.0_wp, 1.0e-3_wp, -8.0e-3_wp, 4.0e-2_wp]
       real(wp), parameter :: side = 1.0_wp
+      !> Radii of rollers [mm], 0 for a track
+      real(wp), parameter :: radius(3) = [0.0_wp, 500.0_wp, 150.0_wp]
       !> Points of the locus are accurate to 1e-11 mm across the track, hence gaps on flanks to some 1e-11, and the minima of
       !> parabolas through points of a coarse mesh, where the gap rises steeply to both sides, to some 1e-10 [mm]
       real(wp), parameter :: on_flank = 1.0e-9_wp
@@ -377,17 +379,21 @@ contains
       type(wheel_rail_placement) :: placement
       type(profile_curve) :: in_track
       type(gap_curve) :: whole
-      character(len=12) :: angle
-      integer :: k
+      character(len=40) :: angle
+      integer :: j, k
 
       turned = pair
-      do k = 1, size(yaw)
-         write(angle, "(f8.4,a)") yaw(k), " rad"
-         turned%wheelset%yaw = yaw(k)
-         call place_wheel_rail(turned, wheel, top_z, gauge_y, z, [0.0_wp, 0.0_wp], placement)
-         in_track = rail_in_track(rail, placement)
-         call measure_gap(in_track, wheel, placement, side, whole)
-         call compare_survey(suite, what // ", yaw" // angle, in_track, wheel, placement, side, whole, on_flank)
+      do j = 1, size(radius)
+         turned%roller = radius(j) > 0.0_wp
+         turned%track%nomradr = radius(j)
+         do k = 1, size(yaw)
+            write(angle, "(f8.4,a,f6.0,a)") yaw(k), " rad, roller", radius(j), " mm"
+            turned%wheelset%yaw = yaw(k)
+            call place_wheel_rail(turned, wheel, top_z, gauge_y, z, [0.0_wp, 0.0_wp], placement)
+            in_track = rail_in_track(rail, placement)
+            call measure_gap(in_track, wheel, placement, side, whole)
+            call compare_survey(suite, what // ", yaw" // trim(angle), in_track, wheel, placement, side, whole, on_flank)
+         end do
       end do
    end subroutine surveys_of_yawed_wheels
 
