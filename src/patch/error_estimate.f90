@@ -12,6 +12,7 @@ module contact_patch_error_estimate
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_driver
+   use contact_patch_between_rows, only : section_details
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch, coarsening
    use contact_patch_error_scales, only : mean_friction, normal_order, scale_type, scales
@@ -121,7 +122,7 @@ contains
    end subroutine solve_coarse_level
 
    !> Errors from the totals on both levels
-   subroutine compare_levels(problem, order, level, result, approach_change)
+   subroutine compare_levels(problem, order, level, result, approach_change, details)
       type(patch_problem), intent(in) :: problem
       !> See estimate_errors
       integer, intent(in) :: order
@@ -131,6 +132,8 @@ contains
       type(patch_result), intent(inout) :: result
       !> Change of the approach of the coarse level that keeps a prescribed total force [mm]; absent for a single patch
       real(wp), intent(in), optional :: approach_change
+      !> Pressures with the details between rows of elements; absent if the distance is known at the elements only
+      type(section_details), intent(in), optional :: details
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
       real(wp) :: load, difference
@@ -181,7 +184,7 @@ contains
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
          if (fine%rows(k)%name == "pmax") then
             result%errors%value(k) = error_of_peak(problem, result, scale, &
-               & load**power_of_load(fine%rows(k))*peak_of(level%result%pn))
+               & load**power_of_load(fine%rows(k))*peak_of(level%result%pn), details)
          else
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if

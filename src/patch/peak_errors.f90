@@ -4,6 +4,7 @@
 module contact_patch_peak_errors
    use contact_base_constants, only : excluded_threshold, pi
    use contact_base_kinds, only : wp
+   use contact_patch_between_rows, only : section_details
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_error_scales, only : normal_order, resolved, scale_type, unresolved_floor
    use contact_patch_peak, only : peak_of
@@ -54,7 +55,7 @@ contains
 
    !> Error of the largest pressure: the error of pressures, with order 1 the difference between the peak and the nearest element
    !> centre, and the height of lower peaks that elements do not resolve
-   pure real(wp) function error_of_peak(problem, result, scale, coarse_peak) result(e)
+   pure real(wp) function error_of_peak(problem, result, scale, coarse_peak, details) result(e)
       !> The problem that was solved
       type(patch_problem), intent(in) :: problem
       !> Solved patch, with the contributions of solvers and window
@@ -63,6 +64,8 @@ contains
       type(scale_type), intent(in) :: scale
       !> Peak of the pressures of the coarse level [N/mm2]
       real(wp), intent(in) :: coarse_peak
+      !> Pressures with the details between rows of elements; absent if the distance is known at the elements only
+      type(section_details), intent(in), optional :: details
       type(peak_shape) :: shape(2)
       real(wp) :: peak, floor, across, bend, cusp
       integer :: at(2), k
@@ -85,6 +88,9 @@ contains
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
       e = max(e, floor, unresolved*cusp, rough_peak*max(0.0_wp, scale%roughness - usual_roughness)*scale%across, &
          & hidden_peak(problem, result)/result%pmax - 1.0_wp)
+      if (present(details)) then
+         if (details%known) e = max(e, abs(details%peak/result%pmax - 1.0_wp))
+      end if
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
 

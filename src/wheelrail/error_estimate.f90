@@ -9,12 +9,14 @@ module contact_wheelrail_error_estimate
    use contact_base_choices, only : motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
+   use contact_patch_between_rows, only : section_details
    use contact_patch_error_estimate, only : compare_levels, normal_stiffness, solve_coarse_level
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_wheelrail_memory, only : make_coarse_level, patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
+   use contact_wheelrail_section_distance, only : find_section_details
    implicit none (type, external)
    private
 
@@ -44,6 +46,7 @@ contains
       !> Missing vertical force of the coarse patches [N], its derivative with respect to the height [N/mm], change of the height
       !> [mm]
       real(wp) :: missing, stiffness, change
+      type(section_details) :: details
       logical :: has_history
       integer :: k
 
@@ -69,11 +72,12 @@ contains
       if (problem%force_prescribed .and. stiffness > 0.0_wp) change = missing/stiffness
       do k = 1, memory%used
          associate (slot => memory%slot(k))
+            if (slot%result%errors%reason == "") call find_section_details(problem, memory%geometry, slot, details)
             if (problem%force_prescribed) then
                call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
-                  & change*slot%plane%axes(3, 3))
+                  & change*slot%plane%axes(3, 3), details=details)
             else
-               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result)
+               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, details=details)
             end if
          end associate
       end do

@@ -1,0 +1,96 @@
+!> Undeformed distance of a patch between the rows of its elements, for the estimate of errors
+module contact_wheelrail_section_distance
+   use contact_base_choices, only : contact_location
+   use contact_base_constants, only : excluded_distance, excluded_threshold
+   use contact_base_kinds, only : wp
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_between_rows, only : has_details, parts, section_details, solve_section
+   use contact_patch_workspace, only : pressure_displacement
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_curved_patch, only : curved_reference, new_curved_reference, straight_reference, surface_heights
+   use contact_wheelrail_flat_patch, only : start_places, undeformed_distance
+   use contact_wheelrail_geometry, only : rail_at, wheel_rail_geometry
+   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
+   use contact_wheelrail_variable, only : variable_distance
+   implicit none (type, external)
+   private
+
+   public :: find_section_details
+
+   !> Fewest rows of elements in which details are sought
+   integer, parameter :: fewest_rows = 5
+
+contains
+
+   !> Pressures in the section through the largest one, with the details between rows of elements
+   subroutine find_section_details(problem, geometry, slot, details)
+      !> Profiles
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Positions of the bodies
+      type(wheel_rail_geometry), intent(inout) :: geometry
+      !> Solved patch
+      type(patch_slot), intent(inout) :: slot
+      !> Not known if details do not matter
+      type(section_details), intent(out) :: details
+      real(wp), allocatable :: h(:), un(:, :)
+      integer :: ix
+
+      if (slot%result%ncon == 0 .or. slot%problem%grid%my < fewest_rows) return
+      if (.not. slot%problem%solves_for_pressure() .or. allocated(slot%problem%parts)) return
+      ix = maxloc(maxval(slot%result%pn, dim=2), dim=1)
+      if (allocated(problem%rail_surface)) then
+         call find_distance(problem, rail_at(problem, geometry%placement, slot%region%x), geometry, slot, ix, h)
+      else
+         call find_distance(problem, geometry%rail_in_track, geometry, slot, ix, h)
+      end if
+      if (.not. has_details(slot%result, ix, h)) return
+      allocate(un(slot%problem%grid%mx, slot%problem%grid%my))
+      call pressure_displacement(slot%problem, slot%workspace, slot%result%pn, un)
+      call solve_section(slot%result, ix, un(ix, :), h, details)
+   end subroutine find_section_details
+
+   !> Undeformed distance at several points of each element of a column
+   subroutine find_distance(problem, rail, geometry, slot, ix, h)
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Section in track coordinates, at the reference; may be that of `geometry`, which is not changed then
+      type(profile_curve), intent(in) :: rail
+      type(wheel_rail_geometry), intent(inout) :: geometry
+      type(patch_slot), intent(inout) :: slot
+      !> Column
+      integer, intent(in) :: ix
+      !> Distance [mm] with the zero of that of the elements, shape (parts*my)
+      real(wp), allocatable, intent(out) :: h(:)
+      real(wp), allocatable :: distance(:, :), on_rail(:, :), on_wheel(:, :)
+      type(potential_contact) :: line
+      type(curved_reference) :: curve
+      real(wp) :: approach
+      integer :: iy, left_out
+
+      line = slot%problem%grid
+      line%xl = line%xl + (ix - 1)*line%dx
+      line%mx = 1
+      line%my = parts*line%my
+      line%dy = line%dy/parts
+      if (follows_surface(problem)) then
+         if (problem%spec%search%location == contact_location%conformal) then
+            curve = new_curved_reference(rail, geometry%bodies, slot%plane, line)
+         else
+            curve = straight_reference(slot%plane, line)
+         end if
+         call surface_heights(geometry%bodies, curve, line, on_rail, on_wheel)
+         distance = on_rail - on_wheel
+      else if (geometry%searches_table) then
+         call variable_distance(geometry%bodies, slot%plane, allocated(slot%region%seeds), line, distance, approach, left_out)
+      else
+         call start_places(rail, slot%region, slot%distance)
+         call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, slot%distance, line, distance, approach, &
+            & left_out)
+      end if
+      iy = minloc(slot%problem%h(ix, :), dim=1)
+      h = distance(1, :) + (slot%problem%h(ix, iy) - distance(1, parts*(iy - 1) + (parts + 1)/2))
+      do iy = 1, slot%problem%grid%my
+         if (slot%problem%h(ix, iy) > excluded_threshold) h(parts*(iy - 1) + 1:parts*iy) = excluded_distance
+      end do
+   end subroutine find_distance
+end module contact_wheelrail_section_distance
