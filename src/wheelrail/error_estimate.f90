@@ -13,10 +13,11 @@ module contact_wheelrail_error_estimate
    use contact_patch_error_estimate, only : compare_levels, normal_stiffness, solve_coarse_level
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
+   use contact_wheelrail_carry_over, only : max_patches
    use contact_wheelrail_memory, only : make_coarse_level, patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_section_distance, only : find_section_details
+   use contact_wheelrail_section_distance, only : find_section_details, find_turns
    implicit none (type, external)
    private
 
@@ -47,7 +48,9 @@ contains
       !> [mm]
       real(wp) :: missing, stiffness, change
       type(section_details) :: details
-      logical :: has_history
+      !> Errors of the angles of the patches [rad]; are there details between rows?
+      real(wp) :: turn(max_patches)
+      logical :: has_history, has_details
       integer :: k
 
       result%errors = error_values(result, problem)
@@ -69,10 +72,12 @@ contains
          end associate
       end do
       change = 0.0_wp
+      has_details = .false.
       if (problem%force_prescribed .and. stiffness > 0.0_wp) change = missing/stiffness
       do k = 1, memory%used
          associate (slot => memory%slot(k))
             if (slot%result%errors%reason == "") call find_section_details(problem, memory%geometry, slot, details)
+            has_details = has_details .or. details%known
             if (problem%force_prescribed) then
                call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
                   & change*slot%plane%axes(3, 3), details=details)
@@ -81,7 +86,9 @@ contains
             end if
          end associate
       end do
-      call add_up(problem, memory, result)
+      turn = 0.0_wp
+      if (has_details) call find_turns(problem, memory, turn)
+      call add_up(problem, memory, turn, result)
    end subroutine estimate_wheel_rail_errors
 
    !> Array for the errors of all totals, NaN: not known
@@ -113,9 +120,11 @@ contains
    end function stiffness_of
 
    !> Errors of forces and moments of all patches
-   subroutine add_up(problem, memory, result)
+   subroutine add_up(problem, memory, turn, result)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
+      !> Errors of the angles of the patches [rad]
+      real(wp), intent(in) :: turn(:)
       type(wheel_rail_result), intent(inout) :: result
       type(total_list) :: pair, patch
       type(pair_error) :: e
@@ -140,10 +149,13 @@ contains
                if (ieee_is_nan(spin)) spin = 0.0_wp
                moment = spin*slot%plane%axes(:, 3)
                call e%add(problem%force_prescribed, none, moment, moment)
+               if (abs(turn(k)) > 0.0_wp) call add_turn(problem, memory, k, turn(k), e)
                ! the height follows from the approaches of all patches, each weighted with its stiffness
                stiffness = stiffness_of(slot)
                total = total + stiffness
                height = height + stiffness*value(patch%place_of("pen"))/abs(slot%plane%axes(3, 3))
+               local = turned_force(slot, turn(k))
+               height = height + abs(local(3))
             end associate
          end associate
       end do
@@ -160,9 +172,32 @@ contains
       if (problem%force_prescribed .and. total > 0.0_wp) result%errors(pair%place_of("z_ws")) = height/total
    end subroutine add_up
 
-   !> Add the effect of an error of one force of a patch. If the vertical force is prescribed, the height changes until all patches
-   !> carry it again, so that other patches are loaded or unloaded; a single patch keeps its normal force but for the vertical
-   !> part of friction
+   !> Change of the force on the rail if a patch turns about the track's direction [N]
+   pure function turned_force(slot, turn) result(change)
+      type(patch_slot), intent(in) :: slot
+      !> Angle [rad]
+      real(wp), intent(in) :: turn
+      real(wp) :: change(3)
+
+      change = cross([turn, 0.0_wp, 0.0_wp], matmul(slot%plane%axes, slot%force))
+   end function turned_force
+
+   !> Add the effect of an error of the angle of a patch
+   pure subroutine add_turn(problem, memory, k, turn, e)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Patch, and error [rad]
+      integer, intent(in) :: k
+      real(wp), intent(in) :: turn
+      type(pair_error), intent(inout) :: e
+      real(wp) :: change(3, memory%used)
+
+      change = 0.0_wp
+      change(:, k) = turned_force(memory%slot(k), turn)
+      call add_change(problem, memory, change, e)
+   end subroutine add_turn
+
+   !> Add the effect of an error of one force of a patch
    pure subroutine add_force(problem, memory, k, component, error, e)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
@@ -171,21 +206,39 @@ contains
       !> Error of this component [N]
       real(wp), intent(in) :: error
       type(pair_error), intent(inout) :: e
+      real(wp) :: change(3, memory%used)
+
+      change = 0.0_wp
+      associate (slot => memory%slot(k))
+         change(:, k) = error*slot%plane%axes(:, component)
+         ! friction changes in proportion to the normal force
+         if (problem%force_prescribed .and. component == 3 .and. slot%result%fn > 0.0_wp) &
+            & change(:, k) = error*matmul(slot%plane%axes, slot%force/slot%result%fn)
+      end associate
+      call add_change(problem, memory, change, e)
+   end subroutine add_force
+
+   !> Add the effect of errors of the forces of patches. If the vertical force is prescribed, the height changes until all patches
+   !> carry it again, so that other patches are loaded or unloaded; a single patch keeps its normal force but for the vertical
+   !> part of friction
+   pure subroutine add_change(problem, memory, error, e)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Errors of the forces on the rail [N], shape (3, patches)
+      real(wp), intent(in) :: error(:, :)
+      type(pair_error), intent(inout) :: e
       real(wp), dimension(3, memory%used) :: change, per_height
       real(wp), dimension(3) :: force, on_rail, on_wheel
       integer :: m
 
-      change = 0.0_wp
-      change(:, k) = error*memory%slot(k)%plane%axes(:, component)
+      change = error
       if (problem%force_prescribed) then
          do m = 1, memory%used
             associate (slot => memory%slot(m))
                per_height(:, m) = 0.0_wp
                if (.not. slot%result%fn > 0.0_wp) cycle
-               ! friction changes in proportion to the normal force
-               per_height(:, m) = matmul(slot%plane%axes, slot%force/slot%result%fn)
-               if (m == k .and. component == 3) change(:, m) = error*per_height(:, m)
-               per_height(:, m) = normal_stiffness(slot%result)*slot%plane%axes(3, 3)*per_height(:, m)
+               per_height(:, m) = normal_stiffness(slot%result)*slot%plane%axes(3, 3) &
+                  & *matmul(slot%plane%axes, slot%force/slot%result%fn)
             end associate
          end do
          if (sum(per_height(3, :)) > 0.0_wp) change = change - sum(change(3, :))/sum(per_height(3, :))*per_height
@@ -201,7 +254,7 @@ contains
       end do
       force = sum(change, dim=2)
       call e%add(problem%force_prescribed, force, on_rail, on_wheel)
-   end subroutine add_force
+   end subroutine add_change
 
    !> Add an independent error
    pure subroutine add(self, in_balance, force, on_rail, on_wheel)

@@ -9,14 +9,16 @@ module contact_wheelrail_section_distance
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_curved_patch, only : curved_reference, new_curved_reference, straight_reference, surface_heights
    use contact_wheelrail_flat_patch, only : start_places, undeformed_distance
+   use contact_wheelrail_gap, only : gap_curve, measure_gap
    use contact_wheelrail_geometry, only : rail_at, wheel_rail_geometry
-   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
+   use contact_wheelrail_regions, only : collect_regions, found_regions
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
 
-   public :: find_section_details
+   public :: find_section_details, find_turns
 
    !> Fewest rows of elements in which details are sought
    integer, parameter :: fewest_rows = 5
@@ -49,6 +51,43 @@ contains
       call pressure_displacement(slot%problem, slot%workspace, slot%result%pn, un)
       call solve_section(slot%result, ix, un(ix, :), h, details)
    end subroutine find_section_details
+
+   !> Change of the angles of patches if the search for contact had a finer mesh: the reference of a patch is a mean over its mesh,
+   !> which does not resolve the inclination of a rough rail
+   subroutine find_turns(problem, memory, turn)
+      !> Profiles, and the size of elements
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches, and the positions of the bodies
+      type(wheel_rail_memory), intent(in) :: memory
+      !> [rad], shape at least that of the patches; 0 where it is not known
+      real(wp), intent(out) :: turn(:)
+      type(gap_curve) :: gap
+      type(gap_curve), allocatable :: closer(:)
+      type(found_regions) :: found
+      real(wp) :: common, most
+      integer :: i, k
+
+      turn = 0.0_wp
+      associate (geometry => memory%geometry, search => problem%spec%search)
+         if (geometry%searches_table .or. follows_surface(problem)) return
+         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, search%ds/parts, gap, closer, &
+            & reach=geometry%reach + max(0.0_wp, search%g_miss))
+         call collect_regions(gap, 0.0_wp, search, problem%weight_power, found, closer)
+      end associate
+      do k = 1, memory%used
+         associate (own => memory%slot(k)%region)
+            most = 0.0_wp
+            do i = 1, found%n
+               associate (other => found%region(i))
+                  common = min(own%box%y(2), other%box%y(2)) - max(own%box%y(1), other%box%y(1))
+                  if (.not. common > most) cycle
+                  most = common
+                  turn(k) = other%alpha - own%alpha
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine find_turns
 
    !> Undeformed distance at several points of each element of a column
    subroutine find_distance(problem, rail, geometry, slot, ix, h)
