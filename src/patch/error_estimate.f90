@@ -153,6 +153,7 @@ contains
          end associate
       end if
       scale = scales(problem, order, result)
+      if (present(details)) scale%hidden = abs(details%approach)/max(result%pen, tiny(load))
       scale%coarse_sticking = real(level%result%nadh, wp)/level%result%ncon
       scale%energy(1) = normal_energy(result)
       scale%energy(2) = result%elastic_energy - scale%energy(1)

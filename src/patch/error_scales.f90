@@ -89,6 +89,8 @@ module contact_patch_error_scales
       real(wp) :: warmed = 0.0_wp
       !> Standard deviation of the heights of a rough surface, relative to the approach [-]
       real(wp) :: roughness = 0.0_wp
+      !> Change of the approach by details between rows of elements, relative to it [-]
+      real(wp) :: hidden = 0.0_wp
       !> Magnitude of the difference parameter K of the materials [-]
       real(wp) :: coupling = 0.0_wp
       !> Ratio of `coupling` to the coefficient of friction, at most 1 [-]

@@ -109,7 +109,7 @@ contains
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
-         floor = normal_floor/scale%across**2 + rough_floor(1)*scale%roughness
+         floor = max(normal_floor/scale%across**2 + rough_floor(1)*scale%roughness, scale%hidden)
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          call bound_friction(row, difference, unit, scale, e, floor)
