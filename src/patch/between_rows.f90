@@ -17,7 +17,7 @@ module contact_patch_between_rows
    !> Points of the section per element; odd, so that one is at the centre
    integer, parameter :: parts = 3
    !> Details matter if their largest height would change the largest pressure by more than this fraction of it; chosen
-   real(wp), parameter :: matters = 0.02_wp
+   real(wp), parameter :: matters = 0.003_wp
    !> Tolerance of the pressures, relative to the load, and maximum number of iterations; chosen
    real(wp), parameter :: tolerance = 1.0e-4_wp
    integer, parameter :: most_iterations = 100

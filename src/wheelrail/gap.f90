@@ -13,7 +13,7 @@ module contact_wheelrail_gap
    implicit none (type, external)
    private
 
-   public :: gap_curve, measure_gap, rail_in_track, smallest_in_row
+   public :: gap_curve, measure_gap, measure_part, rail_in_track, smallest_in_row
 
    !> Gap where rail or wheel is missing [mm]
    real(wp), parameter, public :: no_surface = 999.0_wp
@@ -128,6 +128,27 @@ contains
       if (gap%is_surveyed) gap%depth = reach
       if (present(closer)) call look_closer(rail, wheel, placement, gap, closer)
    end subroutine measure_gap
+
+   !> Gap between a prismatic rail and a round wheel at their present positions, in a part of the rail
+   subroutine measure_part(rail, wheel, placement, start, dy, n, gap)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> The wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Position of the bodies
+      type(wheel_rail_placement), intent(in) :: placement
+      !> First lateral position, and distance of positions [mm]
+      real(wp), intent(in) :: start, dy
+      !> Number of positions
+      integer, intent(in) :: n
+      !> Mesh and gap
+      type(gap_curve), intent(inout) :: gap
+      real(wp) :: lateral(size(wheel%y%s))
+
+      call lateral_positions(wheel, placement, rail, [start, start + n*dy], lateral)
+      call lay_mesh(rail, start, dy, n, gap)
+      call fill_gap(rail, wheel, placement, lateral, gap)
+   end subroutine measure_part
 
    !> Compute the surroundings on a finer mesh if the parabola through three mesh points is not accurate
    subroutine look_closer(rail, wheel, placement, gap, closer)

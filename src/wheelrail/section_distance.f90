@@ -9,11 +9,10 @@ module contact_wheelrail_section_distance
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_curved_patch, only : curved_reference, new_curved_reference, straight_reference, surface_heights
    use contact_wheelrail_flat_patch, only : start_places, undeformed_distance
-   use contact_wheelrail_gap, only : gap_curve, measure_gap
+   use contact_wheelrail_gap, only : gap_curve, measure_part
    use contact_wheelrail_geometry, only : rail_at, wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
-   use contact_wheelrail_regions, only : collect_regions, found_regions
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
@@ -22,6 +21,8 @@ module contact_wheelrail_section_distance
 
    !> Fewest rows of elements in which details are sought
    integer, parameter :: fewest_rows = 5
+   !> References of regions with at most this number of intervals of the mesh are not means, see contact_wheelrail_regions
+   integer, parameter :: fewest_points = 4
 
 contains
 
@@ -52,42 +53,56 @@ contains
       call solve_section(slot%result, ix, un(ix, :), h, details)
    end subroutine find_section_details
 
-   !> Change of the angles of patches if the search for contact had a finer mesh: the reference of a patch is a mean over its mesh,
-   !> which does not resolve the inclination of a rough rail
+   !> Changes of the angles of patches if their mean inclinations were those of a finer mesh: that of the search for contact does
+   !> not resolve the inclination of a rough rail
    subroutine find_turns(problem, memory, turn)
-      !> Profiles, and the size of elements
+      !> Profiles, and settings of the search
       type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches, and the positions of the bodies
       type(wheel_rail_memory), intent(in) :: memory
-      !> [rad], shape at least that of the patches; 0 where it is not known
+      !> [rad], shape at least that of the patches; 0 where the angle is not a mean
       real(wp), intent(out) :: turn(:)
-      type(gap_curve) :: gap
-      type(gap_curve), allocatable :: closer(:)
-      type(found_regions) :: found
-      real(wp) :: common, most
-      integer :: i, k
+      type(gap_curve) :: fine
+      integer :: k, first, last
 
       turn = 0.0_wp
-      associate (geometry => memory%geometry, search => problem%spec%search)
+      associate (geometry => memory%geometry, gap => memory%geometry%gap)
          if (geometry%searches_table .or. follows_surface(problem)) return
-         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, search%ds/parts, gap, closer, &
-            & reach=geometry%reach + max(0.0_wp, search%g_miss))
-         call collect_regions(gap, 0.0_wp, search, problem%weight_power, found, closer)
+         if (problem%spec%search%location == contact_location%first_contact) return
+         do k = 1, memory%used
+            associate (bounds => memory%slot(k)%region%box%y)
+               first = max(1, floor((bounds(1) - gap%y(1))/gap%dy) + 1)
+               last = min(gap%n, ceiling((bounds(2) - gap%y(1))/gap%dy) + 1)
+            end associate
+            if (last - first < fewest_points) cycle
+            call measure_part(geometry%rail_in_track, problem%wheel, geometry%placement, gap%y(first), gap%dy/parts, &
+               & (last - first)*parts + 1, fine)
+            turn(k) = mean_angle(fine, 1, problem%weight_power) - mean_angle(fine, parts, problem%weight_power)
+         end do
       end associate
-      do k = 1, memory%used
-         associate (own => memory%slot(k)%region)
-            most = 0.0_wp
-            do i = 1, found%n
-               associate (other => found%region(i))
-                  common = min(own%box%y(2), other%box%y(2)) - max(own%box%y(1), other%box%y(1))
-                  if (.not. common > most) cycle
-                  most = common
-                  turn(k) = other%alpha - own%alpha
-               end associate
-            end do
-         end associate
-      end do
    end subroutine find_turns
+
+   !> Mean inclination of the rail where the bodies overlap, weighted as in contact_wheelrail_region [rad]
+   pure real(wp) function mean_angle(gap, step, weight_power) result(angle)
+      !> Gap at the present height
+      type(gap_curve), intent(in) :: gap
+      !> Each point of this number is used
+      integer, intent(in) :: step
+      !> Power of the overlap, 1 or 2
+      integer, intent(in) :: weight_power
+      real(wp) :: w, total
+      integer :: i
+
+      angle = 0.0_wp
+      total = 0.0_wp
+      do i = 1, gap%n, step
+         if (.not. gap%gap(i) < 0.0_wp) cycle
+         w = (-gap%gap(i))**weight_power*sqrt(-gap%gap(i))
+         total = total + w
+         angle = angle + w*gap%alpha(i)
+      end do
+      if (total > 0.0_wp) angle = angle/total
+   end function mean_angle
 
    !> Undeformed distance at several points of each element of a column
    subroutine find_distance(problem, rail, geometry, slot, ix, h)
