@@ -34,8 +34,8 @@ module contact_patch_between_rows
       logical :: known = .false.
       !> Largest pressure at the points [N/mm2]
       real(wp) :: peak = 0.0_wp
-      !> Change of the approach, and of the centre of the load [mm]
-      real(wp) :: approach = 0.0_wp, centre = 0.0_wp
+      !> Change of the approach [mm]
+      real(wp) :: approach = 0.0_wp
    end type section_details
 
 contains
@@ -108,31 +108,29 @@ contains
       real(wp), intent(in) :: fine(:)
       type(section_details), intent(out) :: details
       real(wp) :: rest(size(un)), pn(size(un)), p(size(fine)), given(size(fine))
-      real(wp) :: kernel(2*size(un) + 1), fine_kernel(2*size(fine) + 1)
       logical :: within(size(fine))
       real(wp) :: step, load
-      integer :: i
+      integer :: i, i0, i1
 
       associate (grid => result%grid)
          pn = result%pn(ix, :)
          load = sum(pn)*grid%dy
          step = grid%dy/parts
-         kernel = strip_kernel(modulus(result), grid%dy, size(un))
-         call displace(kernel, pn, rest)
-         rest = merge(result%pen - result%h(ix, :), un, pn > 0.0_wp) - rest
-         fine_kernel = strip_kernel(modulus(result), step, size(fine))
+         call displace(strip_kernel(modulus(result), grid%dy, size(un)), pn, rest)
          within = fine < min(reach*result%pen, far)
+         rest = merge(result%pen - result%h(ix, :), un, pn > 0.0_wp) - rest
          do i = 1, size(fine)
             given(i) = fine(i) + between(rest, i)
             p(i) = merge(pn(row_of(i)), 0.0_wp, within(i))
          end do
          if (.not. (sum(p) > 0.0_wp .and. load > 0.0_wp)) return
-         call press(fine_kernel, given, within, load/step, p, details%approach)
+         i0 = findloc(within, .true., dim=1)
+         i1 = findloc(within, .true., dim=1, back=.true.)
+         call press(strip_kernel(modulus(result), step, i1 - i0 + 1), given(i0:i1), within(i0:i1), load/step, p(i0:i1), &
+            & details%approach)
          details%known = .true.
          details%peak = maxval(p)
          details%approach = details%approach - result%pen
-         details%centre = (sum([(i - 0.5_wp, i=1, size(fine))]*p)*step**2 &
-            & - sum([(i - 0.5_wp, i=1, size(pn))]*pn)*grid%dy**2)/load
       end associate
    end subroutine solve_section
 
