@@ -21,6 +21,10 @@ import worn_profiles
 
 #: An estimate below this part of the true error lies
 LEAST = 0.1
+#: Cases of the check by seed, and orders: details between rows of elements hide errors of PMAX (estimates were 0.01 to 0.12 of the
+#: true errors), and of FY on a steep rail of uneven inclination (7811: 492). Estimates are at least this part of the true errors
+HIDDEN = {7811: (311, 483, 492), 7812: (343, 375), 88101: (69, 177, 321)}
+HIDDEN_ORDERS, HIDDEN_LEAST = ("1", "2"), 0.2
 #: True errors that are no matter: relative to the friction bound, and to the approach
 SMALL = 1e-3
 MU = 0.3
@@ -111,6 +115,62 @@ def judge(coarse, fine):
     return found
 
 
+def cases_of(seed, count, lines):
+    """Random cases of all groups in turn"""
+    source = random.Random(seed)
+    return [case(source, sorted(lines)[k % len(lines)]) for k in range(count)]
+
+
+class Campaign:
+    """Counts and effectivities by group, and what must not be"""
+
+    def __init__(self):
+        self.counts, self.ratios = collections.defaultdict(collections.Counter), collections.defaultdict(list)
+        self.lies, self.silent = [], []
+
+    def run(self, cases, lines, order, least):
+        """Solve and judge cases; estimates below this part of the true error are lies"""
+        program, options = os.environ["CONTACT_PROGRAM"], ("--order", order)
+        coarse = solve(program, "coarse", cases, lines, 1.0, ("--errors", *options))
+        fine = solve(program, "fine", cases, lines, FINER, options)
+        for number, c in enumerate(cases, 1):
+            self.add(number, c, coarse.get(number), fine.get(number, {}), least)
+
+    def add(self, number, c, record, finer, least):
+        """One case"""
+        count = self.counts[c["group"]]
+        count["cases"] += 1
+        if record is None or (not record.get("converged") and not record.get("reason") and not record.get("failure")):
+            self.silent.append((number, c))
+            return
+        if not record["solved"] or not record["converged"]:
+            count["refused" if record.get("status") == "refused" else "not converged"] += 1
+            return
+        count["patches"] = max(count["patches"], len(record["patches"]))
+        if not record["patches"]:
+            count["no contact"] += 1
+            return
+        found = judge(record, finer)
+        count["judged"] += bool(found)
+        for quantity, (estimate, true) in found.items():
+            self.ratios[c["group"]].append(estimate/max(true, 1e-9))
+            if true > SMALL and estimate < least*true:
+                self.lies.append((number, c, quantity, estimate, true))
+
+    def show(self, lists):
+        """Print the table, and the lies if they are asked for"""
+        print("| profiles | cases | most patches | no contact | refused | not converged | judged | least | median | lies |\n"
+              "|---|---|---|---|---|---|---|---|---|---|")
+        for group, count in sorted(self.counts.items()):
+            ratio = sorted(self.ratios[group]) or [math.nan]
+            wrong = sum(lie[1]["group"] == group for lie in self.lies)
+            print(f"| {group} | {count['cases']} | {count['patches']} | {count['no contact']} | {count['refused']} | "
+                  f"{count['not converged']} | {count['judged']} | {ratio[0]:.3f} | {ratio[len(ratio) // 2]:.2g} | {wrong} |")
+        for number, c, quantity, estimate, true in self.lies if lists else ():
+            print(f"case {number}, {c['group']}, y {c['y']:.2f}, yaw {c['yaw']:.4f}, Fz {c['fz']:.0f}, elements {c['size']:.2f}: "
+                  f"{quantity} estimated {estimate:.1e}, true {true:.1e}")
+
+
 def main():
     """Campaign or test"""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -118,56 +178,29 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--order", default="2")
     parser.add_argument("--list", action="store_true", help="name the cases whose estimates lie")
-    parser.add_argument("--check", action="store_true", help="a small share")
+    parser.add_argument("--check", action="store_true", help="a small share, and cases whose estimates lied")
     arguments = parser.parse_args()
     if arguments.check:
         # among them a rough profile whose estimate was once a twelfth of the error
-        arguments.count, arguments.seed = 120, 77
-    program, folder = os.environ["CONTACT_PROGRAM"], os.getcwd()
+        arguments.count, arguments.seed, arguments.list = 120, 77, True
+    campaign, folder = Campaign(), os.getcwd()
     with tempfile.TemporaryDirectory() as name:
         os.chdir(name)
         lines = pairs()
-        source = random.Random(arguments.seed)
-        cases = [case(source, sorted(lines)[k % len(lines)]) for k in range(arguments.count)]
-        options = ("--order", arguments.order)
-        coarse = solve(program, "coarse", cases, lines, 1.0, ("--errors", *options))
-        fine = solve(program, "fine", cases, lines, FINER, options)
+        campaign.run(cases_of(arguments.seed, arguments.count, lines), lines, arguments.order, LEAST)
+        if arguments.check:
+            hidden = [cases_of(seed, max(numbers), lines)[k - 1] for seed, numbers in HIDDEN.items() for k in numbers]
+            for order in HIDDEN_ORDERS:
+                before = sum(count["judged"] for count in campaign.counts.values())
+                campaign.run(hidden, lines, order, HIDDEN_LEAST)
+                if sum(count["judged"] for count in campaign.counts.values()) - before < len(hidden):
+                    sys.exit("a case with hidden details has no estimate that can be compared")
         os.chdir(folder)
-    counts, ratios = collections.defaultdict(collections.Counter), collections.defaultdict(list)
-    lies, silent = [], []
-    for number, c in enumerate(cases, 1):
-        record, count = coarse.get(number), counts[c["group"]]
-        count["cases"] += 1
-        if record is None or (not record.get("converged") and not record.get("reason") and not record.get("failure")):
-            silent.append((number, c))
-            continue
-        if not record["solved"] or not record["converged"]:
-            count["refused" if record.get("status") == "refused" else "not converged"] += 1
-            continue
-        count["patches"] = max(count["patches"], len(record["patches"]))
-        if not record["patches"]:
-            count["no contact"] += 1
-            continue
-        found = judge(record, fine.get(number, {}))
-        count["judged"] += bool(found)
-        for quantity, (estimate, true) in found.items():
-            ratios[c["group"]].append(estimate/max(true, 1e-9))
-            if true > SMALL and estimate < LEAST*true:
-                lies.append((number, c, quantity, estimate, true))
-    print("| profiles | cases | most patches | no contact | refused | not converged | judged | least | median | lies |\n"
-          "|---|---|---|---|---|---|---|---|---|---|")
-    for group, count in sorted(counts.items()):
-        ratio = sorted(ratios[group]) or [math.nan]
-        wrong = sum(lie[1]["group"] == group for lie in lies)
-        print(f"| {group} | {count['cases']} | {count['patches']} | {count['no contact']} | {count['refused']} | "
-              f"{count['not converged']} | {count['judged']} | {ratio[0]:.3f} | {ratio[len(ratio) // 2]:.2g} | {wrong} |")
-    for number, c, quantity, estimate, true in lies if arguments.list else ():
-        print(f"case {number}, {c['group']}, y {c['y']:.2f}, yaw {c['yaw']:.4f}, Fz {c['fz']:.0f}, elements {c['size']:.2f}: "
-              f"{quantity} estimated {estimate:.1e}, true {true:.1e}")
-    if silent:
-        sys.exit(f"cases that do not converge without a reason: {silent}")
-    if lies:
-        sys.exit(f"{len(lies)} estimates lie")
+    campaign.show(arguments.list)
+    if campaign.silent:
+        sys.exit(f"cases that do not converge without a reason: {campaign.silent}")
+    if campaign.lies:
+        sys.exit(f"{len(campaign.lies)} estimates lie")
 
 
 if __name__ == "__main__":
