@@ -23,7 +23,6 @@ module contact_patch_between_rows
    integer, parameter :: most_iterations = 100
    !> Contact is looked for where the distance is below the approach times this; chosen
    real(wp), parameter :: reach = 1.25_wp
-
    !> Distances above this are no surface [mm]: values that stand for a missing surface are larger, see excluded_distance and
    !> nothing_there
    real(wp), parameter :: far = 100.0_wp
@@ -51,15 +50,16 @@ contains
       integer, intent(in) :: ix
       !> Undeformed distance at `parts` points of each element of the column [mm], shape (parts*my)
       real(wp), intent(in) :: fine(:)
-      real(wp) :: amplitude
+      real(wp) :: h(result%grid%my), amplitude
       integer :: i, k
 
+      h = result%h(ix, :)
       amplitude = 0.0_wp
       do i = 1, size(fine)
          k = row_of(i)
          if (.not. fine(i) < result%pen .or. k < 3 .or. k > result%grid%my - 2) cycle
-         if (any(result%h(ix, k - 2:k + 2) > far)) cycle
-         amplitude = max(amplitude, abs(fine(i) - between(result%h(ix, :), i)))
+         if (any(h(k - 2:k + 2) > far)) cycle
+         amplitude = max(amplitude, abs(fine(i) - between(h, i)))
       end do
       has_details = pi*modulus(result)*amplitude/(2.0_wp*result%grid%dy) > matters*result%pmax
    end function has_details
@@ -219,9 +219,7 @@ contains
          before = p
          p = max(0.0_wp, p - length*turned)
          overlaps = any(within .and. .not. p > 0.0_wp .and. gap < 0.0_wp)
-         if (overlaps) then
-            where (within .and. .not. p > 0.0_wp .and. gap < 0.0_wp) p = -length*gap
-         end if
+         where (within .and. .not. p > 0.0_wp .and. gap < 0.0_wp) p = -length*gap
          if (.not. sum(p) > 0.0_wp) then
             p = before
             exit
