@@ -18,6 +18,9 @@ module contact_patch_between_rows
    integer, parameter :: parts = 3
    !> Details matter if their largest height would change the largest pressure by more than this fraction of it; chosen
    real(wp), parameter :: matters = 0.003_wp
+   !> Distances at the centres that differ by more than this fraction of the approach from those of the elements belong to other
+   !> positions of the bodies; chosen
+   real(wp), parameter :: same_place = 1.0e-3_wp
    !> Tolerance of the pressures, relative to the load, and maximum number of iterations; chosen
    real(wp), parameter :: tolerance = 1.0e-4_wp
    integer, parameter :: most_iterations = 100
@@ -53,7 +56,9 @@ contains
       real(wp) :: h(result%grid%my), amplitude
       integer :: i, k
 
+      has_details = .false.
       h = result%h(ix, :)
+      if (any(abs(fine((parts + 1)/2::parts) - h) > same_place*result%pen .and. h < result%pen)) return
       amplitude = 0.0_wp
       do i = 1, size(fine)
          k = row_of(i)
@@ -106,6 +111,7 @@ contains
       real(wp), intent(in) :: un(:)
       !> See has_details
       real(wp), intent(in) :: fine(:)
+      !> Not known without pressures where contact is possible
       type(section_details), intent(out) :: details
       real(wp) :: rest(size(un)), pn(size(un)), p(size(fine)), given(size(fine))
       logical :: within(size(fine))

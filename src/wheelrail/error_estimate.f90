@@ -17,7 +17,7 @@ module contact_wheelrail_error_estimate
    use contact_wheelrail_memory, only : make_coarse_level, patch_slot, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_section_distance, only : find_section_details, find_turns
+   use contact_wheelrail_section_distance, only : find_details
    implicit none (type, external)
    private
 
@@ -47,10 +47,10 @@ contains
       !> Missing vertical force of the coarse patches [N], its derivative with respect to the height [N/mm], change of the height
       !> [mm]
       real(wp) :: missing, stiffness, change
-      type(section_details) :: details
-      !> Errors of the angles of the patches [rad]; are there details between rows?
+      type(section_details) :: details(max_patches)
+      !> Errors of the angles of the patches [rad]
       real(wp) :: turn(max_patches)
-      logical :: has_history, has_details
+      logical :: has_history
       integer :: k
 
       result%errors = error_values(result, problem)
@@ -72,22 +72,19 @@ contains
          end associate
       end do
       change = 0.0_wp
-      has_details = .false.
       if (problem%force_prescribed .and. stiffness > 0.0_wp) change = missing/stiffness
+      call find_details(problem, memory, details, turn)
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            if (slot%result%errors%reason == "") call find_section_details(problem, memory%geometry, slot, details)
-            has_details = has_details .or. details%known
             if (problem%force_prescribed) then
                call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
-                  & change*slot%plane%axes(3, 3), details=details)
+                  & change*slot%plane%axes(3, 3), details=details(k))
             else
-               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, details=details)
+               call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
+                  & details=details(k))
             end if
          end associate
       end do
-      turn = 0.0_wp
-      if (has_details) call find_turns(problem, memory, turn)
       call add_up(problem, memory, turn, result)
    end subroutine estimate_wheel_rail_errors
 

@@ -9,15 +9,17 @@ module contact_wheelrail_section_distance
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_curved_patch, only : curved_reference, new_curved_reference, straight_reference, surface_heights
    use contact_wheelrail_flat_patch, only : start_places, undeformed_distance
+   use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_part
-   use contact_wheelrail_geometry, only : rail_at, wheel_rail_geometry
+   use contact_wheelrail_geometry, only : place, rail_at, wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
+   use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
 
-   public :: find_section_details, find_turns
+   public :: find_details
 
    !> Fewest rows of elements in which details are sought
    integer, parameter :: fewest_rows = 5
@@ -25,6 +27,37 @@ module contact_wheelrail_section_distance
    integer, parameter :: fewest_points = 4
 
 contains
+
+   !> Details between rows of elements in all patches, and the errors of their angles
+   subroutine find_details(problem, memory, details, turn)
+      !> Profiles, and settings of the search
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches; `errors` says whether they have a coarse level
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Shape at least that of the patches; not known where details do not matter
+      type(section_details), intent(out) :: details(:)
+      !> Errors of the angles [rad], 0 without details; shape at least that of the patches
+      real(wp), intent(out) :: turn(:)
+      type(wheel_rail_placement) :: placement
+      type(frame) :: plane
+      integer :: k
+
+      turn = 0.0_wp
+      placement = memory%geometry%placement
+      ! the profile of the rail in the track, and the gap, are those without a vertical deflection
+      call place(problem, memory%geometry, memory%z_ws)
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            if (slot%result%errors%reason /= "") cycle
+            plane = slot%plane
+            slot%plane%origin = plane%origin + (memory%geometry%placement%rail%origin - placement%rail%origin)
+            call find_section_details(problem, memory%geometry, slot, details(k))
+            slot%plane = plane
+         end associate
+      end do
+      if (any(details(:memory%used)%known)) call find_turns(problem, memory, turn)
+      memory%geometry%placement = placement
+   end subroutine find_details
 
    !> Pressures in the section through the largest one, with the details between rows of elements
    subroutine find_section_details(problem, geometry, slot, details)
@@ -60,12 +93,11 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches, and the positions of the bodies
       type(wheel_rail_memory), intent(in) :: memory
-      !> [rad], shape at least that of the patches; 0 where the angle is not a mean
-      real(wp), intent(out) :: turn(:)
+      !> [rad]; not changed where the angle is not a mean
+      real(wp), intent(inout) :: turn(:)
       type(gap_curve) :: fine
       integer :: k, first, last
 
-      turn = 0.0_wp
       associate (geometry => memory%geometry, gap => memory%geometry%gap)
          if (geometry%searches_table .or. follows_surface(problem)) return
          if (problem%spec%search%location == contact_location%first_contact) return
