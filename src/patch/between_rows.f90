@@ -38,6 +38,8 @@ module contact_patch_between_rows
       real(wp) :: peak = 0.0_wp
       !> Change of the approach [mm]
       real(wp) :: approach = 0.0_wp
+      !> Pressures at the points [N/mm2]; unallocated if there is no section
+      real(wp), allocatable :: p(:)
    end type section_details
 
 contains
@@ -135,6 +137,7 @@ contains
          call press(strip_kernel(modulus(result), step, i1 - i0 + 1), given(i0:i1), within(i0:i1), load/step, p(i0:i1), &
             & details%approach)
          details%known = .true.
+         details%p = p
          details%peak = maxval(p)
          details%approach = details%approach - result%pen
       end associate

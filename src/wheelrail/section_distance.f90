@@ -15,6 +15,7 @@ module contact_wheelrail_section_distance
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
+   use contact_wheelrail_region, only : find_deepest
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
@@ -51,7 +52,7 @@ contains
             if (slot%result%errors%reason /= "") cycle
             plane = slot%plane
             slot%plane%origin = plane%origin + (memory%geometry%placement%rail%origin - placement%rail%origin)
-            call find_section_details(problem, memory%geometry, slot, details(k))
+            call find_section_details(problem, memory%geometry, slot, details(k), turn(k))
             slot%plane = plane
          end associate
       end do
@@ -60,7 +61,7 @@ contains
    end subroutine find_details
 
    !> Pressures in the section through the largest one, with the details between rows of elements
-   subroutine find_section_details(problem, geometry, slot, details)
+   subroutine find_section_details(problem, geometry, slot, details, turn)
       !> Profiles
       type(wheel_rail_problem), intent(in) :: problem
       !> Positions of the bodies
@@ -69,6 +70,9 @@ contains
       type(patch_slot), intent(inout) :: slot
       !> Not known if details do not matter
       type(section_details), intent(out) :: details
+      !> On a curved reference: change of the mean inclination, weighted with the pressures [rad]; otherwise not changed
+      real(wp), intent(inout) :: turn
+      type(curved_reference) :: curve
       real(wp), allocatable :: h(:), un(:, :)
       integer :: ix
 
@@ -76,31 +80,33 @@ contains
       if (.not. slot%problem%solves_for_pressure() .or. allocated(slot%problem%parts)) return
       ix = maxloc(maxval(slot%result%pn, dim=2), dim=1)
       if (allocated(problem%rail_surface)) then
-         call find_distance(problem, rail_at(problem, geometry%placement, slot%region%x), geometry, slot, ix, h)
+         call find_distance(problem, rail_at(problem, geometry%placement, slot%region%x), geometry, slot, ix, h, curve)
       else
-         call find_distance(problem, geometry%rail_in_track, geometry, slot, ix, h)
+         call find_distance(problem, geometry%rail_in_track, geometry, slot, ix, h, curve)
       end if
       if (.not. has_details(slot%result, ix, h)) return
       allocate(un(slot%problem%grid%mx, slot%problem%grid%my))
       call pressure_displacement(slot%problem, slot%workspace, slot%result%pn, un)
       call solve_section(slot%result, ix, un(ix, :), h, details)
+      if (.not. details%known .or. problem%spec%search%location /= contact_location%conformal) return
+      turn = sum(details%p*curve%alpha)/sum(details%p) - sum(slot%result%pn(ix, :)*slot%curve%alpha)/sum(slot%result%pn(ix, :))
    end subroutine find_section_details
 
-   !> Changes of the angles of patches if their mean inclinations were those of a finer mesh: that of the search for contact does
-   !> not resolve the inclination of a rough rail
+   !> Changes of the angles of patches if their mean inclinations, or those of the deepest points, were those of a finer mesh: that
+   !> of the search for contact does not resolve the inclination of a rough rail
    subroutine find_turns(problem, memory, turn)
       !> Profiles, and settings of the search
       type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches, and the positions of the bodies
       type(wheel_rail_memory), intent(in) :: memory
-      !> [rad]; not changed where the angle is not a mean
+      !> [rad]; not changed for variable bodies and curved references
       real(wp), intent(inout) :: turn(:)
       type(gap_curve) :: fine
+      real(wp) :: lowest, deepest(3)
       integer :: k, first, last
 
       associate (geometry => memory%geometry, gap => memory%geometry%gap)
-         if (geometry%searches_table .or. follows_surface(problem)) return
-         if (problem%spec%search%location == contact_location%first_contact) return
+         if (geometry%searches_table .or. problem%spec%search%location == contact_location%conformal) return
          do k = 1, memory%used
             associate (bounds => memory%slot(k)%region%box%y)
                first = max(1, floor((bounds(1) - gap%y(1))/gap%dy) + 1)
@@ -109,6 +115,11 @@ contains
             if (last - first < fewest_points) cycle
             call measure_part(geometry%rail_in_track, problem%wheel, geometry%placement, gap%y(first), gap%dy/parts, &
                & (last - first)*parts + 1, fine)
+            if (problem%spec%search%location == contact_location%first_contact) then
+               call find_deepest(fine, fine%gap, 1, fine%n, lowest, deepest)
+               turn(k) = deepest(3) - memory%slot(k)%region%deepest(3)
+               cycle
+            end if
             turn(k) = mean_angle(fine, 1, problem%weight_power) - mean_angle(fine, parts, problem%weight_power)
          end do
       end associate
@@ -137,7 +148,7 @@ contains
    end function mean_angle
 
    !> Undeformed distance at several points of each element of a column
-   subroutine find_distance(problem, rail, geometry, slot, ix, h)
+   subroutine find_distance(problem, rail, geometry, slot, ix, h, curve)
       type(wheel_rail_problem), intent(in) :: problem
       !> Section in track coordinates, at the reference; may be that of `geometry`, which is not changed then
       type(profile_curve), intent(in) :: rail
@@ -147,9 +158,10 @@ contains
       integer, intent(in) :: ix
       !> Distance [mm] with the zero of that of the elements, shape (parts*my)
       real(wp), allocatable, intent(out) :: h(:)
+      !> Reference at these points, if it is not the plane
+      type(curved_reference), intent(out) :: curve
       real(wp), allocatable :: distance(:, :), on_rail(:, :), on_wheel(:, :)
       type(potential_contact) :: line
-      type(curved_reference) :: curve
       real(wp) :: approach
       integer :: iy, left_out
 
