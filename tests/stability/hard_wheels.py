@@ -112,6 +112,9 @@ def judge(coarse, fine):
             found[name] = (estimate, true)
     for number, (patch, finer) in enumerate(zip(patches, fine["patches"]), 1):
         highest = patch["totals"]["pmax"]["value"]
+        if not highest > 0.0:
+            # a region of the search whose elements do not touch at their centres
+            continue
         estimate = value(patch, "errors", "pmax_error")/highest
         true = abs(highest - finer["totals"]["pmax"]["value"])/highest
         if math.isfinite(estimate):
