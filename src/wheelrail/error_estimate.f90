@@ -2,8 +2,8 @@
 !>
 !> The coarse level of each patch has the same approach as the fine one. If the vertical force is prescribed, the height at which
 !> the coarse patches together carry it is different; the difference is determined by the stiffness of all patches, and is itself
-!> the difference of the heights on both levels. Errors of the undeformed distance, of profiles and of the positions of the patches
-!> are not included.
+!> the difference of the heights on both levels. Details of the profiles between rows of elements are included, and their effect on
+!> the angles of patches, see contact_wheelrail_section_distance; other errors of profiles and positions of patches are not.
 module contact_wheelrail_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use contact_base_choices, only : motion, time_link
