@@ -7,6 +7,7 @@ module contact_cases_spec
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_base_solver_settings, only : solver_settings
+   use contact_cases_given, only : given_numbers
    use contact_friction_law, only : friction_set
    use contact_patch_wear, only : wear_spec
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -172,6 +173,8 @@ module contact_cases_spec
       logical :: has_damping = .false., has_heat = .false., has_stress = .false.
       !> Groups that the case gives, and groups that it keeps
       type(case_parts) :: parts
+      !> Numbers that this case and those before it have given
+      type(given_numbers) :: given
       !> Output: .mat file 0, 1, 2; .out level 0...6; flow trace 0...9
       integer :: mat_file = 0, output_level = 0, flow_level = 0
       !> Limits of time and memory

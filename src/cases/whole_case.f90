@@ -4,6 +4,7 @@ module contact_cases_whole_case
       & motion, normal_control, planform_choice, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
+   use contact_cases_given, only : given_numbers, note_materials, note_velocity
    use contact_cases_grid_inputs, only : largest_grid, visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
@@ -67,8 +68,8 @@ contains
             call a%close_group()
          end if
          if (is_wheel_rail) then
-            call visit_rail_and_track(a, spec, spec%wheel_rail)
-            call visit_wheelset(a, spec, spec%wheel_rail)
+            call visit_rail_and_track(a, spec, spec%wheel_rail, spec%given)
+            call visit_wheelset(a, spec, spec%wheel_rail, spec%given)
          else
             call visit_grid_and_geometry(a, spec)
          end if
@@ -96,10 +97,12 @@ contains
          call a%open_group("rolling")
          call visit_rolling(a, spec%rolling, spec%material_model)
          call a%close_group()
+         if (a%is_reading) spec%given%rolling = .true.
       else if (a%is_reading) then
          spec%rolling%chi = 0.0_wp
          spec%rolling%dq = 1.0_wp
          spec%rolling%veloc = 1.0_wp
+         spec%given%rolling = .false.
       end if
    end subroutine visit_rolling_group
 
@@ -125,7 +128,10 @@ contains
       call visit_elastic(a, spec%material)
       if (spec%pressure == pressure_model%thin_sheet) call visit_sheet(a, spec%material)
       call visit_material_model(a, spec%material_model, spec%material)
-      if (a%is_reading .and. a%is_good) call set_outer_iteration(a, spec)
+      if (a%is_reading .and. a%is_good) then
+         call note_materials(spec%given, spec%pressure, spec%material_model)
+         call set_outer_iteration(a, spec)
+      end if
       call a%close_group()
    end subroutine visit_materials
 
@@ -291,11 +297,13 @@ contains
    end function element_count
 
    !> Contact search, track dimensions, rail profile, deviations of the rail and its springs
-   subroutine visit_rail_and_track(a, spec, wheel_rail)
+   subroutine visit_rail_and_track(a, spec, wheel_rail, given)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
       !> Specification of wheel and rail of this case
       type(wheel_rail_spec), intent(inout) :: wheel_rail
+      !> Updated by what is read
+      type(given_numbers), intent(inout) :: given
 
       if (spec%parts%search == part_source%given) then
          call a%open_group("search")
@@ -306,6 +314,10 @@ contains
          call a%open_group("track")
          call visit_track(a, wheel_rail%track, wheel_rail%roller)
          call a%close_group()
+         if (a%is_reading) then
+            given%roller_radius = given%roller_radius .or. wheel_rail%roller
+            given%cant = given%cant .or. .not. wheel_rail%roller
+         end if
       end if
       if (spec%parts%rail_profile == part_source%given) then
          call a%open_group("rail_profile")
@@ -326,6 +338,7 @@ contains
             call a%open_group("springs")
             call visit_springs(a, wheel_rail%rail)
             call a%close_group()
+            if (a%is_reading) given%springs = .true.
          end if
       end if
    end subroutine visit_rail_and_track
@@ -333,11 +346,13 @@ contains
    !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations
    !>
    !> Flexible deviations are kept until others are given.
-   subroutine visit_wheelset(a, spec, wheel_rail)
+   subroutine visit_wheelset(a, spec, wheel_rail, given)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
       !> Specification of wheel and rail of this case
       type(wheel_rail_spec), intent(inout) :: wheel_rail
+      !> Updated by what is read
+      type(given_numbers), intent(inout) :: given
 
       associate (parts => spec%parts)
          if (parts%wheel_profile == part_source%given) then
@@ -359,6 +374,7 @@ contains
             call visit_velocity(a, wheel_rail%wheelset, wheel_rail%roller, &
                & with_force=spec%force == force_control%longitudinal_force)
             call a%close_group()
+            if (a%is_reading) call note_velocity(given, wheel_rail%roller, spec%force, spec%motion)
          end if
          if (parts%flexibility == part_source%given) then
             call a%open_group("flexibility")

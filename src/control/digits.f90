@@ -445,7 +445,7 @@ contains
       if (module_number /= module_1) digits%c1 = c1
       digits%m2 = 1
       if (.not. present(second)) return
-      digits%m2 = min(2, mod(max(0, second), 10))
+      digits%m2 = mod(max(0, second), 10)
       digits%gapwgt = max(0, second)/10
    end subroutine decode_words
 

@@ -12,6 +12,7 @@ module contact_input_checks
    use contact_cases_spec, only : case_spec, part_source
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_control, only : add_for_digit, check_physics, control_words
+   use contact_input_kept_numbers, only : check_kept_numbers
    use contact_input_problems, only : problem_list, severity
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -38,6 +39,7 @@ contains
       integer :: k
 
       call check_physics(words, spec, problems, line_of_grid=grid_line(words, a))
+      if (has_previous) call check_kept_numbers(words, spec, problems)
       do k = 1, size(number_rules)
          if (.not. is_missed(number_rules(k), spec)) cycle
          call describe_number(number_rules(k), spec, text)

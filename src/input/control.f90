@@ -125,6 +125,9 @@ contains
                & " is negative; it must consist of digits", word%line, word%column)
          end associate
       end do
+      if (module_number == 3) call check_length(words%word(1), problems)
+      if (words%second%i < 0) call problems%add(severity%error, "the second number of the control word, " // words%second%word // &
+         & ", is negative; it must consist of digits", words%second%line, words%second%column)
       if (words%digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(words%digits%gapwgt) // &
          & " is outside its range 0 to 2", words%second%line, words%second%column)
       do k = 1, size(digit_names)
@@ -137,6 +140,20 @@ contains
             & trim(allowed_text(name, module_number)))
       end do
    end subroutine check_ranges
+
+   !> Check that the first control word of module 3 has six digits; a seventh one in front is C1 of module 1
+   subroutine check_length(word, problems)
+      type(input_value), intent(in) :: word
+      type(problem_list), intent(inout) :: problems
+
+      if (word%i >= 10000000) then
+         call problems%add(severity%error, "the control word PBTNFS = " // word%word // " has more than six digits", word%line, &
+            & word%column)
+      else if (word%i >= 1000000) then
+         call problems%add(severity%warning, "the first digit of " // word%word // " is not used: in module 3 the first control " &
+            & // "word is PBTNFS, without C1", word%line, word%column)
+      end if
+   end subroutine check_length
 
    !> Check that a first case of module 3 keeps nothing
    subroutine check_first_contact(words, problems)

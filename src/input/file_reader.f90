@@ -83,6 +83,7 @@ contains
          self%is_good = .not. allocated(self%error)
          if (self%is_good) then
             if (self%group > 0) call note_place(self%groups(self%group), self%values(1))
+            call warn_of_commas(self)
             do k = 1, n
                call set_value(self, self%items(k), self%values(k))
             end do
@@ -90,6 +91,14 @@ contains
       end if
       call self%finish_line()
    end subroutine read_line
+
+   !> Warn if commas of the last line were probably meant as decimal separators
+   subroutine warn_of_commas(self)
+      class(file_reader), intent(inout) :: self
+
+      if (self%lexer%has_decimal_commas) call self%problems%add(severity%warning, "commas separate numbers, so that the line has " &
+         & // "more numbers than are read; the decimal separator is a point", self%lexer%line)
+   end subroutine warn_of_commas
 
    !> Record the position of a group, which is that of its first number
    subroutine note_place(group, first)
@@ -212,6 +221,7 @@ contains
       call self%lexer%read_array(n, name, values, self%error, has_angles, lowest=bounds_table(row)%lowest, &
          & highest=bounds_table(row)%highest, outside=outside)
       self%is_good = .not. allocated(self%error)
+      if (self%is_good) call warn_of_commas(self)
       if (self%is_good .and. outside%given) call self%problems%check_bounds(outside, trim(bounds_table(row)%name))
    end subroutine read_list
 

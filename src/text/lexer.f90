@@ -36,6 +36,8 @@ module contact_text_lexer
       character(len=:), allocatable :: file
       !> Number of the last line read, 0 before the first
       integer :: line = 0
+      !> Are there more numbers on the last line than were read, without decimal points but with commas between figures?
+      logical :: has_decimal_commas = .false.
       character(len=:), allocatable, private :: text
       !> First and last character of each line in the text
       integer, allocatable, private :: first(:), last(:)
@@ -51,12 +53,13 @@ module contact_text_lexer
       procedure :: fingerprint
       procedure :: hash_lines
       procedure, private :: next_line
+      procedure, private :: note_decimal_commas
       procedure, private :: parse
       procedure, private :: refuse_word
       procedure, private :: refuse_end
    end type input_lexer
 
-   character(len=*), parameter :: line_feed = achar(10)
+   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), figures = "0123456789"
 
 contains
 
@@ -72,24 +75,45 @@ contains
 
       call read_text(file, text, error, below)
       if (allocated(error)) return
+      if (is_utf16(text)) then
+         call fatal_error(error, "the file is text in UTF-16; expected is UTF-8 or ASCII, one byte per letter", &
+            & error_kind%input, file)
+         return
+      end if
       call self%open_text(text, file)
    end subroutine open_file
+
+   !> Does a text begin like one of two bytes per letter: with its byte order mark, or with a letter and a zero byte?
+   pure logical function is_utf16(text)
+      character(len=*), intent(in) :: text
+      character(len=*), parameter :: marks = char(255) // char(254) // char(255)
+
+      is_utf16 = .false.
+      if (len(text) < 4) return
+      is_utf16 = index(marks, text(1:2)) > 0 .or. all([text(1:1) /= char(0), text(2:2) == char(0), text(3:3) /= char(0), &
+         & text(4:4) == char(0)]) .or. all([text(1:1) == char(0), text(2:2) /= char(0), text(3:3) == char(0), text(4:4) /= char(0)])
+   end function is_utf16
 
    !> Open a text that is already in memory
    subroutine open_text(self, text, name)
       class(input_lexer), intent(out) :: self
-      !> Text with lines ending with LF or CR-LF
+      !> Text with lines that end with LF or CR-LF; without any LF, with CR
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name
       character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
+      character :: end_of_line
       integer :: k, n
 
       self%file = name
       self%text = text
+      end_of_line = line_feed
+      if (index(text, line_feed) == 0) end_of_line = carriage_return
       n = 1
       do k = 1, len(text)
-         if (text(k:k) == line_feed) n = n + 1
+         if (text(k:k) /= end_of_line) cycle
+         n = n + 1
+         self%text(k:k) = line_feed
       end do
       allocate(self%first(n), self%last(n))
       self%first(1) = 1
@@ -98,7 +122,7 @@ contains
       end if
       n = 1
       do k = 1, len(text)
-         if (text(k:k) /= line_feed) cycle
+         if (self%text(k:k) /= line_feed) cycle
          self%last(n) = k - 1
          n = n + 1
          self%first(n) = k + 1
@@ -189,6 +213,7 @@ contains
       integer :: k, mandatory, position, state
 
       call name_values(names, values(:len(types)))
+      self%has_decimal_commas = .false.
       mandatory = verify(types, "iras") - 1
       if (mandatory < 0) mandatory = len(types)
       k = 0
@@ -211,6 +236,7 @@ contains
             k = k + 1
          end do
       end do
+      if (mandatory > 0) call self%note_decimal_commas(position)
    end subroutine read_group
 
    !> Read exactly n numbers, from as many lines as needed
@@ -240,6 +266,7 @@ contains
       if (present(angles)) letter = merge("a", "r", angles)
       if (present(line)) line = self%line + 1
       allocate(values(max(0, min(n, 1000))))
+      self%has_decimal_commas = .false.
       k = 0
       do while (k < n)
          if (.not. self%next_line()) then
@@ -266,7 +293,33 @@ contains
             outside%name = element_name(name, k)
          end do
       end do
+      if (n > 0) call self%note_decimal_commas(position)
    end subroutine read_array
+
+   !> Note a line whose commas were probably meant as decimal separators
+   subroutine note_decimal_commas(self, position)
+      class(input_lexer), intent(inout) :: self
+      !> Position behind the last word that was read from the current line; 0: the line has no more words
+      integer, intent(in) :: position
+      type(input_value) :: value
+      type(word_place) :: place
+      integer :: first, k, state
+      logical :: is_between
+
+      if (position == 0) return
+      first = self%first(self%line)
+      is_between = .false.
+      do k = first + 1, position
+         if (self%text(k - 1:k - 1) == ".") return
+         if (k >= self%last(self%line) .or. self%text(k:k) /= ",") cycle
+         if (scan(self%text(k - 1:k - 1), figures)*scan(self%text(k + 1:k + 1), figures) > 0) is_between = .true.
+      end do
+      if (.not. is_between) return
+      place = find_word(self%text(:self%last(self%line)), position)
+      if (place%first == 0) return
+      call self%parse(place, "a", value, state)
+      self%has_decimal_commas = state == word_state%good .and. index(self%text(place%first:place%last), ".") == 0
+   end subroutine note_decimal_commas
 
    !> Move to the next line with words; false at the end of the text
    logical function next_line(self) result(found)

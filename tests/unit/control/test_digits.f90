@@ -117,7 +117,7 @@ contains
       call decode_words(0, 0, 210000001, 3, digits)
       call suite%check(digits%x == 21, "digits to the left of X belong to X")
       call decode_words(0, 0, 0, 3, digits, 25)
-      call suite%check(digits%gapwgt == 2 .and. digits%m2 == 2, "second number: weighting and damping")
+      call suite%check(digits%gapwgt == 2 .and. digits%m2 == 5, "second number: weighting and damping, unknown digits as well")
       call decode_words(0, 0, 0, 3, digits)
       call suite%check(digits%gapwgt == 2 .and. digits%m2 == 1, "the weighting is kept without a second number")
       call decode_words(0, 0, 0, 3, digits, -3)

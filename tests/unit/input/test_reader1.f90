@@ -18,6 +18,7 @@ program test_reader1
    call suite%start("reader of module 1")
    call full_case(suite)
    call kept_values(suite)
+   call kept_numbers(suite)
    call roller(suite)
    call friction_points(suite)
    call faulty_cases(suite)
@@ -135,6 +136,90 @@ contains
          & first)
       call has_problem(suite, problems, "DX or DS differ", "new elements in a transient sequence")
    end subroutine kept_values
+
+   !> A later case whose choices need numbers of a group that it keeps: given by an earlier case, or refused
+   subroutine kept_numbers(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: first, spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: here = "0. 0.5 10000. 0. 0. 0."
+
+      call read_text(new_case(), first, problems, error)
+      call read_next("1203110", "0111000", "", first, spec, problems, error)
+      call has_problem(suite, problems, "the velocities are kept, but no case has given FX_WS, which F = 1 needs", &
+         & "a longitudinal force that was never given")
+      call read_next("1203110", "0111001", here, first, spec, problems, error)
+      call has_problem(suite, problems, "no case has given FX_WS", "also with a new position")
+      call read_next("1203110", "0111002", here // nl // "2000. 0. 0. 0. 0. 500.", first, spec, problems, error)
+      call is_good(suite, problems, error, "a longitudinal force of this case")
+      first = spec
+      call read_next("1203100", "0111000", "", first, spec, problems, error)
+      call is_good(suite, problems, error, "the pitch rate of the first case")
+      call read_next("1203110", "0111000", "", first, spec, problems, error)
+      call is_good(suite, problems, error, "the longitudinal force of the case before")
+      call suite%close_to([spec%wheel_rail%wheelset%fx], [500.0_wp], closed, "its value")
+
+      call read_next("1203130", "0111000", "", first, spec, problems, error)
+      call has_problem(suite, problems, "no case has given KYRAIL, FYRAIL, KZRAIL and FZRAIL, which F = 3 needs", &
+         & "springs that were never given")
+      call read_next("1203130", "0111020", "0. 0. 0. 0. 0. 0." // nl // "1e4 0. 1e4 0.", first, spec, problems, error)
+      call is_good(suite, problems, error, "springs of this case")
+      call read_next("1201100", "0111001", here, first, spec, problems, error)
+      call has_problem(suite, problems, "the velocities are kept, but in shifts", "velocities as shifts")
+      call read_next("1202100", "0111001", here, first, spec, problems, error)
+      call is_good(suite, problems, error, "velocities of steady rolling in transient rolling")
+      call read_next("1201100", "0111002", here // nl // "0.01 0. 0. 0. 0. -1e-5", first, spec, problems, error)
+      call is_good(suite, problems, error, "shifts of this case")
+      first = spec
+      call read_next("1203100", "0111001", here, first, spec, problems, error)
+      call has_problem(suite, problems, "the velocities are kept, but in shifts", "shifts as velocities")
+      call read_next("1200100", "0111001", here, first, spec, problems, error)
+      call is_good(suite, problems, error, "shifts are not used without friction")
+
+      call read_text(new_case(), first, problems, error)
+      call read_next("5203100", "0111000", "", first, spec, problems, error)
+      call has_problem(suite, problems, "no case has given NOMRADR, which a roller needs", "the radius of a roller")
+      call has_problem(suite, problems, "no case has given RPITCH, which a roller needs", "the pitch rate of a roller")
+      call read_next("0203100", "0111000", "", first, spec, problems, error)
+      call is_good(suite, problems, error, "the other side of the track")
+      call read_next("1213100", "0111000", "", first, spec, problems, error)
+      call has_problem(suite, problems, "the materials are kept, but no case has given FLXZ, which B = 1 needs", "a thin sheet")
+      call read_next("1203100", "0111100", "", first, spec, problems, error)
+      call has_problem(suite, problems, "no case has given FG and TC, which M = 1 needs", "viscoelastic bodies")
+      call read_next("1203100", "0111500", "", first, spec, problems, error)
+      call has_problem(suite, problems, "no case has given K0_MF, ALFAMF and BETAMF, which M = 5 needs", "slope reduction")
+      call read_next("1203100", "0111600", "", first, spec, problems, error)
+      call is_good(suite, problems, error, "FaStrip without slope reduction")
+      call read_next("1203100", "0111005", "1360. -70. 460." // nl // "'wheel.prw' 0 1. 0." // nl // here // nl // &
+         & "2000. 0. 0. 0. 0. -4." // nl // "0. 1. 0. 0. 0. 0." // nl // "0. 0. 0. 0. 0. 0.", first, spec, problems, error)
+      first = spec
+      call read_next("1203100", "0111003", "1360. -70. 460." // nl // "'wheel.prw' 0 1. 0." // nl // here // nl // &
+         & "2000. 0. 0. 0. 0. -4.", first, spec, problems, error)
+      call has_problem(suite, problems, "the flexible deviations of the wheelset are kept", "a new wheelset, bent as before", &
+         & severity%warning)
+   end subroutine kept_numbers
+
+   !> A case after `previous` with its control words and groups
+   subroutine read_next(word1, word2, groups, previous, spec, problems, error)
+      character(len=*), intent(in) :: word1, word2, groups
+      type(case_spec), intent(in) :: previous
+      type(case_spec), intent(out) :: spec
+      type(problem_list), intent(out) :: problems
+      type(error_type), allocatable, intent(out) :: error
+
+      call read_text(word1 // nl // word2 // nl // "0100321" // nl // groups // nl, spec, problems, error, previous)
+   end subroutine read_next
+
+   !> A case without errors
+   subroutine is_good(suite, problems, error, what)
+      type(test_suite), intent(inout) :: suite
+      type(problem_list), intent(in) :: problems
+      type(error_type), allocatable, intent(in) :: error
+      character(len=*), intent(in) :: what
+
+      call suite%check(.not. allocated(error) .and. problems%number_of(severity%error) == 0, what)
+   end subroutine is_good
 
    subroutine roller(suite)
       type(test_suite), intent(inout) :: suite

@@ -203,6 +203,18 @@ contains
       call one_problem(suite, severity%error, phrase, problems, error, first // " then " // second)
    end subroutine wrong_second
 
+   !> One warning in a second case
+   subroutine dubious_second(suite, first, second, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: first, second, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_two(first, second, spec, problems, error)
+      call one_problem(suite, severity%warning, phrase, problems, error, first // " then " // second)
+   end subroutine dubious_second
+
    !> Nothing wrong in a second case
    subroutine right_second(suite, first, second)
       type(test_suite), intent(inout) :: suite
@@ -425,7 +437,10 @@ contains
       call wrong(suite, "3=0000004", "R = 4 is not")
       call wrong(suite, "2=0022020 31", "GAPWGT = 3 is outside")
       call wrong(suite, "2=-0022020", "is negative")
-      call right(suite, "1=5203100")
+      call dubious(suite, "1=5203100", "the first digit of 5203100 is not used")
+      call wrong(suite, "1=12203100", "PBTNFS = 12203100 has more than six digits")
+      call wrong(suite, "2=0022020 3|8=.3 .3 1 1;0 0 0 0", "M2 = 3 is not a known digit of module 3; allowed are 0, 1, 2")
+      call wrong(suite, "2=0022020 -2", "the second number of the control word, -2, is negative")
       call wrong_second(suite, "", "1=403100", "P = 4 is not")
       call wrong_second(suite, "", "3=0040001", "I = 4 is not")
       call dubious(suite, "1=003100", "P = 0 is replaced by 2")
@@ -460,6 +475,17 @@ contains
       call wrong_second(suite, "1=200100|7=", kept // "|1=202100", "T changes from 0 to 2")
       call right_second(suite, "", kept // "|1=202100")
       call right_second(suite, "1=200100|7=", kept // "|1=201100")
+      ! numbers of groups that are kept
+      call wrong_second(suite, "", kept // "|1=213100", "the materials are kept, but no case has given FLXZ, which B = 1 needs")
+      call right_second(suite, "1=213100|8=.3 .3 1 1;1e-6", kept // "|1=213100")
+      call wrong_second(suite, "", kept // "|2=0100100", "no case has given FG and TC, which M = 1 needs")
+      call wrong_second(suite, "", kept // "|2=0101200", "no case has given FLX, which M = 2 needs")
+      call wrong_second(suite, "2=0022320|8=.3 .3 1 1;1 1 1", kept // "|2=0101200", "no case has given FLX, which M = 2 needs")
+      call wrong_second(suite, "", kept // "|2=0101300", "no case has given K0_MF, ALFAMF and BETAMF, which M = 3 needs")
+      call wrong_second(suite, "", kept // "|2=0101400", "no case has given GG3, LAYTHK, TAU_C0 and K_TAU, which M = 4 needs")
+      call right_second(suite, "2=0022520|8=.3 .3 1 1;1 1 1", kept // "|2=0101300")
+      call right_second(suite, "", kept // "|2=0101700")
+      call dubious_second(suite, "1=201100|7=", kept // "|2=0101000", "CHI, DQ and VELOC are kept")
    end subroutine digits_of_two_cases
 
    !> Values of the iteration, kinematics and rolling groups
@@ -480,6 +506,9 @@ contains
       call wrong(suite, "1=203120|5=10 0.8 0.8 0", "FX**2 + FY**2 = 1.28 is above")
       call right(suite, "1=203120|5=10 0.6 -0.6 0")
       call dubious(suite, "5=10 0 0 0 1.5", "SPINXO = 1.5 is given without SPINYO")
+      call dubious(suite, "5=1000,0 0,0 0,0 0,0", "the decimal separator is a point")
+      call right(suite, "7=0,1,1000 CHI, DQ, VELOC")
+      call right(suite, "7=0.,0.1,1000. 7")
       call wrong(suite, "7=0 0 1000", "DQ = 0 is below its lower bound 1.00000E-08 mm")
       call wrong(suite, "7=0 0.1 -1000", "VELOC = -1000 is below")
       call right(suite, "4=100 100 30 1 0.5")

@@ -340,7 +340,9 @@ contains
       type(input_lexer) :: lexer
       type(input_value) :: v(2)
       type(error_type), allocatable :: error
-      integer :: unit
+      character(len=6), parameter :: wide(4) = [character(len=6) :: char(255) // char(254) // "1" // char(0), &
+         & char(254) // char(255) // char(0) // "1", "1" // char(0) // "2" // char(0), char(0) // "1" // char(0) // "2"]
+      integer :: k, unit
 
       open(newunit=unit, file="test_lexer.inp", access="stream", form="unformatted", status="replace")
       write(unit) "1" // cr // nl // "2.5" // cr // nl
@@ -351,6 +353,19 @@ contains
          call lexer%read_group("ir", "A B", v, error)
          call suite%check(.not. allocated(error) .and. v(1)%i == 1 .and. v(2)%r == 2.5_wp, "its values")
       end if
+      ! other line ends, and two bytes per letter
+      call lexer%open_text("1" // cr // "2.5" // cr // "3", "mac")
+      call lexer%read_group("ir", "A B", v, error)
+      call suite%check(.not. allocated(error) .and. v(2)%r == 2.5_wp .and. v(2)%line == 2, "lines that end with CR")
+      call suite%equal(lexer%count_lines(), 3, "their number")
+      do k = 1, size(wide)
+         open(newunit=unit, file="test_lexer.inp", access="stream", form="unformatted", status="replace")
+         write(unit) trim(wide(k))
+         close(unit)
+         call lexer%open_file("test_lexer.inp", error)
+         call suite%check(allocated(error), "UTF-16 is refused")
+         if (allocated(error)) call suite%check(index(full_text(error), "UTF-16") > 0, "by its name")
+      end do
       open(newunit=unit, file="test_lexer.inp", status="replace")
       close(unit)
       call lexer%open_file("test_lexer.inp", error)
