@@ -5,7 +5,9 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -21,6 +23,7 @@ enum { REFUSED = -1, OF_ANOTHER_KIND = -2, OUTSIDE = -3, HELD = -4, LINK = -5 };
 int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause);
 long long contact_read(int file, char *buffer, long long length, int *cause);
 int contact_stamp(const char *name, long long numbers[5], long long *age);
+int contact_real_path(const char *name, char *path, int length);
 int contact_open_output(const char *name, int confined, long keep, int *cause);
 void contact_close(int file);
 void contact_explain(int cause, char *text, int length);
@@ -127,6 +130,16 @@ int contact_stamp(const char *name, long long numbers[5], long long *age) {
   numbers[4] = (long long)status.st_ctim.tv_sec * second + status.st_ctim.tv_nsec;
   *age = (long long)now.tv_sec * second + now.tv_nsec - numbers[4];
   return 0;
+}
+
+/* Path of an existing file after all links; its length, 0 if there is none or it is longer than the buffer */
+int contact_real_path(const char *name, char *path, int length) {
+  char real[PATH_MAX];
+  if (realpath(name, real) == NULL) return 0;
+  const size_t size = strlen(real);
+  if (size > (size_t)length) return 0;
+  memcpy(path, real, size);
+  return (int)size;
 }
 
 /* Read from a file until the buffer is full or the file ends; returns the number of bytes read, or -1 */

@@ -8,7 +8,7 @@ module contact_base_system
    private
 
    public :: close_descriptor, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers
-   public :: is_same_file, stamp_of, unlock_experiment
+   public :: find_real_path, is_same_file, stamp_of, unlock_experiment
 
    !> Identity of an unchanged file: device, file number, length, times of the last change of content and of status
    type :: file_stamp
@@ -112,6 +112,14 @@ module contact_base_system
          character(kind=c_char), intent(in) :: name(*)
       end subroutine unlock_experiment
 
+      function contact_real_path(name, path, length) bind(c) result(used)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: name(*)
+         character(kind=c_char), intent(out) :: path(*)
+         integer(c_int), value :: length
+         integer(c_int) :: used
+      end function contact_real_path
+
       subroutine contact_clean(folder, start, is_ours) bind(c)
          import :: c_char, c_funptr
          character(kind=c_char), intent(in) :: folder(*), start(*)
@@ -173,6 +181,20 @@ contains
       if (contact_stamp(name // c_null_char, stamp%numbers, age) /= 0) return
       stamp%is_conclusive = age > merge(coarse_tick, tick, modulo(stamp%numbers(5), second) == 0)
    end function stamp_of
+
+   !> The path of an existing file after all links, from the root on
+   subroutine find_real_path(name, path)
+      !> Path of the file
+      character(len=*), intent(in) :: name
+      !> Empty if there is no such file
+      character(len=:), allocatable, intent(out) :: path
+      integer, parameter :: longest = 4096
+      character(len=longest) :: buffer
+      integer(c_int) :: length
+
+      length = contact_real_path(name // c_null_char, buffer, int(longest, c_int))
+      path = buffer(:length)
+   end subroutine find_real_path
 
    !> Do two paths lead to one existing file, for instance by a link?
    logical function is_same_file(name, other)

@@ -114,7 +114,7 @@ contains
       type(error_type), allocatable :: error
 
       call c_f_pointer(data, run)
-      call refuse_result_names(run%state%reader, run%state%place, error)
+      call refuse_result_names(run%state%reader, run%state%place, run%state%limits%confined, error)
       if (run%settings%check_only) then
          if (allocated(error)) call report_error(run%state, error)
          call check_all_cases(run%state)

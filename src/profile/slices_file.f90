@@ -19,7 +19,7 @@ module contact_profile_slices_file
    implicit none (type, external)
    private
 
-   public :: slices_list, slice_entry, read_slices_file
+   public :: slices_list, slice_entry, read_slices_file, resolve_path
 
    !> A slice
    type :: slice_entry
@@ -209,7 +209,9 @@ contains
 
    !> A file name relative to the folder of another file
    pure subroutine resolve_path(file, name, path)
+      !> Path of the other file; name, absolute or relative to its folder
       character(len=*), intent(in) :: file, name
+      !> Path of the named file
       character(len=:), allocatable, intent(out) :: path
 
       path = replaced(name, "\", "/")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Profiles and files of influence coefficients with the name of a result: refused before anything is written.
+"""Profiles, slices and files of influence coefficients that are a result by name or by a link: refused before anything is written.
 
 The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
@@ -86,6 +86,56 @@ class ResultNames(unittest.TestCase):
             said, new = self.run_on("2", "exp" + rest, COEFFICIENTS.format(name="exp" + rest))
             self.assertIn(f"exp{rest} is the name of a result of this experiment", said)
             self.assertEqual(new, set())
+
+    def slices(self, name):
+        """A slices file with the rail in four places, and the input that uses it"""
+        with open(os.path.join(self.folder, "profiles", "rail.slcs"), "w", encoding="utf-8") as file:
+            file.write("0.0 1.0\n4\n0 0 0\n1\n" + "".join(f"{u} '60E1.prr'\n" for u in (-900, -300, 300)) + f"900 '{name}'\n")
+        return self.wheel.replace(RAIL, "profiles/rail.slcs").replace("14.0 0 1435.0 0.025", "-1.0 753.0 0.1 0.025")
+
+    def test_slices(self):
+        for name in ("exp.out", "exp.0001.mat"):
+            for mode in "23":
+                said, new = self.run_on(mode, name, self.slices("../" + name))
+                self.assertIn(f"../{name} is the name of a result of this experiment", said)
+                self.assertIn("rail.slcs:8:", said)
+                self.assertEqual(new, set())
+        said, _ = self.run_on("3", "exp.prr", self.slices("../exp.prr"))
+        self.assertEqual(said, "")
+
+    def test_links(self):
+        """A result that is a link to the profile, which would be written through the link, and a profile that is one to a result"""
+        for link in (os.symlink, os.link):
+            for rest in (".out", ".jsonl", ".pvd"):
+                result = os.path.join(self.folder, "exp" + rest)
+                link(os.path.join(self.folder, RAIL), result)
+                for text, name in ((self.wheel, RAIL), (self.slices("60E1.prr"), "60E1.prr")):
+                    said, new = self.run_on("2", "other.prr", text)
+                    self.assertIn(f"{name} leads by a link to a result of this experiment", said)
+                    self.assertEqual(new, set())
+                os.remove(result)
+        for rest in (".out", ".0001.mat"):
+            link = os.path.join(self.folder, "linked.prr")
+            os.symlink("exp" + rest, link)
+            said, new = self.run_on("2", "exp" + rest, self.wheel.replace(RAIL, "linked.prr"))
+            self.assertIn("linked.prr leads by a link to a result of this experiment", said)
+            self.assertEqual(new, set())
+            os.remove(link)
+        # a link to another file is none
+        os.symlink(RAIL, os.path.join(self.folder, "linked.prr"))
+        self.assertEqual(self.run_on("3", "other.prr", self.wheel.replace(RAIL, "linked.prr"))[0], "")
+
+    def test_readable_format(self):
+        subprocess.run([PROGRAM, "convert", os.path.join(EXAMPLES, "wheel_on_rail.inp"), "--output-dir", self.folder], check=True,
+                       capture_output=True, timeout=60)
+        with open(os.path.join(self.folder, "wheel_on_rail.toml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(self.folder, "exp.toml"), "w", encoding="utf-8") as file:
+            file.write(text)
+        os.symlink(os.path.join(self.folder, RAIL), os.path.join(self.folder, "exp.out"))
+        run = subprocess.run([PROGRAM, "--quiet", "2", "exp.toml"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                             text=True, timeout=60, check=False)
+        self.assertIn(f"{RAIL} leads by a link to a result of this experiment", run.stderr)
 
 
 if __name__ == "__main__":
