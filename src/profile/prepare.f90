@@ -166,6 +166,7 @@ contains
       y = y*request%scale/file%units_per_mm
       z = z*request%scale/file%units_per_mm
       call warn_of_direction(file, request, y, z, log)
+      if (request%side == profile_side%wheel) call warn_of_flange(request, y, z, log)
       length = sum(hypot(y(2:) - y(:size(y) - 1), z(2:) - z(:size(y) - 1)))
       if (length < shortest .or. length > longest) then
          call fatal_error(error, "the profile is " // real_text(length) // " mm long; accepted are " // real_text(shortest) // &
@@ -324,6 +325,30 @@ contains
       call log%warning(name // ": by its shape the profile is upside down: z has to point downwards. Its direction is that of " // &
          & "MIRRORZ, and of mirror.z in a Simpack file.")
    end subroutine warn_of_direction
+
+   !> Warn if the flange of a wheel is clearly on its outer side, as in profiles of left wheels
+   !>
+   !> The flange is the deepest part. Profiles without one are not high enough; those of two flanges have both sides deep.
+   subroutine warn_of_flange(request, y, z, log)
+      type(profile_request), intent(in) :: request
+      !> Coordinates as mirrored [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      type(log_type), intent(inout) :: log
+      !> Least width of a wheel [mm], least height of a flange relative to it, and part of the width on which a flange stands
+      real(wp), parameter :: wide = 50.0_wp, visible = 0.1_wp, part = 0.4_wp
+      real(wp) :: width, height, inner, outer
+      character(len=:), allocatable :: name
+
+      width = maxval(y) - minval(y)
+      height = maxval(z) - minval(z)
+      if (width < wide .or. height < visible*width) return
+      inner = maxval(z, y <= minval(y) + part*width)
+      outer = maxval(z, y >= maxval(y) - part*width)
+      if (outer < maxval(z) .or. inner > outer - 0.5_wp*height) return
+      call find_name(request, name)
+      call log%warning(name // ": by its shape the wheel has its flange on the outer side, where y is largest; y has to point " // &
+         & "away from the flange (MIRRORY mirrors y)")
+   end subroutine warn_of_flange
 
    !> As for y; if the file leaves it open, it is determined from the shape unless the user sets it
    pure logical function mirrors_z(file, request, y, z) result(mirror)

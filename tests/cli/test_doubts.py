@@ -628,6 +628,26 @@ class Profiles(Program):
                 for warning, file in zip(found, expected):
                     self.assertIn(f"profiles/{file}: by its shape", warning)
 
+    def test_flange_on_the_outer_side(self):
+        """A wheel with its flange at large y, as in profiles of left wheels, is used with a warning"""
+        profiles = os.path.join(self.folder, "profiles")
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), profiles)
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            text = " 1 MODULE" + file.read().split(" 1 MODULE")[1]
+        with open(os.path.join(profiles, "S1002.prw"), encoding="utf-8") as file:
+            points = re.findall(r"^ +(-?\d+\.\d+) +(-?\d+\.\d+)$", file.read(), re.MULTILINE)
+        with open(os.path.join(profiles, "left.whl"), "w", encoding="utf-8") as file:
+            file.writelines(f"{-float(y)} {-float(z)}\n" for y, z in points)
+        with open(os.path.join(profiles, "tread.txt"), "w", encoding="utf-8") as file:
+            file.writelines(f"{-float(y)} {z}\n" for y, z in points if float(y) > -30.0)
+        line = "'profiles/S1002.prw' 0 1.0 0.0"
+        self.assertIn(line, text)
+        for name, mirror, expected in (("S1002.prw", 0, 0), ("S1002.prw", 1, 1), ("left.whl", 0, 1), ("left.whl", 1, 0),
+                                       ("tread.txt", 1, 0), ("tread.txt", 0, 0)):
+            _cases, warnings, _out = self.run_text(text.replace(line, f"'profiles/{name}' {mirror} 1.0 0.0"))
+            found = [warning for warning in warnings if "flange on the outer side" in warning]
+            self.assertEqual(len(found), expected, (name, mirror, warnings))
+
 
 if __name__ == "__main__":
     unittest.main()
