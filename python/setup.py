@@ -28,6 +28,8 @@ def library_to_add():
     if library_is_in_package():
         return None
     chosen = os.environ.get("CONTACT_LIBRARY")
+    if chosen and not (ending_of(Path(chosen)) and Path(chosen).is_file()):
+        raise SystemExit(f"CONTACT_LIBRARY = {chosen} is not a library")
     candidates = [Path(chosen)] if chosen else sorted((HERE.parent / "build/release/lib").glob("libcontact.*"))
     return next((path for path in candidates if ending_of(path) and path.is_file()), None)
 

@@ -463,6 +463,8 @@ class Element:
 
     def _do(self, routine: Callable[..., None], *arguments: Any) -> None:
         """Call a routine that sets values; a refusal raises an error, a replaced value gives a warning"""
+        # the error of an earlier call of cntc belongs to that one
+        last_error(self.number, self._icp)
         routine(*arguments)
         code, message = last_error(self.number, self._icp)
         if code != 0:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._signatures import SIGNATURES
 from .errors import ContactError
@@ -151,6 +152,15 @@ def text(value: str | os.PathLike[str] | None) -> tuple[bytes, int]:
     """A text as passed to the library: bytes and their number; None and blank mean not given"""
     encoded = os.fspath(value).encode("utf-8") if value is not None else b""
     return encoded, len(encoded)
+
+
+def unmasked(values: ArrayLike) -> ArrayLike:
+    """Values as they are; those of a masked array only if no element is masked, and no complex numbers"""
+    if np.ma.is_masked(values):
+        raise ValueError("a masked array with masked elements cannot be used: masked elements have no value")
+    if np.iscomplexobj(values):
+        raise ValueError("complex numbers cannot be used: real numbers are needed")
+    return values
 
 
 def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:

@@ -18,7 +18,7 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import call, library, text
+from ._library import call, library, text, unmasked
 from ._signatures import MAGIC_NUMBERS
 
 Number = Union[int, Sequence[int], None]
@@ -80,13 +80,13 @@ def _patch(icp: Number) -> int:
 
 
 def _reals(values: ArrayLike | None) -> Field:
-    return np.zeros(0) if values is None else np.ascontiguousarray(values, dtype=np.float64).reshape(-1)
+    return np.zeros(0) if values is None else np.ascontiguousarray(unmasked(values), dtype=np.float64).reshape(-1)
 
 
 def _ints(values: ArrayLike | None) -> NDArray[np.intc]:
     if values is None:
         return np.zeros(0, np.intc)
-    given = np.asarray(values)
+    given = np.asarray(unmasked(values))
     if given.size and (given.dtype.kind not in "iubf" or (given.dtype.kind == "f" and (given != np.rint(given)).any())):
         raise ValueError(f"{values!r}: integers are needed")
     return np.ascontiguousarray(given, dtype=np.intc).reshape(-1)
@@ -136,14 +136,16 @@ def getmaxnumthreads() -> int:
 
 def finalize(ire: Number = 1) -> None:
     """Free a result element; after the last one the run ends and files are closed."""
-    for key in [key for key in _elastic if key[0] == _element(ire)]:
-        del _elastic[key]
+    for stored in (_elastic, _grids):
+        for key in [key for key in stored if key[0] == _element(ire)]:
+            del stored[key]
     call("cntc_finalize", _element(ire))
 
 
 def finalizelast() -> None:
     """Free all result elements and end the run."""
     _elastic.clear()
+    _grids.clear()
     call("cntc_finalizelast")
 
 
@@ -202,6 +204,8 @@ def setsolverflags(ire: Number, icp: Number, imeth: int, iparam: ArrayLike | Non
 
 # Elastic constants that were set last, for setinterfaciallayer
 _elastic: dict[tuple[int, int], list[float]] = {}
+#: Numbers of elements (my, mx) of the grids that were set, by element and problem
+_grids: dict[tuple[int, int], tuple[float, float]] = {}
 
 
 def setmaterialparameters(ire: Number, icp: Number, m_digit: Number, rparam: ArrayLike) -> None:
@@ -282,10 +286,25 @@ def setfrictionmethod(ire: Number, icp: Number, imeth: int, params: ArrayLike | 
     call("cntc_setfrictionmethod", _element(ire), _problem(icp), imeth, reals.size, reals)
 
 
+def _note_grid(ire: Number, icp: Number, params: Field) -> None:
+    """Remember the numbers of elements of a grid, for the shape of arrays"""
+    if params.size > 1:
+        _grids[_element(ire), _number(icp, 1)] = float(params[1]), float(params[0])
+
+
+def _check_shape(ire: Number, icp: Number, values: ArrayLike, name: str) -> None:
+    """Refuse an array with two dimensions that are not those of the grid, such as a transposed one"""
+    shape = np.shape(values)
+    grid = _grids.get((_element(ire), _number(icp, 1)))
+    if len(shape) == 2 and grid is not None and 1 not in shape and shape != grid:
+        raise ValueError(f"{name} has shape {shape}; (my, mx) = ({grid[0]:g}, {grid[1]:g}) is needed, or one row along x first")
+
+
 def setpotcontact(ire: Number, icp: Number, ipotcn: int, params: ArrayLike) -> None:
     """Grid. Basic contact: 1 mx, my, xl, yl, dx, dy; 2 corners; 3, 4 centres of first (and last) elements.
     Wheel/rail: 0 or -1 dx, ds [L], a_sep [A], d_sep, d_comb [L]."""
     reals = _reals(params)
+    _note_grid(ire, icp, reals)
     call("cntc_setpotcontact", _element(ire), _problem(icp), ipotcn, reals.size, reals)
 
 
@@ -312,6 +331,7 @@ def sethertzcontact(ire: Number, icp: Number, ipotcn: int, params: ArrayLike) ->
     """Hertzian geometry: mx, my, then -1 a1, b1 [1/L]; -2 a1 [1/L], aob [-]; -3 aa, bb [L]; -4 a1, bb and -5
     aa, bb for approximately elliptic; -6 aa, bneg, bpos [L]; the last value is the scale of the grid."""
     reals = _reals(params)
+    _note_grid(ire, icp, reals)
     call("cntc_sethertzcontact", _element(ire), _patch(icp), ipotcn, reals.size, reals)
 
 
@@ -328,6 +348,8 @@ def setnormalforce(ire: Number, icp: Number, fn: float) -> None:
 def setundeformeddistc(ire: Number, icp: Number, ibase: int, prmudf: ArrayLike) -> None:
     """Undeformed distance: 1 six coefficients, 2 profile, 3 sines, 9 one value [L] per element as (my, mx)
     or in one row. After setpotcontact."""
+    if ibase == 9:
+        _check_shape(ire, icp, prmudf, "prmudf")
     reals = _reals(prmudf)
     call("cntc_setundeformeddistc", _element(ire), _patch(icp), ibase, reals.size, reals)
 
@@ -339,6 +361,8 @@ def setcreepages(ire: Number, icp: Number, vx: float, vy: float, phi: float) -> 
 
 def setextrarigidslip(ire: Number, icp: Number, wx: ArrayLike, wy: ArrayLike) -> None:
     """Extra term of the rigid slip, (my, mx)."""
+    _check_shape(ire, icp, wx, "wx")
+    _check_shape(ire, icp, wy, "wy")
     first, second = _reals(wx), _reals(wy)
     if first.size != second.size:
         raise ValueError(f"wx has {first.size} values, wy {second.size}")
@@ -366,7 +390,7 @@ def setprofileinputvalues(ire: Number, values: ArrayLike, iparam: ArrayLike | No
                           rparam: ArrayLike | None = None) -> None:
     """Profile from a table of y and z, of shape (n, 2), (2, n) or in one row y1, z1, y2, ...; iparam (default
     [0], a rail) and rparam (default [-1, 0]) as for a file."""
-    table = np.asarray(values, dtype=np.float64)
+    table = np.asarray(unmasked(values), dtype=np.float64)
     if table.ndim == 2 and table.shape[1] != 2 and table.shape[0] == 2:
         table = table.T
     elif table.ndim not in (1, 2) or (table.ndim == 2 and table.shape[1] != 2) or (table.ndim == 1 and table.size % 2):

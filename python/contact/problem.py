@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import cntc
 from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
-from ._library import last_error
+from ._library import last_error, unmasked
 
 
 def _counts(*counts: int) -> list[int]:
@@ -132,14 +132,20 @@ class Problem(Element):
         Parameters
         ----------
         distance
-            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that returns it. It is given at the elements of
-            the grid, so ``set_solver(accuracy=...)`` works with :meth:`set_hertz` only.
+            Array of shape (my, mx), or one that is broadcast to it, or a function of x (1, mx) and y (my, 1) that returns it.
+            It is given at the elements of the grid, so ``set_solver(accuracy=...)`` works with :meth:`set_hertz` only.
         """
         if self._grid is None:
             raise ValueError("set_distance needs set_grid first")
         x, y = self._grid
         values = distance(x[np.newaxis, :], y[:, np.newaxis]) if callable(distance) else distance
-        values = np.broadcast_to(np.asarray(values, dtype=np.float64), (y.size, x.size))
+        values = np.asarray(unmasked(values), dtype=np.float64)
+        shape = y.size, x.size
+        try:
+            values = np.broadcast_to(values, shape)
+        except ValueError:
+            raise ValueError(f"the undeformed distance has shape {values.shape}; (my, mx) = {shape} is needed, or a shape "
+                             "that is broadcast to it") from None
         self._do(cntc.setundeformeddistc, self.number, 1, 9, values)
 
     def set_approach(self, pen: float) -> None:

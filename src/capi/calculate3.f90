@@ -169,7 +169,8 @@ contains
             kinematics%fn = result%fn
          end if
          rolling%chi = result%chi
-         rolling%dq = result%dq
+         ! a layer replaces the step of transient rolling by that of one element, for its own case only
+         if (problem%spec%motion /= motion%transient_rolling) rolling%dq = result%dq
          rolling%veloc = result%veloc
          if (problem%spec%motion == motion%none) return
          if (problem%spec%force < force_control%fx_and_ceta) kinematics%fx = result%fx_rel

@@ -84,6 +84,8 @@ contains
       end do
       if (.not. a%is_good) return
       problem%spec%grid = grid
+      ! a Hertzian geometry replaces an undeformed distance that was refused
+      if (grid%brings_geometry()) problem%setting%group = "potential contact|cntc_setUndeformedDistc"
       if (grid%form == grid_form%hertz_line_curvature .or. grid%form == grid_form%hertz_line) problem%digits%b = 2
    end subroutine set_window
 

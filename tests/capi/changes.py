@@ -245,12 +245,27 @@ def searches():
         check(away < 4.0 * EPS, f"D = {first}, {second}, {third}: {away:.1e} away")
 
 
+def steps_after_a_layer():
+    """Transient rolling with a layer takes steps of one element; without it the step that was set holds again"""
+    state = {name: values[0] if isinstance(values, tuple) else None for name, (values, _) in CONTACT.items()}
+    state.update(motion=2, grid=(33, 7, 1.4, 0.7, False), load=("force", 9000.0), kinematics=("creepages", 0.0007, 0.003, 0.0004))
+    problem = make(contact.Problem, CONTACT, {**state, "material": ("layer", ())})
+    solve(problem)
+    set_material(problem, "elastic", ())
+    fresh = make(contact.Problem, CONTACT, state)
+    (forces, _), (right, _) = totals_of(solve(problem)[0]), totals_of(solve(fresh)[0])
+    problem.close()
+    fresh.close()
+    check(np.abs(forces - right).max() < 4.0 * EPS * right[0], f"step after a layer: {forces} in place of {right}")
+
+
 def main():
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for option, number in (("--wheels", 3), ("--contacts", 6), ("--changes", 40), ("--seed", 1)):
         reader.add_argument(option, type=int, default=number)
     expected_names = reader.parse_args()
     searches()
+    steps_after_a_layer()
     for kind, table, count, where in ((contact.WheelRail, WHEEL, expected_names.wheels, "wheel"),
                                       (contact.Problem, CONTACT, expected_names.contacts, "contact")):
         refused = sum(change(kind, table, expected_names.seed + number, expected_names.changes, where) for number in range(count))

@@ -84,6 +84,39 @@ def distance():
         close([other.fx, other.fy], [hertz.fx, hertz.fy], 1e-4 * hertz.fn, "forces")
 
 
+def arrays():
+    """Arrays that cannot be meant are refused: masked elements, complex numbers, transposed or of another size"""
+    with contact.Problem() as problem:
+        ball(problem)
+        x, y = problem.set_grid(12, 9, 0.5, 0.5)
+        right = x[np.newaxis, :]**2 / 200.0 + y[:, np.newaxis]**2 / 300.0
+        problem.set_distance(right)
+        problem.set_normal_force(5000.0)
+        fx = problem.solve().fx
+        for same_values in (np.asfortranarray(right), np.repeat(right, 2, axis=1)[:, ::2], right.tolist(), right.astype(">f8"),
+                            np.ma.array(right, mask=False), lambda x, y: x**2 / 200.0 + y**2 / 300.0):
+            problem.set_distance(same_values)
+            same(problem.solve().fx, fx, "the same array in another form")
+        cntc.setundeformeddistc(problem.number, 1, 9, right.ravel())
+        same(problem.solve().fx, fx, "as one row")
+        shape = "(my, mx) = (9, 12)"
+        for wrong, word in ((np.ma.array(right, mask=right > 0.02), "masked"), (right + 1j, "complex"), (right.T, shape),
+                            (right.ravel(), shape), (right[None], shape)):
+            raises(ValueError, lambda given=wrong: problem.set_distance(given), word, "an array of distances")
+        raises(ValueError, lambda: cntc.setundeformeddistc(problem.number, 1, 9, right.T), shape, "transposed")
+        raises(ValueError, lambda: cntc.setextrarigidslip(problem.number, 1, right.T, right.T), shape, "transposed")
+        same(problem.solve().fx, fx, "nothing was changed by them")
+        # a distance that was refused is not needed with a Hertzian geometry
+        raises(contact.ContactError, lambda: problem.set_distance(np.where(right > 0.02, np.nan, right)), "not a number", "NaN")
+        raises(contact.ContactError, problem.solve, "was refused and not made again", "a distance that is missing")
+        ball(problem)
+        same(problem.solve().status, "solved", "Hertz after a refused distance")
+        # an error of a single routine is not that of the next setting of the object
+        cntc.setnormalforce(problem.number, 1, -1.0)
+        problem.set_friction(0.2)
+        raises(contact.ContactError, problem.solve, "FN = -1", "it is told by the calculation")
+
+
 def dissimilar_bodies():
     """Pressures and tractions of dissimilar bodies are iterated, whether solver or material is set first"""
     found = {}
@@ -504,7 +537,7 @@ def checked_only():
         problem.set_hertz(9, 9, aa=6.0, bb=6.0)
         problem.set_normal_force(80e3)
         for digit in (3, 1, 2, 0):
-            # set_flags fails if the former call has left an error
+            same(last_error(problem.number, 1)[0], 0, "no error is left by the call before")
             problem.set_flags(ic_return=digit)
             same(problem.solve().status, "solved" if digit < 2 else "checked", f"status of two bodies with R = {digit}")
 
@@ -555,7 +588,7 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
+    for part in (results, distance, arrays, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
                  older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, no_points, output):
         part()
     finish()

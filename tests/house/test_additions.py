@@ -28,7 +28,7 @@ TOP = pathlib.Path(os.environ.get("CONTACT_SOURCE", HERE.parents[1]))
 #: What the copy needs to be built
 COPIED = ("CMakeLists.txt", "LICENSE", "README.md", "doc", "examples", "include", "matlab", "python", "src")
 #: Files in which things of a kind are looked for
-SOURCES = ("src/**/*.f90", "python/**/*.py", "matlab/**/*.m")
+SOURCES = ("src/**/*.f90", "python/contact/**/*.py", "python/python_intfc/**/*.py", "matlab/**/*.m")
 
 
 def additions():

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._handle import Handle
-from .._library import library
+from .._library import library, unmasked
 from ..errors import ContactError
 
 Numbers = NDArray[np.float64]
@@ -170,7 +170,8 @@ class Table(Handle):
         """Look up arrays of values in one call"""
         if not self._handle:
             raise ContactError("the table is closed")
-        fn, mu, gg, aa, bb, cksi, ceta, cphi, offset = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))
+        fn, mu, gg, aa, bb, cksi, ceta, cphi, offset = np.broadcast_arrays(
+            *(np.asarray(unmasked(value), dtype=float) for value in given))
         shape = fn.shape
         patches = np.ascontiguousarray(np.stack([fn, mu, gg, aa, bb * (1.0 - offset), bb * (1.0 + offset)], axis=-1))
         creepages = np.ascontiguousarray(np.stack([cksi, ceta, cphi], axis=-1))
