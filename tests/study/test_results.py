@@ -174,6 +174,43 @@ def test_files_of_profiles_are_part_of_the_key(tmp_path):
     assert before != Scene(case, folder=tmp_path).digest()
 
 
+def test_contents_of_varied_files_are_part_of_the_key(tmp_path):
+    """A profile that varies, and a slice outside of the folder of its slices file, may change between two runs"""
+    for name in ("60E1.prr", "S1002.prw"):
+        (tmp_path / name).write_bytes((EXAMPLES / "profiles" / name).read_bytes())
+    (tmp_path / "worn.prr").write_bytes((EXAMPLES / "profiles" / "60E1.prr").read_bytes())
+    case = Scene(PAIR, 1).cases[0]
+    case["wheel_profile"]["file"] = "S1002.prw"
+
+    def forces():
+        study = contact.Study(case, {"rail_profile.file": ["60E1.prr", "worn.prr"]}, folder=tmp_path / "s", base_folder=tmp_path)
+        return study.run(workers=1).fy_tr.values
+
+    first = forces()
+    assert first[0] == first[1]
+    (tmp_path / "worn.prr").write_bytes((EXAMPLES / "profiles" / "60E1_worn.prr").read_bytes())
+    second = forces()
+    assert second[0] == first[0] and abs(second[1] - first[1]) > 10.0
+
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "rail.slcs").write_text("0 1\n1\n0 0 0\n1\n0.0 '..\\worn.prr'\n")
+    case["rail_profile"]["file"] = "a/rail.slcs"
+    before = Scene(case, folder=tmp_path).digest()
+    (tmp_path / "worn.prr").write_text((tmp_path / "worn.prr").read_text() + "\n")
+    assert before != Scene(case, folder=tmp_path).digest()
+
+
+def test_inputs_and_names_that_contradict_each_other():
+    with pytest.raises(contact.ContactError, match=r"friction\.coefficient and friction\.fstat set the same number"):
+        contact.Study(rolling(), {"friction.coefficient": [0.2], "friction.fstat": [0.3]})
+    with pytest.raises(contact.ContactError, match="derived quantity fx has the name of a result"):
+        contact.Study(rolling(), SLIPS, derive={"fx": "2 * fn"}).run()
+    with pytest.raises(ValueError, match="masked values"):
+        contact.Study(rolling(), {"kinematics.cksi": np.ma.array([0.001, 0.002], mask=[False, True])})
+    with pytest.raises(ValueError, match="asks for 'none', which is not there; there are cksi"):
+        contact.Study(rolling(), {"kinematics.cksi": [0.001], "kinematics.cphi": lambda inputs: inputs["none"]})
+
+
 def test_one_study_at_a_time_writes_into_a_folder(tmp_path):
     store = Store(tmp_path)
     with pytest.raises(contact.ContactError, match="another study"):

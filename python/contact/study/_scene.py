@@ -5,6 +5,7 @@ import copy
 import hashlib
 import json
 import os
+import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -73,11 +74,29 @@ class Scene:
         for one in self.cases:
             for group in _FILES:
                 name = one.get(group, {}).get("file")
-                if name is None:
-                    continue
-                for file in _with_slices(self.folder / name):
-                    found.update(file.read_bytes() if file.is_file() else b"missing")
+                if name is not None:
+                    found.update(self._contents(name))
         return found.digest()
+
+    def digest_of_files(self, path: str, values: Sequence[Any]) -> list[bytes] | None:
+        """Digests of the contents of files that an input names; None if it names none"""
+        group, _, key = path.partition(":")[2 if ":" in path else 0].rpartition(".")
+        if group not in _FILES or key != "file":
+            return None
+        made = {value: hashlib.blake2b(self._contents(value), digest_size=8).digest()
+                for value in {value for value in values if isinstance(value, (str, os.PathLike))}}
+        return [made.get(value, bytes(8)) for value in values]
+
+    def _contents(self, name: str | os.PathLike[str]) -> bytes:
+        """Contents of a file, and of the slices that it names"""
+        return b"".join(file.read_bytes() if file.is_file() else b"missing" for file in _with_slices(self.folder / name))
+
+    def refuse_overlaps(self, paths: Sequence[str]) -> None:
+        """Refuse inputs that set the same number, such as friction.coefficient and friction.fstat"""
+        for path in paths:
+            both = [part for part in _TOGETHER.get(path, ()) if part in paths]
+            if both:
+                raise ContactError(f"{path} and {both[0]} set the same number: only one of them can vary")
 
     def keys_of(self, path: str) -> tuple[str, ...]:
         """The keys of an input: both for two bodies, or for both coefficients of friction"""
@@ -133,10 +152,11 @@ def _with_suffix(path: Path) -> Path:
 
 
 def _with_slices(file: Path) -> list[Path]:
-    """Paths of a profile: the file itself, and for a file of slices all files of its folder of slices"""
+    """Paths of a profile: the file itself, and for a file of slices also the slices, whose names are in quotes"""
     if file.suffix.lower() not in (".slcs", ".slcw") or not file.is_file():
         return [file]
-    return [file] + sorted(other for other in file.parent.rglob("*") if other.is_file() and other != file)
+    names = re.findall("'([^']+)'", file.read_text(encoding="utf-8", errors="replace"))
+    return [file] + [file.parent / name.replace("\\", "/") for name in dict.fromkeys(names)]
 
 
 def _complete(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

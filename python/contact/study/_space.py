@@ -131,6 +131,8 @@ def table(source: str | os.PathLike[str] | Mapping[str, Sequence[Any]], columns:
 
 def as_values(values: Any) -> Values:
     """Values of an input as an array: of numbers if all values are numbers, otherwise of objects"""
+    if np.ma.is_masked(values):
+        raise ValueError("masked values cannot be inputs: they have no value")
     listed = np.asarray(values).tolist() if isinstance(values, np.ndarray) else list(values)
     if all(isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) for value in listed):
         return np.asarray(listed, dtype=np.float64)
@@ -200,7 +202,11 @@ class Space:
     def _apply(self, rule: Rule, columns: Mapping[str, Values]) -> Any:
         names = {self.short[path]: values for path, values in columns.items()}
         if callable(rule):
-            return rule(names)
+            try:
+                return rule(names)
+            except KeyError as missing:
+                raise ValueError(f"a function of the inputs asks for {missing}, which is not there; there are "
+                                 f"{', '.join(sorted(names))}") from missing
         return evaluate(rule, names)
 
 

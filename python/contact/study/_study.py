@@ -138,6 +138,7 @@ class Study:
             self._columns: dict[str, Values] = self._space.columns()
         except MemoryError as reason:
             raise ContactError(f"{self._space.count} points do not fit into memory: divide the study") from reason
+        self._scene.refuse_overlaps(list(self._columns))
         self._chosen = self._space.chosen(self._columns)
         numeric = {path: values for path, values in self._columns.items() if values.dtype == np.float64}
         # words are written into the text of a case, as are all inputs of a base with several cases; numbers are passed as arrays
@@ -159,6 +160,10 @@ class Study:
         for first in range(0, len(made), _PORTION):
             portion = slice(first, min(first + _PORTION, len(made)))
             parts = [_as_bytes(self._columns[path][portion]) for path in paths]
+            for path in paths:
+                contents = self._scene.digest_of_files(path, self._columns[path][portion])
+                if contents is not None:
+                    parts.append(np.frombuffer(b"".join(contents), dtype=np.uint8).reshape(-1, 8))
             rows = np.concatenate(parts, axis=1) if parts else np.zeros((portion.stop - first, 0), dtype=np.uint8)
             data, width = rows.tobytes(), rows.shape[1]
             digests = b"".join(_digest(start, data[k * width:(k + 1) * width]) for k in range(len(rows)))
@@ -323,6 +328,8 @@ class Study:
     def _derived(self, data: xarray.Dataset) -> xarray.Dataset:
         """Results with derived quantities"""
         for name, rule in self._derive.items():
+            if name in data.variables:
+                raise ContactError(f"the derived quantity {name} has the name of a result or an input; give it another one")
             names: dict[str, Any] = {str(key): data[key] for key in list(data.variables)}
             values = rule(data) if callable(rule) else evaluate(rule, names)
             if isinstance(values, xarray.Dataset):
