@@ -21,6 +21,11 @@ class Handle:
         if handle:
             getattr(self._library, self._closer)(handle)
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        # a copy would free the same memory again
+        raise TypeError(f"a {type(self).__name__} cannot be copied or pickled, since it stands for memory of the library; make it "
+                        "anew in each process")
+
     def __enter__(self: _Self) -> _Self:
         return self
 

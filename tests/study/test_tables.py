@@ -1,5 +1,7 @@
 """Tables of creep forces: errors against results, Kalker's limit, sliding, symmetries, slopes, other languages, damaged files."""
+import copy
 import os
+import pickle
 import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -111,6 +113,15 @@ def test_smooth(table):
         assert np.abs(((high[0] - low[0]) / (2e-6 * unit[k]) - slopes[:, :, k]) * scale).max() < 1e-3
         assert np.abs((high[1] - low[1])[:, :, k] * scale).max() < 1e-3
     assert forces.shape == (3000, 3) and slopes.shape == (3000, 3, 3)
+
+
+def test_no_copies(file):
+    """A copy would free the memory of the library a second time, which ended Python"""
+    with Table(file) as table:
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="a Table cannot be copied or pickled"):
+                copied(table)
+        assert table.force(FN, MU, GG, 5.0, 5.0, 0.001)[0] < 0.0
 
 
 def test_threads_see_the_same(table):
