@@ -107,6 +107,9 @@ function [ pos, bound, pt, where, axis_lim ] = take_slices( sol, opt )
       error('plot2d: option pxory must be ''x'' or ''y''.');
    end
    field = sol.(['p' opt.pxory]);
+   if ((opt.orie==2 && isempty(opt.yslc)) || (opt.orie==1 && isempty(opt.xslc)))
+      error('plot2d: option yslc (rows, orie = 2) or xslc (columns, orie = 1) must be one position at least.');
+   end
    if (opt.orie==2)
       rows  = nearest(sol.y, opt.yslc);
       pos   = sol.x(:);

@@ -38,6 +38,7 @@ opt.orie = 1;   opt.pxory = 'y';   opt.negpn = 0;   opt.xslc = [-0.5 0.5];
 clf;   plot2d(s, opt);
 check(count('line')==6, 'two columns with both bounds');
 snap('plot2d_columns');
+check_error(@() plot2d(s, struct('yslc',[])), 'must be one position at least');
 check(~isempty(findobj(gcf, 'tag','legend')), 'a legend of the columns');
 plot2d(s, setfield(opt,'xslc',0));
 check(isempty(findobj(gcf, 'tag','legend')), 'which the next plot does not have');
