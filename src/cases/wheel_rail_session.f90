@@ -25,6 +25,7 @@ module contact_cases_wheel_rail_session
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
    use contact_profile_surface, only : profile_surface
+   use contact_text_bounds, only : check_number
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_memory, only : wheel_rail_memory, release_wheel_rail
    use contact_wheelrail_solve, only : solve_wheel_rail
@@ -81,6 +82,7 @@ contains
       integer :: k
 
       call refuse_broken_rules(spec, error)
+      if (spec%pressure == pressure_model%thin_sheet) call check_number("FLXZ", spec%material%flxz, error)
       if (allocated(error)) return
       call set_wheel_rail(session, spec, folder, log, error)
       if (allocated(error)) return

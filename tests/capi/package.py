@@ -309,6 +309,17 @@ def wheel_on_rail():
     raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
 
 
+def thin_sheet():
+    """A sheet between wheel and rail needs its flexibility, which was 0 without a word"""
+    with contact.WheelRail() as pair:
+        wheel(pair)
+        whole = pair.solve().patches[0].max_pressure
+        pair.set_flags(ic_bound=1)
+        raises(contact.ContactError, pair.solve, "FLXZ = 0 is below its lower bound", "a sheet without flexibility")
+        cntc.setmaterialparameters(pair.number, -1, 0, [0.28, 0.28, 82000.0, 82000.0, 1e-5])
+        check(pair.solve().patches[0].max_pressure < 0.9 * whole, "a sheet distributes the pressure")
+
+
 def older_scripts():
     """Scripts for the published package: its name, and values that the options do not need"""
     import python_intfc
@@ -589,6 +600,6 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, arrays, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
-                 older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, no_points, output):
+                 thin_sheet, older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, no_points, output):
         part()
     finish()
