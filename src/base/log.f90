@@ -71,6 +71,8 @@ module contact_base_log
       procedure :: hold => log_hold
       !> Write the held warnings, and all later ones immediately
       procedure :: write_held => log_write_held
+      !> Take the held warnings, which are not written, as one text; later ones are written immediately
+      procedure :: take_held => log_take_held
       !> Defer warnings from now on, and discard those deferred so far; trials in between may hold and write warnings
       procedure :: defer => log_defer
       !> Write the deferred warnings, each once, and all later ones immediately
@@ -211,6 +213,25 @@ contains
       character(len=*), intent(in) :: word
       is_real = scan(word, "0123456789") > 0 .and. index(word, ".") > 0 .and. verify(word, "0123456789.+-Ee,;:()") == 0
    end function is_real
+
+   subroutine log_take_held(self, text)
+      class(log_type), intent(inout) :: self
+      !> Warnings with semicolons between; empty if there are none
+      character(len=:), allocatable, intent(out) :: text
+      integer :: k
+
+      self%holds = .false.
+      text = ""
+      if (.not. allocated(self%held)) return
+      call move_alloc(self%held, text)
+      k = len(text)
+      if (k > 0) text = text(:k - 1)
+      do
+         k = index(text, new_line(text))
+         if (k == 0) exit
+         text = text(:k - 1) // "; " // text(k + 1:)
+      end do
+   end subroutine log_take_held
 
    subroutine log_hold(self)
       class(log_type), intent(inout) :: self

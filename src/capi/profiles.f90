@@ -8,7 +8,7 @@ module contact_capi_profiles
    use contact_base_log, only : log_type
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : report_error, fits, library_log
+   use contact_capi_messages, only : report_error, fits, library_log, warn
    use contact_capi_problem, only : library_problem, given_profile
    use contact_capi_caller, only : caller
    use contact_cases_wheel_rail_session, only : load_profile
@@ -144,7 +144,7 @@ contains
       type(error_type), allocatable :: error
       type(log_type) :: log
       type(profile_request) :: wanted
-      character(len=:), allocatable :: folder
+      character(len=:), allocatable :: doubts, folder
 
       !> Reasons of failures: the file cannot be opened, its content cannot be used
       integer, parameter :: no_file = 2, no_use = 99
@@ -152,9 +152,12 @@ contains
       log = library_log()
       call find_working_folder(folder)
       profiles%watches_files = .false.
+      call log%hold()
       call load_profile(profiles, profile, side, folder, wanted, given%curve, given%surface, log, error)
+      call log%take_held(doubts)
       given%detail = 0
       if (allocated(given%written_as)) deallocate(given%written_as)
+      if (len(doubts) > 0) call warn(this, doubts)
       if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)
       call report_error(this, full_text(error), library_code%profile)

@@ -309,6 +309,17 @@ def wheel_on_rail():
     raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
 
 
+def profiles():
+    """Warnings about a profile reach the caller that sets it: a flange on the outer side, z upwards"""
+    with open(os.path.join(PROFILES, "S1002.prw"), encoding="utf-8") as file:
+        points = np.array(re.findall(r"^ +(-?\d+\.\d+) +(-?\d+\.\d+)$", file.read(), re.MULTILINE), dtype=float)
+    with contact.WheelRail() as pair:
+        wheel(pair)
+        for factors, word in (((1.0, 1.0), None), ((-1.0, 1.0), "flange on the outer side")):
+            _, messages = warned(lambda given=points * factors: pair.set_wheel(given))
+            same([word in message for message in messages] if word else messages, [True] if word else [], "warnings of a wheel")
+
+
 def thin_sheet():
     """A sheet between wheel and rail needs its flexibility, which was 0 without a word"""
     with contact.WheelRail() as pair:
@@ -600,6 +611,7 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, arrays, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
-                 thin_sheet, older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only, no_points, output):
+                 profiles, thin_sheet, older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only,
+                 no_points, output):
         part()
     finish()
