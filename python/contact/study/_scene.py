@@ -7,7 +7,7 @@ import json
 import os
 import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -78,14 +78,15 @@ class Scene:
                     found.update(self._contents(name))
         return found.digest()
 
-    def digest_of_files(self, path: str, values: Sequence[Any]) -> list[bytes] | None:
+    def digest_of_files(self, path: str, values: Iterable[Any]) -> list[bytes] | None:
         """Digests of the contents of files that an input names; None if it names none"""
         group, _, key = path.partition(":")[2 if ":" in path else 0].rpartition(".")
         if group not in _FILES or key != "file":
             return None
+        listed = list(values)
         made = {value: hashlib.blake2b(self._contents(value), digest_size=8).digest()
-                for value in {value for value in values if isinstance(value, (str, os.PathLike))}}
-        return [made.get(value, bytes(8)) for value in values]
+                for value in {value for value in listed if isinstance(value, (str, os.PathLike))}}
+        return [made[value] if isinstance(value, (str, os.PathLike)) else bytes(8) for value in listed]
 
     def _contents(self, name: str | os.PathLike[str]) -> bytes:
         """Contents of a file, and of the slices that it names"""
