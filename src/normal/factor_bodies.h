@@ -33,17 +33,41 @@ TARGET static void OF(subtract_product)(int rows, int columns, int stride, const
   }
 }
 
-/* Solve with the lower triangle, by blocks of rows */
+/* Solve with the lower triangle, four columns at a time */
 TARGET static void OF(forward)(int n, int stride, const double *lower, double *x) {
-  enum { block = 16 };
-  for (int i = 0; i < n; i += block) {
-    const int rows = n - i < block ? n - i : block;
-    OF(subtract_product)(rows, i, stride, lower + i, x, x + i);
-    for (int j = 0; j < rows; j++) {
-      const double *column = lower + i + (long)(i + j) * stride;
-      x[i + j] /= column[j];
-      for (int k = j + 1; k < rows; k++) x[i + k] -= x[i + j] * column[k];
+  int j = 0;
+  for (; j + 3 < n; j += 4) {
+    const double *c0 = lower + (long)j * stride, *c1 = c0 + stride, *c2 = c1 + stride, *c3 = c2 + stride;
+    const double x0 = x[j] / c0[j], x1 = (x[j + 1] - c0[j + 1] * x0) / c1[j + 1];
+    const double x2 = (x[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) / c2[j + 2];
+    const double x3 = (x[j + 3] - c0[j + 3] * x0 - c1[j + 3] * x1 - c2[j + 3] * x2) / c3[j + 3];
+    x[j] = x0;
+    x[j + 1] = x1;
+    x[j + 2] = x2;
+    x[j + 3] = x3;
+    const four f0 = {x0, x0, x0, x0}, f1 = {x1, x1, x1, x1}, f2 = {x2, x2, x2, x2}, f3 = {x3, x3, x3, x3};
+    int i = j + 4;
+    for (; i + 7 < n; i += 8) {
+      four y = READ_FOUR(x + i), z = READ_FOUR(x + i + 4);
+      y -= f0 * READ_FOUR(c0 + i);
+      z -= f0 * READ_FOUR(c0 + i + 4);
+      y -= f1 * READ_FOUR(c1 + i);
+      z -= f1 * READ_FOUR(c1 + i + 4);
+      y -= f2 * READ_FOUR(c2 + i);
+      z -= f2 * READ_FOUR(c2 + i + 4);
+      y -= f3 * READ_FOUR(c3 + i);
+      z -= f3 * READ_FOUR(c3 + i + 4);
+      FOUR(x + i) = y;
+      FOUR(x + i + 4) = z;
     }
+    for (; i + 3 < n; i += 4)
+      FOUR(x + i) = READ_FOUR(x + i) - f0 * READ_FOUR(c0 + i) - f1 * READ_FOUR(c1 + i) - f2 * READ_FOUR(c2 + i) - f3 * READ_FOUR(c3 + i);
+    for (; i < n; i++) x[i] = x[i] - x0 * c0[i] - x1 * c1[i] - x2 * c2[i] - x3 * c3[i];
+  }
+  for (; j < n; j++) {
+    const double *column = lower + (long)j * stride;
+    x[j] /= column[j];
+    for (int i = j + 1; i < n; i++) x[i] -= x[j] * column[i];
   }
 }
 
@@ -83,9 +107,9 @@ TARGET static void OF(backward)(int n, int stride, const double *lower, double *
   }
 }
 
-/* Factorise the columns from `first` on; 0 if a pivot is not positive */
-TARGET static int OF(factorize)(int n, int first, int stride, double *a, double *row) {
-  for (int j = first; j < n; j++) {
+/* Factorise; 0 if a pivot is not positive */
+TARGET static int OF(factorize)(int n, int stride, double *a, double *row) {
+  for (int j = 0; j < n; j++) {
     double *column = a + (long)j * stride;
     for (int k = 0; k < j; k++) row[k] = a[j + (long)k * stride];
     OF(subtract_product)(n - j, j, stride, a + j, row, column + j);
@@ -94,4 +118,71 @@ TARGET static int OF(factorize)(int n, int first, int stride, double *a, double 
     for (int i = j; i < n; i++) column[i] *= scale;
   }
   return 1;
+}
+
+/* Remove a row and column of the matrix from its factor of n rows. Those behind it move up, and rotations put the removed column
+ * into their triangle. Workspace: n numbers */
+TARGET static void OF(remove)(int n, int removed, int stride, double *a, double *v) {
+  const int rest = n - removed - 1;
+  for (int i = 0; i < rest; i++) v[i] = a[removed + 1 + i + (long)removed * stride];
+  for (int j = 0; j < removed; j++) {
+    double *column = a + removed + (long)j * stride;
+    int i = 0;
+    for (; i + 3 < rest; i += 4) FOUR(column + i) = READ_FOUR(column + i + 1);
+    for (; i < rest; i++) column[i] = column[i + 1];
+  }
+  for (int j = 0; j < rest; j++) {
+    double *to = a + removed + j + (long)(removed + j) * stride, *w = v + j;
+    const double *from = to + 1 + stride, diagonal = sqrt(from[0] * from[0] + w[0] * w[0]);
+    const double c = from[0] / diagonal, s = w[0] / diagonal;
+    const four cc = {c, c, c, c}, ss = {s, s, s, s};
+    int i = 1;
+    to[0] = diagonal;
+    for (; i + 3 < rest - j; i += 4) {
+      const four l = READ_FOUR(from + i), x = READ_FOUR(w + i);
+      FOUR(to + i) = cc * l + ss * x;
+      FOUR(w + i) = cc * x - ss * l;
+    }
+    for (; i < rest - j; i++) {
+      const double l = from[i], x = w[i];
+      to[i] = c * l + s * x;
+      w[i] = c * x - s * l;
+    }
+  }
+}
+
+/* Append a row to the factor of n rows; 0 if the pivot is not positive. `row` is that of the matrix, with its diagonal */
+TARGET static int OF(append)(int n, int stride, double *a, double *row) {
+  OF(forward)(n, stride, a, row);
+  double pivot = row[n];
+  for (int k = 0; k < n; k++) pivot -= row[k] * row[k];
+  if (!(pivot > 0.0)) return 0;
+  for (int k = 0; k < n; k++) a[n + (long)k * stride] = row[k];
+  a[n + (long)n * stride] = sqrt(pivot);
+  return 1;
+}
+
+/* Number of positive numbers of a field; first and last column, first and last row of the window around them, counted from 1 */
+TARGET static int OF(box)(int mx, int my, const double *p, int *box) {
+  int n = 0, first = mx, last = -1, top = my, bottom = -1;
+  for (int iy = 0; iy < my; iy++, p += mx) {
+    four_masks counts = {0, 0, 0, 0};
+    int here = 0, ix = 0;
+    for (; ix + 3 < mx; ix += 4) counts -= READ_FOUR(p + ix) > 0.0;
+    for (; ix < mx; ix++) here += p[ix] > 0.0;
+    here += (int)(counts[0] + counts[1] + counts[2] + counts[3]);
+    if (here == 0) continue;
+    n += here;
+    if (top > iy) top = iy;
+    bottom = iy;
+    for (ix = 0; ix < first && !(p[ix] > 0.0); ix++) {}
+    first = ix < first ? ix : first;
+    for (ix = mx - 1; ix > last && !(p[ix] > 0.0); ix--) {}
+    last = ix > last ? ix : last;
+  }
+  box[0] = first + 1;
+  box[1] = last + 1;
+  box[2] = top + 1;
+  box[3] = bottom + 1;
+  return n;
 }

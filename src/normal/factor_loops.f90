@@ -1,4 +1,4 @@
-!> Cholesky factorisation of a small symmetric matrix, and substitution with its factor
+!> Cholesky factorisation of a small symmetric matrix, changes of its factor, and substitution with it
 !>
 !> The matrix is the lower triangle of an array whose first dimension may exceed the number of rows. The loops are in
 !> factor_loops.c.
@@ -7,9 +7,22 @@ module contact_normal_factor_loops
    implicit none (type, external)
    private
 
-   public :: factorize, solve_backward, solve_forward
+   public :: append_row, area_box, factorize, remove_row, solve_backward, solve_forward
 
    interface
+      !> Number of elements with pressure, and the window around them
+      pure subroutine area_box(mx, my, p, n, box) bind(c, name="contact_factor_box")
+         import :: c_double, c_int
+         !> Size of the field
+         integer(c_int), value :: mx, my
+         !> Pressures [N/mm2]
+         real(c_double), intent(in) :: p(mx, my)
+         !> Number of elements
+         integer(c_int), intent(out) :: n
+         !> First and last column, first and last row; a first one beyond the last one if there are none
+         integer(c_int), intent(out) :: box(2, 2)
+      end subroutine area_box
+
       !> Solve L x = b
       pure subroutine solve_forward(n, stride, lower, x) bind(c, name="contact_factor_forward")
          import :: c_double, c_int
@@ -33,14 +46,36 @@ module contact_normal_factor_loops
       end subroutine solve_backward
 
       !> Factor of a positive definite matrix, in place; 0 if the matrix is not positive definite, otherwise 1
-      integer(c_int) function factorize(n, first, stride, a, row) bind(c, name="contact_factor_factorize")
+      integer(c_int) function factorize(n, stride, a, row) bind(c, name="contact_factor_factorize")
          import :: c_double, c_int
-         !> Number of rows, number of leading columns that already belong to the factor, and first dimension of the array
-         integer(c_int), value :: n, first, stride
+         !> Number of rows, and first dimension of the array
+         integer(c_int), value :: n, stride
          !> Lower triangle of the matrix on entry, of its factor on exit
          real(c_double), intent(inout) :: a(stride, n)
          !> Workspace
          real(c_double), intent(inout) :: row(n)
       end function factorize
+
+      !> Factor of a matrix without one of its rows and columns, in place: those behind it move up
+      pure subroutine remove_row(n, removed, stride, a, v) bind(c, name="contact_factor_remove")
+         import :: c_double, c_int
+         !> Number of rows before, index of the one to be removed, and first dimension of the array
+         integer(c_int), value :: n, removed, stride
+         !> Lower triangle of the factor
+         real(c_double), intent(inout) :: a(stride, n)
+         !> Workspace
+         real(c_double), intent(inout) :: v(n)
+      end subroutine remove_row
+
+      !> Factor of a matrix with another row and column behind the others, in place; 0 if it is not positive definite, otherwise 1
+      integer(c_int) function append_row(n, stride, a, row) bind(c, name="contact_factor_append")
+         import :: c_double, c_int
+         !> Number of rows before, and first dimension of the array
+         integer(c_int), value :: n, stride
+         !> Lower triangle of the factor
+         real(c_double), intent(inout) :: a(stride, n + 1)
+         !> Row of the matrix, the last number on its diagonal; overwritten
+         real(c_double), intent(inout) :: row(n + 1)
+      end function append_row
    end interface
 end module contact_normal_factor_loops

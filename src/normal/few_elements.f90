@@ -3,18 +3,22 @@
 !> Influence coefficients depend on offsets only, so that the matrix of the elements in contact does not depend on their
 !> position. In a time loop the contact area is often that of the last solution; two triangular solves then give the pressures,
 !> or their derivative with respect to the approach, to full accuracy. Elements under tension are removed and elements that
-!> overlap are added until nothing changes. If this does not terminate soon, conjugate gradients continue from there. The
-!> elements of a factor are in the order of decreasing pressure, so that those at the border, which change most often, are last:
-!> columns before the first change are reused.
+!> overlap are added until nothing changes. If this does not terminate soon, conjugate gradients continue from there.
+!>
+!> The factor follows the area element by element. An element that leaves is removed by rotations of the columns behind it, which
+!> are stable (Golub and Van Loan, Matrix Computations, section 6.5); one that enters is appended. A new factor has its elements in
+!> the order of decreasing pressure: those at the border, which leave most often, have few columns behind them.
 module contact_normal_few_elements
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
+   use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_elastic_pressure_sums, only : displacements_by_sums
-   use contact_normal_factor_loops, only : factorize, solve_backward, solve_forward
+   use contact_normal_factor_loops, only : append_row, area_box, factorize, remove_row, solve_backward, solve_forward
    use contact_normal_problem, only : approach_scale, normal_problem
+   use contact_numeric_vectors, only : smallest_of
    implicit none (type, external)
    private
 
@@ -24,8 +28,12 @@ module contact_normal_few_elements
    integer, parameter :: most = 200
    !> Maximum number of changes of the area before conjugate gradients take over, and minimum number of elements
    integer, parameter :: max_changes = 12, least = 4
-   !> Elements are reordered if less than this fraction of the factor can be reused
-   real(wp), parameter :: worth_keeping = 0.5_wp
+   !> A new factor is made if more than this fraction of the elements change: its cost is that of about as many changes
+   real(wp), parameter :: worth_changing = 0.4_wp
+   !> The position of the factor in the window is accepted if at most this number of elements change; chosen
+   integer, parameter :: few_changes = 6
+   !> Maximum number of changes since a factor was made, so that round-off does not add up
+   integer, parameter :: most_changes = 500
 
    !> Factor of a contact area, and workspace; undefined if `n` is 0
    type :: area_factor
@@ -35,8 +43,8 @@ module contact_normal_few_elements
       integer, allocatable, private :: place(:, :), known(:, :)
       !> Range of columns and rows of the factor in known(:, k), shape (2, 2)
       integer, private :: box(2, 2) = 0
-      !> Rows of the existing factor for the new rows, 0 for new elements, shape (most)
-      integer, allocatable, private :: row(:)
+      !> Number of changes since it was made
+      integer, private :: changes = 0
       !> Positions in the table of coefficients, shape (most)
       integer, allocatable, private :: at(:)
       !> Is an element of the window in the factor? Size at least that of the window
@@ -110,7 +118,7 @@ contains
                worst = max(worst, abs(r))
             end do
          end do
-         scale = approach_scale(pen, minval(problem%h), worst)
+         scale = approach_scale(pen, smallest_of(size(problem%h), problem%h), worst)
          report%residual = worst/scale
          if (report%residual <= problem%eps) then
             report%method = "Cholesky"
@@ -152,14 +160,14 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :)
       !> Is the number of elements within the limits?
       logical, intent(out) :: fits
-      integer :: box(2, 2), shift(2), n, kept
+      integer :: box(2, 2), shift(2), n, changes, k
       logical :: is_for_others
 
       fits = .false.
-      call find_box(p, n, box)
+      call area_box(size(p, 1), size(p, 2), p, n, box)
       if (n > most .or. n < least) return
       if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most), &
-         & self%row(most), self%at(most))
+         & self%at(most))
       is_for_others = abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp
       if (.not. is_for_others) is_for_others = .not. self%model%same_as(operator%model)
       if (is_for_others) then
@@ -168,92 +176,65 @@ contains
          self%dy = operator%dy
          self%model = operator%model
       end if
-      call find_shift(self, p, box, shift, kept)
-      if (kept == n .and. self%n == n) then
-         self%place(1, :n) = self%known(1, :n) + shift(1)
-         self%place(2, :n) = self%known(2, :n) + shift(2)
+      call find_shift(self, p, n, box, shift, changes)
+      if (changes == 0) then
+         do k = 1, n
+            self%place(1, k) = self%known(1, k) + shift(1)
+            self%place(2, k) = self%known(2, k) + shift(2)
+         end do
          fits = .true.
          return
       end if
-      if (kept < worth_keeping*n) then
-         kept = 0
-         call put_in_order(p, self%place)
-         self%row(:n) = 0
-      else
-         call keep_order(self, p, shift, kept)
-      end if
-      self%n = 0
-      call extend(self, operator, n, kept, fits)
+      self%changes = self%changes + changes
+      if (changes <= worth_changing*n .and. self%changes <= most_changes) call adapt(self, operator, p, n, shift, fits)
+      if (.not. fits) call renew(self, operator, p, n, fits)
       if (.not. fits) return
-      self%n = n
-      self%known(:, :n) = self%place(:, :n)
+      do k = 1, n
+         self%known(1, k) = self%place(1, k)
+         self%known(2, k) = self%place(2, k)
+      end do
       self%box = box
    end subroutine fit
 
-   !> Number of elements with pressure, and the window around them
-   pure subroutine find_box(p, n, box)
-      !> Pressures [N/mm2]
-      real(wp), contiguous, intent(in) :: p(:, :)
-      integer, intent(out) :: n
-      !> First and last column, first and last row
-      integer, intent(out) :: box(2, 2)
-      integer :: ix, iy
-
-      n = 0
-      box(:, 1) = [size(p, 1), 1]
-      box(:, 2) = [size(p, 2), 1]
-      do iy = 1, size(p, 2)
-         do ix = 1, size(p, 1)
-            if (.not. p(ix, iy) > 0.0_wp) cycle
-            n = n + 1
-            box(1, 1) = min(box(1, 1), ix)
-            box(2, 1) = max(box(2, 1), ix)
-            box(1, 2) = min(box(1, 2), iy)
-            box(2, 2) = max(box(2, 2), iy)
-         end do
-      end do
-   end subroutine find_box
-
-   !> Position of the elements of the factor in this window: relative to the area the first or the last ones are unchanged, or
-   !> relative to the window all of them
-   pure subroutine find_shift(self, p, box, shift, kept)
+   !> Position of the elements of the factor in this window: as in its own, or relative to the first or the last ones of the area
+   pure subroutine find_shift(self, p, n, box, shift, changes)
       type(area_factor), intent(in) :: self
       !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> See `find_box`
-      integer, intent(in) :: box(2, 2)
+      !> Number of elements with pressure, and the window around them, see `area_box`
+      integer, intent(in) :: n, box(2, 2)
       !> To be added to positions in the window of the factor
       integer, intent(out) :: shift(2)
-      !> Number of elements of the factor before the first one that is not in contact
-      integer, intent(out) :: kept
-      integer :: candidate(2, 3), c, k
+      !> Number of elements that enter or leave
+      integer, intent(out) :: changes
+      integer :: candidate(2, 3), c, k, kept
 
-      candidate(:, 1) = box(1, :) - self%box(1, :)
-      candidate(:, 2) = box(2, :) - self%box(2, :)
-      candidate(:, 3) = 0
-      kept = 0
+      candidate(:, 1) = 0
+      candidate(:, 2) = box(1, :) - self%box(1, :)
+      candidate(:, 3) = box(2, :) - self%box(2, :)
+      changes = huge(changes)
       shift = 0
       do c = 1, size(candidate, 2)
-         k = 0
-         do while (k < self%n)
-            if (.not. in_contact(p, self%known(:, k + 1) + candidate(:, c))) exit
-            k = k + 1
+         if (any([(all(candidate(:, k) == candidate(:, c)), k=1, c - 1)])) cycle
+         kept = 0
+         do k = 1, self%n
+            if (in_contact(p, self%known(1, k) + candidate(1, c), self%known(2, k) + candidate(2, c))) kept = kept + 1
          end do
-         if (k <= kept) cycle
-         kept = k
+         if (n + self%n - 2*kept >= changes) cycle
+         changes = n + self%n - 2*kept
          shift = candidate(:, c)
-         if (kept == self%n) return
+         if (changes <= few_changes) return
       end do
    end subroutine find_shift
 
    !> Does an element have pressure? False outside the window
-   pure logical function in_contact(p, place)
+   pure logical function in_contact(p, ix, iy)
       !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
-      integer, intent(in) :: place(2)
+      integer, intent(in) :: ix, iy
 
-      in_contact = place(1) >= 1 .and. place(1) <= size(p, 1) .and. place(2) >= 1 .and. place(2) <= size(p, 2)
-      if (in_contact) in_contact = p(place(1), place(2)) > 0.0_wp
+      in_contact = ix >= 1 .and. ix <= size(p, 1) .and. iy >= 1 .and. iy <= size(p, 2)
+      if (in_contact) in_contact = p(ix, iy) > 0.0_wp
    end function in_contact
 
    !> Positions of the elements with pressure, largest pressure first
@@ -280,71 +261,91 @@ contains
       end do
    end subroutine put_in_order
 
-   !> Keep the order of the elements of the factor that are still in contact, and append new ones
-   subroutine keep_order(self, p, shift, kept)
+   !> Remove elements that left the contact from the factor, and append new ones
+   subroutine adapt(self, operator, p, n, shift, fits)
       type(area_factor), intent(inout) :: self
+      !> Operator whose table contains the coefficients
+      class(compliance), intent(in) :: operator
       !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> See `find_shift`
-      integer, intent(in) :: shift(2), kept
-      integer :: ix, iy, k, n, here(2)
+      !> Number of elements with pressure, and shift of `find_shift`
+      integer, intent(in) :: n, shift(2)
+      !> Is the matrix positive definite? Otherwise there is no factor any more
+      logical, intent(out) :: fits
+      integer :: ix, iy, j, k
 
+      fits = .true.
+      do k = self%n, 1, -1
+         self%place(1, k) = self%known(1, k) + shift(1)
+         self%place(2, k) = self%known(2, k) + shift(2)
+         if (in_contact(p, self%place(1, k), self%place(2, k))) cycle
+         call remove_row(self%n, k, most, self%lower, self%x)
+         self%n = self%n - 1
+         do j = k, self%n
+            self%place(1, j) = self%place(1, j + 1)
+            self%place(2, j) = self%place(2, j + 1)
+         end do
+      end do
+      if (self%n == n) return
       if (allocated(self%taken)) then
          if (size(self%taken) < size(p)) deallocate(self%taken)
       end if
       if (.not. allocated(self%taken)) allocate(self%taken(2*size(p)))
       self%taken(:size(p)) = .false.
-      n = 0
       do k = 1, self%n
-         here = self%known(:, k) + shift
-         if (k > kept) then
-            if (.not. in_contact(p, here)) cycle
-         end if
-         n = n + 1
-         self%place(:, n) = here
-         self%row(n) = k
-         self%taken(here(1) + size(p, 1)*(here(2) - 1)) = .true.
+         self%taken(self%place(1, k) + size(p, 1)*(self%place(2, k) - 1)) = .true.
       end do
-      do iy = 1, size(p, 2)
-         do ix = 1, size(p, 1)
-            if (.not. p(ix, iy) > 0.0_wp .or. self%taken(ix + size(p, 1)*(iy - 1))) cycle
-            n = n + 1
-            self%place(:, n) = [ix, iy]
-            self%row(n) = 0
+      associate (table => operator%table, stride => size(operator%table%nn, 1))
+         self%at(:self%n) = self%place(1, :self%n) + stride*self%place(2, :self%n)
+         do iy = 1, size(p, 2)
+            do ix = 1, size(p, 1)
+               if (.not. p(ix, iy) > 0.0_wp .or. self%taken(ix + size(p, 1)*(iy - 1))) cycle
+               k = self%n + 1
+               self%place(:, k) = [ix, iy]
+               self%at(k) = ix + stride*iy
+               call pick(size(table%nn), table%nn, own_place(table) + self%at(k), k, self%at, self%x)
+               fits = append_row(self%n, most, self%lower, self%x) > 0
+               if (.not. fits) then
+                  self%n = 0
+                  return
+               end if
+               self%n = k
+            end do
          end do
-      end do
-   end subroutine keep_order
+      end associate
+   end subroutine adapt
 
-   !> Compute the factor of the elements in `place`, whose first columns are those of the existing one
-   subroutine extend(self, operator, n, kept, fits)
+   !> Compute the factor of the elements with pressure
+   subroutine renew(self, operator, p, n, fits)
       type(area_factor), intent(inout) :: self
       !> Operator whose table contains the coefficients
       class(compliance), intent(in) :: operator
-      !> Number of elements, and number of columns reused
-      integer, intent(in) :: n, kept
+      !> Pressures [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Number of elements with pressure
+      integer, intent(in) :: n
       !> Is the matrix positive definite?
       logical, intent(out) :: fits
-      integer :: k, stride, own
+      integer :: k
 
-      ! positions in the table of coefficients, relative to an element on itself
-      stride = size(operator%table%nn, 1)
-      own = operator%table%nx + 1 + stride*operator%table%ny
-      self%at(:n) = self%place(1, :n) + stride*self%place(2, :n)
-      do k = kept + 1, n
-         if (self%row(k) > 0) then
-            ! rows only move up
-            self%lower(k, :kept) = self%lower(self%row(k), :kept)
-            cycle
-         end if
-         call pick(size(operator%table%nn), operator%table%nn, own + self%at(k), kept, self%at, self%x)
-         call solve_forward(kept, most, self%lower, self%x)
-         self%lower(k, :kept) = self%x(:kept)
-      end do
-      do k = kept + 1, n
-         call pick(size(operator%table%nn), operator%table%nn, own + self%at(k), n - k + 1, self%at(k:), self%lower(k:, k))
-      end do
-      fits = factorize(n, kept, most, self%lower, self%x) > 0
-   end subroutine extend
+      call put_in_order(p, self%place)
+      associate (table => operator%table, stride => size(operator%table%nn, 1))
+         self%at(:n) = self%place(1, :n) + stride*self%place(2, :n)
+         do k = 1, n
+            call pick(size(table%nn), table%nn, own_place(table) + self%at(k), n - k + 1, self%at(k:), self%lower(k:, k))
+         end do
+      end associate
+      fits = factorize(n, most, self%lower, self%x) > 0
+      self%n = merge(n, 0, fits)
+      self%changes = 0
+   end subroutine renew
+
+   !> Position of an element on itself in a table of coefficients as a vector, for a sum of positions of two elements
+   pure integer function own_place(table)
+      type(kernel_table), intent(in) :: table
+
+      own_place = table%nx + 1 + size(table%nn, 1)*table%ny
+   end function own_place
 
    !> Coefficients between an element and others
    pure subroutine pick(total, nn, from, n, at, values)
@@ -382,11 +383,12 @@ contains
       real(wp), contiguous, intent(inout) :: q(:, :)
       !> Was the factor suitable? Otherwise q is unchanged
       logical, intent(out) :: found
-      integer :: k
+      integer :: n, box(2, 2), k
 
       found = .false.
       if (self%n == 0 .or. .not. is_plain(operator)) return
-      if (count(p > 0.0_wp) /= self%n) return
+      call area_box(size(p, 1), size(p, 2), p, n, box)
+      if (n /= self%n) return
       call self%fit(operator, p, found)
       if (.not. found) return
       self%x(:self%n) = 1.0_wp

@@ -15,6 +15,8 @@ program test_few_elements
    type(elastic_operator) :: operator
    type(elastic_model) :: model
    real(wp), allocatable :: p(:, :)
+   !> Number of small steps, and of those after which the kept factor is compared with a new one
+   integer, parameter :: small_steps = 800, between = 50
    real(wp) :: turn
    integer :: k, by_factor
 
@@ -28,6 +30,12 @@ program test_few_elements
          & 0.020_wp + 0.012_wp*sin(3.0_wp*turn))
    end do
    call suite%check(by_factor > steps/2, "most of the contacts are solved by the factor")
+   ! a factor that was changed by hundreds of elements is as accurate as a new one
+   do k = 1, small_steps
+      turn = 40.0_wp*half_turn*k/small_steps
+      call follow(8.5_wp + 1.3_wp*cos(turn), 8.5_wp + 1.1_wp*sin(0.7_wp*turn), 0.022_wp + 0.01_wp*sin(1.3_wp*turn), &
+         & mod(k, between) == 0)
+   end do
    ! another material needs another factorisation
    model%material = combine([0.28_wp, 0.28_wp], [41000.0_wp, 82000.0_wp])
    call solve(17, 15, 8.3_wp, 7.6_wp, 0.02_wp)
@@ -38,18 +46,44 @@ program test_few_elements
 
 contains
 
-   !> One contact with the factor of those before it as estimate and without
-   subroutine solve(mx, my, x, y, pen)
+   !> One contact of a sequence of small steps
+   subroutine follow(x, y, pen, is_compared)
+      !> Position of the lowest point in elements, and approach [mm]
+      real(wp), intent(in) :: x, y, pen
+      !> Are the pressures compared with those of a new factor?
+      logical, intent(in) :: is_compared
+      type(normal_problem) :: problem
+      type(normal_workspace) :: fresh
+      type(solve_report) :: report
+      real(wp), allocatable :: expected(:, :)
+      real(wp) :: approach
+
+      call describe(17, 17, x, y, problem)
+      problem%follows = .true.
+      approach = pen
+      call operator%prepare(model, side, side, problem%mx, problem%my, 1)
+      if (any(shape(p) /= [problem%mx, problem%my])) then
+         deallocate(p)
+         allocate(p(problem%mx, problem%my), source=0.0_wp)
+         where (problem%h < 0.5_wp*pen) p = 1.0_wp
+      end if
+      if (is_compared) expected = p
+      call solve_normal(problem, operator, workspace, p, approach, report)
+      call suite%check(report%method == "Cholesky", "small steps are solved by the factor")
+      if (.not. is_compared) return
+      report = solve_report()
+      call solve_normal(problem, operator, fresh, expected, approach, report)
+      call suite%close_to(reshape(p, [size(p)]), reshape(expected, [size(p)]), 1.0e-11_wp*maxval(expected), &
+         & "pressures by a changed factor and by a new one")
+      call release_normal(fresh)
+   end subroutine follow
+
+   !> Paraboloid over a window
+   subroutine describe(mx, my, x, y, problem)
       !> Size of the window, and position of the lowest point in elements
       integer, intent(in) :: mx, my
       real(wp), intent(in) :: x, y
-      !> Approach [mm]
-      real(wp), intent(in) :: pen
-      type(normal_problem) :: problem
-      type(normal_workspace) :: fresh
-      type(elastic_operator) :: new
-      type(solve_report) :: report
-      real(wp) :: expected(mx, my), approach
+      type(normal_problem), intent(inout) :: problem
       integer :: ix, iy
 
       problem%mx = mx
@@ -64,6 +98,22 @@ contains
             problem%h(ix, iy) = 8.0e-4_wp*((ix - x)**2 + 1.5_wp*(iy - y)**2)
          end do
       end do
+   end subroutine describe
+
+   !> One contact with the factor of those before it as estimate and without
+   subroutine solve(mx, my, x, y, pen)
+      !> Size of the window, and position of the lowest point in elements
+      integer, intent(in) :: mx, my
+      real(wp), intent(in) :: x, y
+      !> Approach [mm]
+      real(wp), intent(in) :: pen
+      type(normal_problem) :: problem
+      type(normal_workspace) :: fresh
+      type(elastic_operator) :: new
+      type(solve_report) :: report
+      real(wp) :: expected(mx, my), approach
+
+      call describe(mx, my, x, y, problem)
       call operator%prepare(model, side, side, mx, my, 1)
       expected = 0.0_wp
       approach = pen

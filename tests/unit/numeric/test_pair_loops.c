@@ -25,39 +25,64 @@ static double any_number(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
 typedef struct {
   void (*forward)(int, int, const double *, double *);
   void (*backward)(int, int, const double *, double *);
-  int (*factorize)(int, int, int, double *, double *);
+  int (*factorize)(int, int, double *, double *);
+  void (*remove)(int, int, int, double *, double *);
+  int (*append)(int, int, double *, double *);
+  int (*box)(int, int, const double *, int *);
   void (*displace)(int, int, const int *, const double *, int, const double *, double *);
   int (*meet)(int, const double *, const double *, const double *, double, const double *, const double *, const double *, double, double,
               int, const double *, int *, double *, double *);
   void (*spread)(const double *, const double *, int, double *, double *);
 } loops;
 
-static const loops anywhere = {forward_anywhere, backward_anywhere, factorize_anywhere, displace_anywhere, meet_anywhere, spread_anywhere};
+static const loops anywhere = {forward_anywhere, backward_anywhere, factorize_anywhere, remove_anywhere, append_anywhere,
+                               box_anywhere,     displace_anywhere, meet_anywhere,      spread_anywhere};
 
-/* A positive definite matrix, its factor in two parts, and a linear system; numbers outside of the triangle must not be used */
+/* Largest difference of the product of a factor with its transpose from the matrix of some of the rows */
+static double miss(const double *factor, int n, double matrix[LARGEST][LARGEST], const int *rows) {
+  double worst = 0.0;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j <= i; j++) {
+      double sum = -matrix[rows[i]][rows[j]];
+      for (int k = 0; k <= j; k++) sum += factor[i + STRIDE * k] * factor[j + STRIDE * k];
+      worst = fmax(worst, isnan(sum) ? INFINITY : fabs(sum));
+    }
+  return worst;
+}
+
+/* A positive definite matrix, its factor, also after some rows were removed and appended again, and a linear system; numbers outside
+ * of the triangle must not be used */
 static void try_factor(const loops *kind, int n, double *factor, double *x) {
   static double matrix[LARGEST][LARGEST], row[LARGEST], b[LARGEST];
+  static int rows[LARGEST];
   double worst = 0.0;
   srand((unsigned)n);
   for (int i = 0; i < STRIDE * LARGEST; i++) factor[i] = NAN;
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < n; i++) {
+    rows[i] = i;
     for (int j = 0; j <= i; j++) {
       matrix[i][j] = matrix[j][i] = i == j ? n + 1.0 : any_number();
       factor[i + STRIDE * j] = matrix[i][j];
     }
-  check(kind->factorize(n, 0, STRIDE, factor, row), "a positive definite matrix has a factor", n);
-  /* the last columns once more, from those before */
-  const int first = 2 * n / 3;
-  for (int j = first; j < n; j++)
-    for (int i = j; i < n; i++) factor[i + STRIDE * j] = matrix[i][j];
-  check(kind->factorize(n, first, STRIDE, factor, row), "the factor is continued", n);
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j <= i; j++) {
-      double sum = -matrix[i][j];
-      for (int k = 0; k <= j; k++) sum += factor[i + STRIDE * k] * factor[j + STRIDE * k];
-      worst = fmax(worst, fabs(sum));
-    }
-  check(worst <= 1e-13 * (n + 1), "the product of the factors is the matrix", n);
+  }
+  check(kind->factorize(n, STRIDE, factor, row), "a positive definite matrix has a factor", n);
+  check(miss(factor, n, matrix, rows) <= 1e-13 * (n + 1), "the product of the factors is the matrix", n);
+  for (int round = 0; round < 3; round++) {
+    /* the first, the last and some other row */
+    const int removed = round == 0 ? 0 : round == 1 ? n - 1 : rand() % n, again = rows[removed];
+    kind->remove(n, removed, STRIDE, factor, row);
+    memmove(rows + removed, rows + removed + 1, sizeof(int) * (size_t)(n - 1 - removed));
+    check(miss(factor, n - 1, matrix, rows) <= 1e-13 * (n + 1), "the factor without a row is that of the other ones", n);
+    rows[n - 1] = again;
+    for (int i = 0; i < n; i++) row[i] = matrix[again][rows[i]];
+    check(kind->append(n - 1, STRIDE, factor, row), "a row can be appended", n);
+    check(miss(factor, n, matrix, rows) <= 1e-13 * (n + 1), "the factor with this row is that of all rows", n);
+  }
+  for (int i = 0; i < n; i++) row[i] = matrix[rows[0]][rows[i]];
+  if (n < LARGEST) {
+    row[n] = matrix[rows[0]][rows[0]] - 1.0;
+    check(!kind->append(n, STRIDE, factor, row), "no row is appended that makes the matrix indefinite", n);
+  }
   for (int i = 0; i < n; i++) x[i] = b[i] = any_number();
   x[n] = 7.0;
   kind->forward(n, STRIDE, factor, x);
@@ -65,7 +90,7 @@ static void try_factor(const loops *kind, int n, double *factor, double *x) {
   worst = 0.0;
   for (int i = 0; i < n; i++) {
     double sum = -b[i];
-    for (int j = 0; j < n; j++) sum += matrix[i][j] * x[j];
+    for (int j = 0; j < n; j++) sum += matrix[rows[i]][rows[j]] * x[j];
     worst = fmax(worst, fabs(sum));
   }
   check(worst <= 1e-13 * (n + 1), "the solution satisfies the equations", n);
@@ -75,9 +100,28 @@ static void try_factor(const loops *kind, int n, double *factor, double *x) {
 /* A matrix that is not positive definite */
 static void try_indefinite(const loops *kind) {
   double a[9] = {1.0, 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, row[3];
-  check(!kind->factorize(3, 0, 3, a, row), "an indefinite matrix has no factor", 3);
+  check(!kind->factorize(3, 3, a, row), "an indefinite matrix has no factor", 3);
   a[0] = NAN;
-  check(!kind->factorize(3, 0, 3, a, row), "nor has one that is not a number", 3);
+  check(!kind->factorize(3, 3, a, row), "nor has one that is not a number", 3);
+}
+
+/* The window around the positive numbers of a field */
+static void try_box(const loops *kind, int mx, int my) {
+  static double p[SIDE * SIDE];
+  int box[4], first[2] = {mx + 1, my + 1}, last[2] = {0, 0}, n = 0;
+  srand((unsigned)(SIDE * mx + my));
+  for (int k = 0; k < mx * my; k++) {
+    p[k] = rand() % 20 == 0 ? 1.0 + any_number() : 0.0;
+    if (!(p[k] > 0.0)) continue;
+    const int at[2] = {k % mx + 1, k / mx + 1};
+    n++;
+    for (int i = 0; i < 2; i++) {
+      if (at[i] < first[i]) first[i] = at[i];
+      if (at[i] > last[i]) last[i] = at[i];
+    }
+  }
+  check(kind->box(mx, my, p, box) == n, "positive numbers are counted", mx);
+  check(box[0] == first[0] && box[1] == last[0] && box[2] == first[1] && box[3] == last[1], "they are in the window", mx);
 }
 
 /* Displacements in a window of mx by my elements with random ranges */
@@ -192,6 +236,7 @@ static int try_all(const loops *kind, double *results) {
   try_indefinite(kind);
   for (int mx = 1; mx <= SIDE; mx += 2)
     for (int my = 1; my <= SIDE; my += 7) {
+      try_box(kind, mx, my);
       try_sums(kind, mx, my, u);
       memcpy(results + total, u, sizeof(double) * (size_t)(mx * my));
       total += mx * my;
@@ -211,7 +256,8 @@ int main(void) {
   const int total = try_all(&anywhere, results[0]);
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx2")) {
-    const loops avx2 = {forward_avx2, backward_avx2, factorize_avx2, displace_avx2, meet_avx2, spread_avx2};
+    const loops avx2 = {forward_avx2, backward_avx2,  factorize_avx2, remove_avx2, append_avx2,
+                        box_avx2,     displace_avx2, meet_avx2,      spread_avx2};
     try_all(&avx2, results[1]);
     check(!memcmp(results[0], results[1], sizeof(double) * (size_t)total), "both kinds give identical digits", total);
   }
