@@ -28,8 +28,6 @@ module contact_normal_analyn
    !> this fraction
    integer, parameter :: max_samples = 10
    real(wp), parameter :: fallen = 0.3_wp
-   !> The ratio of the semi-axes changes with the ratio of the curvatures to a power between 1/2 and 2/3: estimate for the next row
-   real(wp), parameter :: usual_power = 0.6_wp
 
    !> Point of a row with the smallest gap
    type :: low_place
@@ -115,7 +113,7 @@ contains
             associate (load => hertz_load(normal_control%approach, pen=overlap, modulus=modulus))
                if (ratio > 0.0_wp) then
                   ! the ratio changes little from row to row
-                  hertz = hertz_by_curvatures(load, here%a1, here%b1, near=min(1.0_wp, ratio*(curved/before)**usual_power))
+                  hertz = hertz_by_curvatures(load, here%a1, here%b1, near=min(1.0_wp, ratio*(curved/before)**(1.0_wp/hertz%slope)))
                else
                   hertz = hertz_by_curvatures(load, here%a1, here%b1)
                end if

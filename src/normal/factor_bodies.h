@@ -121,9 +121,10 @@ TARGET static int OF(factorize)(int n, int stride, double *a, double *row) {
 }
 
 /* Remove a row and column of the matrix from its factor of n rows. Those behind it move up, and rotations put the removed column
- * into their triangle. Workspace: n numbers */
-TARGET static void OF(remove)(int n, int removed, int stride, double *a, double *v) {
+ * into their triangle, and into the solutions w of L w = b for two right-hand sides. Workspace: n numbers */
+TARGET static void OF(remove)(int n, int removed, int stride, double *a, double *v, double *w) {
   const int rest = n - removed - 1;
+  double *one = w + removed, *other = w + stride + removed, left = *one, right = *other;
   for (int i = 0; i < rest; i++) v[i] = a[removed + 1 + i + (long)removed * stride];
   for (int j = 0; j < removed; j++) {
     double *column = a + removed + (long)j * stride;
@@ -132,34 +133,67 @@ TARGET static void OF(remove)(int n, int removed, int stride, double *a, double 
     for (; i < rest; i++) column[i] = column[i + 1];
   }
   for (int j = 0; j < rest; j++) {
-    double *to = a + removed + j + (long)(removed + j) * stride, *w = v + j;
-    const double *from = to + 1 + stride, diagonal = sqrt(from[0] * from[0] + w[0] * w[0]);
-    const double c = from[0] / diagonal, s = w[0] / diagonal;
+    double *to = a + removed + j + (long)(removed + j) * stride, *y = v + j;
+    const double *from = to + 1 + stride, diagonal = sqrt(from[0] * from[0] + y[0] * y[0]);
+    const double c = from[0] / diagonal, s = y[0] / diagonal, first = one[j + 1], second = other[j + 1];
     const four cc = {c, c, c, c}, ss = {s, s, s, s};
     int i = 1;
     to[0] = diagonal;
+    one[j] = c * first + s * left;
+    left = c * left - s * first;
+    other[j] = c * second + s * right;
+    right = c * right - s * second;
     for (; i + 3 < rest - j; i += 4) {
-      const four l = READ_FOUR(from + i), x = READ_FOUR(w + i);
+      const four l = READ_FOUR(from + i), x = READ_FOUR(y + i);
       FOUR(to + i) = cc * l + ss * x;
-      FOUR(w + i) = cc * x - ss * l;
+      FOUR(y + i) = cc * x - ss * l;
     }
     for (; i < rest - j; i++) {
-      const double l = from[i], x = w[i];
+      const double l = from[i], x = y[i];
       to[i] = c * l + s * x;
-      w[i] = c * x - s * l;
+      y[i] = c * x - s * l;
     }
   }
 }
 
-/* Append a row to the factor of n rows; 0 if the pivot is not positive. `row` is that of the matrix, with its diagonal */
-TARGET static int OF(append)(int n, int stride, double *a, double *row) {
+/* Append a row to the factor of n rows; 0 if the pivot is not positive. `row` is that of the matrix, with its diagonal, `w` are the
+ * solutions of L w = b for two right-hand sides, `b` those of the row */
+TARGET static int OF(append)(int n, int stride, double *a, double *row, double *w, const double *b) {
   OF(forward)(n, stride, a, row);
-  double pivot = row[n];
-  for (int k = 0; k < n; k++) pivot -= row[k] * row[k];
+  double pivot = row[n], one = b[0], other = b[1];
+  for (int k = 0; k < n; k++) {
+    pivot -= row[k] * row[k];
+    one -= row[k] * w[k];
+    other -= row[k] * w[stride + k];
+  }
   if (!(pivot > 0.0)) return 0;
   for (int k = 0; k < n; k++) a[n + (long)k * stride] = row[k];
-  a[n + (long)n * stride] = sqrt(pivot);
+  pivot = sqrt(pivot);
+  a[n + (long)n * stride] = pivot;
+  w[n] = one / pivot;
+  w[stride + n] = other / pivot;
   return 1;
+}
+
+/* Largest violation of the contact conditions, see factor_loops.f90. What is stored where neither condition holds is not used */
+TARGET static double OF(violation)(int n, double pen, const double *h, const double *u, const double *p) {
+  const four zero = {0.0, 0.0, 0.0, 0.0}, approach = zero + pen;
+  four most = zero;
+  double worst = 0.0;
+  int i = 0;
+  for (; i + 3 < n; i += 4) {
+    const four open = READ_FOUR(h + i), r = approach - open - READ_FOUR(u + i);
+    const four_masks pressed = READ_FOUR(p + i) > 0.0, counts = pressed | ((open < approach) & (r > 0.0));
+    const four here = WHERE(counts, MAGNITUDES(r));
+    most = CHOOSE(here > most, here, most);
+  }
+  for (; i < n; i++) {
+    const double r = pen - h[i] - u[i];
+    if (!(p[i] > 0.0 || (h[i] < pen && r > 0.0))) continue;
+    worst = fabs(r) > worst ? fabs(r) : worst;
+  }
+  for (int lane = 0; lane < 4; lane++) worst = most[lane] > worst ? most[lane] : worst;
+  return worst;
 }
 
 /* Number of positive numbers of a field; first and last column, first and last row of the window around them, counted from 1 */

@@ -7,7 +7,7 @@ module contact_normal_factor_loops
    implicit none (type, external)
    private
 
-   public :: append_row, area_box, factorize, remove_row, solve_backward, solve_forward
+   public :: append_row, area_box, factorize, largest_violation, remove_row, solve_backward, solve_forward
 
    interface
       !> Number of elements with pressure, and the window around them
@@ -57,7 +57,7 @@ module contact_normal_factor_loops
       end function factorize
 
       !> Factor of a matrix without one of its rows and columns, in place: those behind it move up
-      pure subroutine remove_row(n, removed, stride, a, v) bind(c, name="contact_factor_remove")
+      pure subroutine remove_row(n, removed, stride, a, v, w) bind(c, name="contact_factor_remove")
          import :: c_double, c_int
          !> Number of rows before, index of the one to be removed, and first dimension of the array
          integer(c_int), value :: n, removed, stride
@@ -65,10 +65,12 @@ module contact_normal_factor_loops
          real(c_double), intent(inout) :: a(stride, n)
          !> Workspace
          real(c_double), intent(inout) :: v(n)
+         !> Two solutions of L w = b, which become those without this row
+         real(c_double), intent(inout) :: w(stride, 2)
       end subroutine remove_row
 
       !> Factor of a matrix with another row and column behind the others, in place; 0 if it is not positive definite, otherwise 1
-      integer(c_int) function append_row(n, stride, a, row) bind(c, name="contact_factor_append")
+      integer(c_int) function append_row(n, stride, a, row, w, b) bind(c, name="contact_factor_append")
          import :: c_double, c_int
          !> Number of rows before, and first dimension of the array
          integer(c_int), value :: n, stride
@@ -76,6 +78,22 @@ module contact_normal_factor_loops
          real(c_double), intent(inout) :: a(stride, n + 1)
          !> Row of the matrix, the last number on its diagonal; overwritten
          real(c_double), intent(inout) :: row(n + 1)
+         !> Two solutions of L w = b, which become those with this row; its right-hand sides
+         real(c_double), intent(inout) :: w(stride, 2)
+         real(c_double), intent(in) :: b(2)
       end function append_row
+
+      !> Largest violation of the contact conditions [mm]: distance or overlap of the deformed bodies where there is pressure,
+      !> overlap elsewhere
+      pure real(c_double) function largest_violation(n, pen, h, u, p) bind(c, name="contact_factor_violation")
+         import :: c_double, c_int
+         !> Number of elements
+         integer(c_int), value :: n
+         !> Approach [mm]
+         real(c_double), value :: pen
+         !> Distance of the undeformed bodies and displacements [mm], and pressures [N/mm2]; displacements count where there is
+         !> pressure, or where the undeformed bodies overlap
+         real(c_double), intent(in) :: h(n), u(n), p(n)
+      end function largest_violation
    end interface
 end module contact_normal_factor_loops

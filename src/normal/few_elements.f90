@@ -16,13 +16,17 @@ module contact_normal_few_elements
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_elastic_pressure_sums, only : displacements_by_sums
-   use contact_normal_factor_loops, only : append_row, area_box, factorize, remove_row, solve_backward, solve_forward
+   use contact_normal_factor_loops, only : append_row, area_box, factorize, largest_violation, remove_row, solve_backward, &
+      & solve_forward
    use contact_normal_problem, only : approach_scale, normal_problem
    use contact_numeric_vectors, only : smallest_of
    implicit none (type, external)
    private
 
-   public :: area_factor, solve_few
+   public :: area_factor, by_factor, solve_few
+
+   !> Name of the method in reports
+   character(len=*), parameter :: by_factor = "Cholesky"
 
    !> Maximum number of elements of a factor: beyond, transforms are faster
    integer, parameter :: most = 200
@@ -49,8 +53,11 @@ module contact_normal_few_elements
       integer, allocatable, private :: at(:)
       !> Is an element of the window in the factor? Size at least that of the window
       logical, allocatable, private :: taken(:)
-      !> Lower triangle, shape (most, most), and a vector, shape (most)
+      !> Lower triangle L, shape (most, most), and a vector, shape (most)
       real(wp), allocatable, private :: lower(:, :), x(:)
+      !> Solutions w of L w = b for two right-hand sides, which follow the changes of the factor: ones, and the overlap of the
+      !> undeformed bodies [mm]; shape (most, 2)
+      real(wp), allocatable, private :: w(:, :)
       !> Displacements and residuals on the window [mm], shape (mx, my)
       real(wp), allocatable, private :: u(:, :)
       !> Workspace of direct sums
@@ -85,9 +92,9 @@ contains
       real(wp), intent(in) :: pen
       !> Converged, or not started if another method must be used
       type(solve_report), intent(inout) :: report
-      real(wp) :: scale, worst, r
-      integer :: change, ix, iy, k
-      logical :: fits, grows
+      real(wp) :: scale, worst
+      integer :: change, changes, ix, iy, k, n
+      logical :: fits
 
       report%ended = ending%not_started
       if (problem%force_prescribed .or. allocated(problem%parts) .or. .not. is_plain(operator)) return
@@ -95,47 +102,54 @@ contains
          if (any(shape(factor%u) /= shape(p))) deallocate(factor%u)
       end if
       if (.not. allocated(factor%u)) allocate(factor%u(problem%mx, problem%my))
+      changes = 0
+      n = 0
       do change = 1, max_changes
          report%iterations = change
-         call factor%fit(operator, p, fits)
-         if (.not. fits) return
+         if (change > 1 .and. n >= least .and. n <= most .and. changes <= worth_changing*n) then
+            call adapt(factor, operator, p, n, fits, problem%h, pen)
+            if (.not. fits) return
+         else
+            call factor%fit(operator, p, fits)
+            if (.not. fits) return
+            do k = 1, factor%n
+               factor%w(k, 2) = pen - problem%h(factor%place(1, k), factor%place(2, k))
+            end do
+            call solve_forward(factor%n, most, factor%lower, factor%w(:, 2))
+         end if
          do k = 1, factor%n
-            factor%x(k) = pen - problem%h(factor%place(1, k), factor%place(2, k))
+            factor%x(k) = factor%w(k, 2)
          end do
-         call factor%substitute()
+         call solve_backward(factor%n, most, factor%lower, factor%x)
+         changes = 0
          do k = 1, factor%n
+            if (.not. factor%x(k) > 0.0_wp) changes = changes + 1
             p(factor%place(1, k), factor%place(2, k)) = max(0.0_wp, factor%x(k))
          end do
-         if (any(factor%x(:factor%n) <= 0.0_wp)) cycle
+         n = factor%n - changes
+         if (changes > 0) cycle
          ! pressures move the surfaces apart: nothing can overlap where they do not overlap without them
          call displacements_by_sums(operator%table, p, problem%h, pen, factor%ranges, factor%u)
-         worst = 0.0_wp
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (.not. (problem%h(ix, iy) < pen .or. p(ix, iy) > 0.0_wp)) cycle
-               r = pen - problem%h(ix, iy) - factor%u(ix, iy)
-               if (.not. p(ix, iy) > 0.0_wp) r = max(0.0_wp, r)
-               worst = max(worst, abs(r))
-            end do
-         end do
+         worst = largest_violation(size(p), pen, problem%h, factor%u, p)
          scale = approach_scale(pen, smallest_of(size(problem%h), problem%h), worst)
          report%residual = worst/scale
          if (report%residual <= problem%eps) then
-            report%method = "Cholesky"
+            report%method = by_factor
             report%ended = ending%converged
+            if (change > 1) call area_box(size(p, 1), size(p, 2), p, n, factor%box)
             return
          end if
-         grows = .false.
          do iy = 1, problem%my
             do ix = 1, problem%mx
                if (p(ix, iy) > 0.0_wp .or. .not. problem%h(ix, iy) < pen) cycle
                if (.not. pen - problem%h(ix, iy) - factor%u(ix, iy) > problem%eps*scale) cycle
                ! any positive pressure means contact: the factor gives its value
                p(ix, iy) = tiny(p)
-               grows = .true.
+               changes = changes + 1
             end do
          end do
-         if (.not. grows) return
+         if (changes == 0) return
+         n = n + changes
       end do
    end subroutine solve_few
 
@@ -167,32 +181,24 @@ contains
       call area_box(size(p, 1), size(p, 2), p, n, box)
       if (n > most .or. n < least) return
       if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most), &
-         & self%at(most))
+         & self%at(most), self%w(most, 2))
       is_for_others = abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp
       if (.not. is_for_others) is_for_others = .not. self%model%same_as(operator%model)
-      if (is_for_others) then
+      if (is_for_others .or. self%changes > most_changes) then
          self%n = 0
          self%dx = operator%dx
          self%dy = operator%dy
          self%model = operator%model
       end if
       call find_shift(self, p, n, box, shift, changes)
-      if (changes == 0) then
-         do k = 1, n
-            self%place(1, k) = self%known(1, k) + shift(1)
-            self%place(2, k) = self%known(2, k) + shift(2)
-         end do
-         fits = .true.
-         return
-      end if
-      self%changes = self%changes + changes
-      if (changes <= worth_changing*n .and. self%changes <= most_changes) call adapt(self, operator, p, n, shift, fits)
-      if (.not. fits) call renew(self, operator, p, n, fits)
-      if (.not. fits) return
-      do k = 1, n
-         self%known(1, k) = self%place(1, k)
-         self%known(2, k) = self%place(2, k)
+      do k = 1, self%n
+         self%place(1, k) = self%known(1, k) + shift(1)
+         self%place(2, k) = self%known(2, k) + shift(2)
       end do
+      fits = changes == 0
+      if (fits) return
+      if (changes <= worth_changing*n) call adapt(self, operator, p, n, fits)
+      if (.not. fits) call renew(self, operator, p, n, fits)
       self%box = box
    end subroutine fit
 
@@ -262,31 +268,71 @@ contains
    end subroutine put_in_order
 
    !> Remove elements that left the contact from the factor, and append new ones
-   subroutine adapt(self, operator, p, n, shift, fits)
+   subroutine adapt(self, operator, p, n, fits, h, pen)
+      !> With the positions of its elements in this window
       type(area_factor), intent(inout) :: self
       !> Operator whose table contains the coefficients
       class(compliance), intent(in) :: operator
       !> Pressures [N/mm2]
       real(wp), contiguous, intent(in) :: p(:, :)
-      !> Number of elements with pressure, and shift of `find_shift`
-      integer, intent(in) :: n, shift(2)
+      !> Number of elements with pressure
+      integer, intent(in) :: n
       !> Is the matrix positive definite? Otherwise there is no factor any more
       logical, intent(out) :: fits
+      !> Distance of the undeformed surfaces and approach [mm], for the right-hand side of new elements
+      real(wp), contiguous, intent(in), optional :: h(:, :)
+      real(wp), intent(in), optional :: pen
+      real(wp) :: sides(2)
       integer :: ix, iy, j, k
 
       fits = .true.
       do k = self%n, 1, -1
-         self%place(1, k) = self%known(1, k) + shift(1)
-         self%place(2, k) = self%known(2, k) + shift(2)
          if (in_contact(p, self%place(1, k), self%place(2, k))) cycle
-         call remove_row(self%n, k, most, self%lower, self%x)
+         call remove_row(self%n, k, most, self%lower, self%x, self%w)
+         self%changes = self%changes + 1
          self%n = self%n - 1
          do j = k, self%n
             self%place(1, j) = self%place(1, j + 1)
             self%place(2, j) = self%place(2, j + 1)
          end do
       end do
-      if (self%n == n) return
+      if (self%n < n) then
+         call mark_taken(self, p)
+         associate (table => operator%table, stride => size(operator%table%nn, 1))
+            self%at(:self%n) = self%place(1, :self%n) + stride*self%place(2, :self%n)
+            do iy = 1, size(p, 2)
+               do ix = 1, size(p, 1)
+                  if (.not. p(ix, iy) > 0.0_wp .or. self%taken(ix + size(p, 1)*(iy - 1))) cycle
+                  k = self%n + 1
+                  self%place(:, k) = [ix, iy]
+                  self%at(k) = ix + stride*iy
+                  call pick(size(table%nn), table%nn, own_place(table) + self%at(k), k, self%at, self%x)
+                  sides = [1.0_wp, 0.0_wp]
+                  if (present(h)) sides(2) = pen - h(ix, iy)
+                  fits = append_row(self%n, most, self%lower, self%x, self%w, sides) > 0
+                  if (.not. fits) then
+                     self%n = 0
+                     return
+                  end if
+                  self%changes = self%changes + 1
+                  self%n = k
+               end do
+            end do
+         end associate
+      end if
+      do k = 1, n
+         self%known(1, k) = self%place(1, k)
+         self%known(2, k) = self%place(2, k)
+      end do
+   end subroutine adapt
+
+   !> Mark the elements of the window that are in the factor
+   subroutine mark_taken(self, p)
+      type(area_factor), intent(inout) :: self
+      !> Pressures [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      integer :: k
+
       if (allocated(self%taken)) then
          if (size(self%taken) < size(p)) deallocate(self%taken)
       end if
@@ -295,25 +341,7 @@ contains
       do k = 1, self%n
          self%taken(self%place(1, k) + size(p, 1)*(self%place(2, k) - 1)) = .true.
       end do
-      associate (table => operator%table, stride => size(operator%table%nn, 1))
-         self%at(:self%n) = self%place(1, :self%n) + stride*self%place(2, :self%n)
-         do iy = 1, size(p, 2)
-            do ix = 1, size(p, 1)
-               if (.not. p(ix, iy) > 0.0_wp .or. self%taken(ix + size(p, 1)*(iy - 1))) cycle
-               k = self%n + 1
-               self%place(:, k) = [ix, iy]
-               self%at(k) = ix + stride*iy
-               call pick(size(table%nn), table%nn, own_place(table) + self%at(k), k, self%at, self%x)
-               fits = append_row(self%n, most, self%lower, self%x) > 0
-               if (.not. fits) then
-                  self%n = 0
-                  return
-               end if
-               self%n = k
-            end do
-         end do
-      end associate
-   end subroutine adapt
+   end subroutine mark_taken
 
    !> Compute the factor of the elements with pressure
    subroutine renew(self, operator, p, n, fits)
@@ -338,6 +366,13 @@ contains
       fits = factorize(n, most, self%lower, self%x) > 0
       self%n = merge(n, 0, fits)
       self%changes = 0
+      if (.not. fits) return
+      self%w(:n, 1) = 1.0_wp
+      call solve_forward(n, most, self%lower, self%w(:, 1))
+      do k = 1, n
+         self%known(1, k) = self%place(1, k)
+         self%known(2, k) = self%place(2, k)
+      end do
    end subroutine renew
 
    !> Position of an element on itself in a table of coefficients as a vector, for a sum of positions of two elements
@@ -372,6 +407,21 @@ contains
       call solve_backward(self%n, most, self%lower, self%x)
    end subroutine substitute
 
+   !> Are all elements of the factor, at their last positions, in contact?
+   pure logical function is_area(self, p)
+      class(area_factor), intent(in) :: self
+      !> Pressures [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      integer :: k
+
+      is_area = .true.
+      do k = 1, self%n
+         if (in_contact(p, self%place(1, k), self%place(2, k))) cycle
+         is_area = .false.
+         return
+      end do
+   end function is_area
+
    !> Derivative of the pressures with respect to the approach for a fixed area, if the factor is that of the area
    subroutine pressure_derivative(self, operator, p, q, found)
       class(area_factor), intent(inout) :: self
@@ -389,10 +439,13 @@ contains
       if (self%n == 0 .or. .not. is_plain(operator)) return
       call area_box(size(p, 1), size(p, 2), p, n, box)
       if (n /= self%n) return
-      call self%fit(operator, p, found)
-      if (.not. found) return
-      self%x(:self%n) = 1.0_wp
-      call self%substitute()
+      if (.not. is_area(self, p)) then
+         call self%fit(operator, p, found)
+         if (.not. found) return
+      end if
+      found = .true.
+      self%x(:self%n) = self%w(:self%n, 1)
+      call solve_backward(self%n, most, self%lower, self%x)
       q = 0.0_wp
       do k = 1, self%n
          q(self%place(1, k), self%place(2, k)) = self%x(k)

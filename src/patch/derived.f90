@@ -6,6 +6,7 @@ module contact_patch_derived
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, copy_states, element, set_states
    use contact_normal_conjugate_gradient, only : approach_scale
+   use contact_normal_few_elements, only : by_factor
    use contact_numeric_vectors, only : clear_numbers, copy_numbers
    use contact_patch_kinematics, only : rigid_slip
    use contact_patch_peak, only : largest_pressure
@@ -119,7 +120,11 @@ contains
       integer :: iy, ix
 
       area = problem%grid%dx*problem%grid%dy
-      box = contact_box(state%now%division)
+      if (allocated(problem%simplified) .and. problem%motion /= motion%none) then
+         box = workspace%touching
+      else
+         box = contact_box(state%now%division)
+      end if
       result%inorm = merge(result%normal%passes, -1, result%normal%succeeded())
       result%itang = merge(result%tangential%passes, -1, result%tangential%succeeded())
       call copy_states(size(result%division), state%now%division, result%division)
@@ -321,6 +326,11 @@ contains
       result%ux = workspace%simplified_solution%compliance(1)*result%px
       result%uy = workspace%simplified_solution%compliance(2)*result%py
       if (allocated(problem%given_pressure)) return
+      if (.not. problem%want_exterior .and. result%normal%method == by_factor) then
+         ! the equations of the elements in contact are satisfied to round-off
+         call close_gap(size(result%un), result%pen, result%h, result%pn, result%un)
+         return
+      end if
       if (.not. problem%want_exterior .and. result%ncon <= few_elements .and. workspace%sums%suits(problem%model)) then
          if (.not. allocated(workspace%sums)) allocate(workspace%sums)
          associate (grid => problem%grid)
@@ -334,6 +344,18 @@ contains
          where (result%division == element%exterior) result%un = 0.0_wp
       end if
    end subroutine spring_displacements
+
+   !> Displacements that close the gap where there is pressure
+   pure subroutine close_gap(n, pen, h, pn, un)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Approach and undeformed distance [mm], pressures [N/mm2]
+      real(wp), intent(in) :: pen, h(n), pn(n)
+      !> Displacement differences [mm]
+      real(wp), intent(inout) :: un(n)
+
+      un = merge(pen - h, 0.0_wp, pn > 0.0_wp)
+   end subroutine close_gap
 
    !> Store friction data that particles carry along, if later time steps depend on them
    subroutine remember_friction(problem, result, state)

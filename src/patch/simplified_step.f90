@@ -34,6 +34,7 @@ contains
       integer :: ix, iy
 
       box = contact_box(state%now%division)
+      workspace%touching = box
       if (box%ix0 > box%ix1) then
          call rigid_slip(problem, result)
          result%tangential%ended = ending%not_started

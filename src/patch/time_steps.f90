@@ -265,7 +265,7 @@ contains
       type(potential_contact), intent(in) :: grid
       integer, intent(in) :: kx, ky
       type(traction_fields) :: old
-      integer :: ix, iy, jx, jy
+      integer :: first, last, ix, iy, jy
 
       if (all(shape(fields%division) == [grid%mx, grid%my])) then
          fields%grid = grid
@@ -281,17 +281,21 @@ contains
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
       if (allocated(old%rate)) allocate(fields%rate(grid%mx, grid%my), source=0.0_wp)
-      do iy = 1, grid%my
+      first = max(1, 1 - kx)
+      last = min(grid%mx, old%grid%mx - kx)
+      do iy = max(1, 1 - ky), min(grid%my, old%grid%my - ky)
          jy = iy + ky
-         if (jy < 1 .or. jy > old%grid%my) cycle
-         do ix = 1, grid%mx
-            jx = ix + kx
-            if (jx < 1 .or. jx > old%grid%mx) cycle
-            fields%division(ix, iy) = old%division(jx, jy)
-            fields%pn(ix, iy) = old%pn(jx, jy)
-            fields%px(ix, iy) = old%px(jx, jy)
-            fields%py(ix, iy) = old%py(jx, jy)
-            if (allocated(fields%rate)) fields%rate(ix, iy) = old%rate(jx, jy)
+         do ix = first, last
+            fields%division(ix, iy) = old%division(ix + kx, jy)
+         end do
+         do ix = first, last
+            fields%pn(ix, iy) = old%pn(ix + kx, jy)
+            fields%px(ix, iy) = old%px(ix + kx, jy)
+            fields%py(ix, iy) = old%py(ix + kx, jy)
+         end do
+         if (.not. allocated(fields%rate)) cycle
+         do ix = first, last
+            fields%rate(ix, iy) = old%rate(ix + kx, jy)
          end do
       end do
    end subroutine move_window

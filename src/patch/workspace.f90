@@ -52,6 +52,8 @@ module contact_patch_workspace
       !> The tangential problem and its solution in simplified theory
       type(simplified_problem) :: simplified
       type(simplified_solution) :: simplified_solution
+      !> Box around the contact area of its last solution
+      type(bounding_box) :: touching
       !> Displacements at the previous time [mm], shape (mx, my, 2)
       real(wp), allocatable :: old_displacement(:, :, :)
       !> For the leading-edge correction: displacements at the elements by the previous tractions [mm], shape (mx, my, 2)

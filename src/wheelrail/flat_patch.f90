@@ -206,8 +206,17 @@ contains
          end do
       end if
       approach = -smallest_of(size(h), h)
-      h = h + approach
+      call raise(size(h), approach, h)
    end subroutine shift_distance
+
+   !> Add a number to contiguous ones
+   pure subroutine raise(n, by, values)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: by
+      real(wp), intent(inout) :: values(n)
+
+      values = values + by
+   end subroutine raise
 
    !> Do both bodies exist in all elements, and does the gap change by less than a limit from each row to the next?
    pure logical function falls_slowly(h, limit)

@@ -212,6 +212,10 @@ contains
       i = 1
       do while (i <= n)
          ! most points are neither in contact nor a minimum
+         do while (i > 1 .and. i < n)
+            if (.not. (g(i) >= 0.0_wp .and. (g(i) > g(i - 1) .or. g(i) >= g(i + 1)))) exit
+            i = i + 1
+         end do
          if (g(i) >= 0.0_wp) then
             if (g(i) > g(max(1, i - 1)) .or. g(i) >= g(min(n, i + 1))) then
                i = i + 1

@@ -26,8 +26,9 @@ typedef struct {
   void (*forward)(int, int, const double *, double *);
   void (*backward)(int, int, const double *, double *);
   int (*factorize)(int, int, double *, double *);
-  void (*remove)(int, int, int, double *, double *);
-  int (*append)(int, int, double *, double *);
+  void (*remove)(int, int, int, double *, double *, double *);
+  int (*append)(int, int, double *, double *, double *, const double *);
+  double (*violation)(int, double, const double *, const double *, const double *);
   int (*box)(int, int, const double *, int *);
   void (*displace)(int, int, const int *, const double *, int, const double *, double *);
   int (*meet)(int, const double *, const double *, const double *, double, const double *, const double *, const double *, double, double,
@@ -36,7 +37,7 @@ typedef struct {
 } loops;
 
 static const loops anywhere = {forward_anywhere, backward_anywhere, factorize_anywhere, remove_anywhere, append_anywhere,
-                               box_anywhere,     displace_anywhere, meet_anywhere,      spread_anywhere};
+                               violation_anywhere, box_anywhere, displace_anywhere, meet_anywhere, spread_anywhere};
 
 /* Largest difference of the product of a factor with its transpose from the matrix of some of the rows */
 static double miss(const double *factor, int n, double matrix[LARGEST][LARGEST], const int *rows) {
@@ -55,9 +56,11 @@ static double miss(const double *factor, int n, double matrix[LARGEST][LARGEST],
 static void try_factor(const loops *kind, int n, double *factor, double *x) {
   static double matrix[LARGEST][LARGEST], row[LARGEST], b[LARGEST];
   static int rows[LARGEST];
+  static double sides[LARGEST][2], w[2 * STRIDE];
   double worst = 0.0;
   srand((unsigned)n);
   for (int i = 0; i < STRIDE * LARGEST; i++) factor[i] = NAN;
+  for (int i = 0; i < 2 * LARGEST; i++) sides[i / 2][i % 2] = any_number();
   for (int i = 0; i < n; i++) {
     rows[i] = i;
     for (int j = 0; j <= i; j++) {
@@ -67,21 +70,32 @@ static void try_factor(const loops *kind, int n, double *factor, double *x) {
   }
   check(kind->factorize(n, STRIDE, factor, row), "a positive definite matrix has a factor", n);
   check(miss(factor, n, matrix, rows) <= 1e-13 * (n + 1), "the product of the factors is the matrix", n);
+  for (int r = 0; r < 2; r++) {
+    for (int i = 0; i < n; i++) w[r * STRIDE + i] = sides[i][r];
+    kind->forward(n, STRIDE, factor, w + r * STRIDE);
+  }
   for (int round = 0; round < 3; round++) {
     /* the first, the last and some other row */
     const int removed = round == 0 ? 0 : round == 1 ? n - 1 : rand() % n, again = rows[removed];
-    kind->remove(n, removed, STRIDE, factor, row);
+    kind->remove(n, removed, STRIDE, factor, row, w);
     memmove(rows + removed, rows + removed + 1, sizeof(int) * (size_t)(n - 1 - removed));
     check(miss(factor, n - 1, matrix, rows) <= 1e-13 * (n + 1), "the factor without a row is that of the other ones", n);
     rows[n - 1] = again;
     for (int i = 0; i < n; i++) row[i] = matrix[again][rows[i]];
-    check(kind->append(n - 1, STRIDE, factor, row), "a row can be appended", n);
+    check(kind->append(n - 1, STRIDE, factor, row, w, sides[again]), "a row can be appended", n);
     check(miss(factor, n, matrix, rows) <= 1e-13 * (n + 1), "the factor with this row is that of all rows", n);
+    for (int i = 0; i < n; i++)
+      for (int r = 0; r < 2; r++) {
+        double sum = -sides[rows[i]][r];
+        for (int k = 0; k <= i; k++) sum += factor[i + STRIDE * k] * w[r * STRIDE + k];
+        worst = fmax(worst, fabs(sum));
+      }
+    check(worst <= 1e-13 * (n + 1), "the solutions follow the factor", n);
   }
   for (int i = 0; i < n; i++) row[i] = matrix[rows[0]][rows[i]];
   if (n < LARGEST) {
     row[n] = matrix[rows[0]][rows[0]] - 1.0;
-    check(!kind->append(n, STRIDE, factor, row), "no row is appended that makes the matrix indefinite", n);
+    check(!kind->append(n, STRIDE, factor, row, w, sides[0]), "no row is appended that makes the matrix indefinite", n);
   }
   for (int i = 0; i < n; i++) x[i] = b[i] = any_number();
   x[n] = 7.0;
@@ -122,6 +136,22 @@ static void try_box(const loops *kind, int mx, int my) {
   }
   check(kind->box(mx, my, p, box) == n, "positive numbers are counted", mx);
   check(box[0] == first[0] && box[1] == last[0] && box[2] == first[1] && box[3] == last[1], "they are in the window", mx);
+}
+
+/* Violations of the contact conditions; displacements that must not be used are not numbers */
+static void try_violation(const loops *kind, int n) {
+  static double h[SIDE * SIDE], u[SIDE * SIDE], p[SIDE * SIDE];
+  double worst = 0.0;
+  srand((unsigned)n);
+  for (int k = 0; k < n; k++) {
+    h[k] = any_number();
+    p[k] = rand() % 3 == 0 ? 1.0 + any_number() : 0.0;
+    u[k] = p[k] > 0.0 || h[k] < 0.3 ? any_number() : NAN;
+    const double r = 0.3 - h[k] - u[k];
+    if (p[k] > 0.0) worst = fmax(worst, fabs(r));
+    else if (h[k] < 0.3) worst = fmax(worst, r);
+  }
+  check(kind->violation(n, 0.3, h, u, p) == worst, "the largest violation is found", n);
 }
 
 /* Displacements in a window of mx by my elements with random ranges */
@@ -237,6 +267,7 @@ static int try_all(const loops *kind, double *results) {
   for (int mx = 1; mx <= SIDE; mx += 2)
     for (int my = 1; my <= SIDE; my += 7) {
       try_box(kind, mx, my);
+      try_violation(kind, mx * my);
       try_sums(kind, mx, my, u);
       memcpy(results + total, u, sizeof(double) * (size_t)(mx * my));
       total += mx * my;
@@ -257,7 +288,7 @@ int main(void) {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx2")) {
     const loops avx2 = {forward_avx2, backward_avx2,  factorize_avx2, remove_avx2, append_avx2,
-                        box_avx2,     displace_avx2, meet_avx2,      spread_avx2};
+                        violation_avx2, box_avx2, displace_avx2, meet_avx2, spread_avx2};
     try_all(&avx2, results[1]);
     check(!memcmp(results[0], results[1], sizeof(double) * (size_t)total), "both kinds give identical digits", total);
   }
