@@ -53,7 +53,7 @@ contains
          end if
       end associate
       call write_case_line(log, problem)
-      call check_settings(digits, problem%spec, error)
+      call check_settings(digits, problem%spec, problem%known_digits, error)
       if (allocated(error)) return
       call dump_wheel_rail_case(this, problem)
       call find_working_folder(problem%work_folder)
@@ -150,24 +150,32 @@ contains
    end subroutine write_case_line
 
    !> Refuse digits and combinations that cannot be solved, naming them
-   subroutine check_settings(digits, spec, error)
+   subroutine check_settings(digits, spec, known, error)
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
+      !> The last digits whose values are all known, as a list; unallocated before there are any
+      integer, allocatable, intent(inout) :: known(:)
       type(error_type), allocatable, intent(out) :: error
       type(problem_list) :: problems
       type(control_words) :: words
       type(file_reader) :: nowhere
       character(len=len(digit_names)) :: name
       integer :: k, digit
+      logical :: is_same
 
-      do k = 1, size(digit_names)
-         name = digit_names(k)
-         digit = digit_value(digits, name)
-         if (.not. is_known(name, digit, 1)) then
-            call fatal_error(error, trim(name) // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
-            return
-         end if
-      end do
+      is_same = allocated(known)
+      if (is_same) is_same = all(known == transfer(digits, known))
+      if (.not. is_same) then
+         do k = 1, size(digit_names)
+            name = digit_names(k)
+            digit = digit_value(digits, name)
+            if (.not. is_known(name, digit, 1)) then
+               call fatal_error(error, trim(name) // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
+               return
+            end if
+         end do
+         known = transfer(digits, [0])
+      end if
       if (spec%wheel_rail%roller .and. .not. spec%wheel_rail%track%nomradr > 0.0_wp) then
          call fatal_error(error, "a wheel on a roller needs the nominal radius of the roller")
       else if (.not. (spec%wheel_rail%search%dx > 0.0_wp .and. spec%wheel_rail%search%ds > 0.0_wp)) then

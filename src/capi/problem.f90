@@ -101,6 +101,8 @@ module contact_capi_problem
       !> Subsurface points private to patches of module 1
       type(private_blocks) :: blocks(max_patches)
       type(case_metadata) :: metadata
+      !> Digits of the last case of wheel and rail whose values are all known, as a list; unallocated before there are any
+      integer, allocatable :: known_digits(:)
       !> Write input files of the cases: 0 no, 1 digits as given, 2 complete cases
       integer :: write_input = 0
       !> Time of calculations since the last reset; by patch in module 1

@@ -13,6 +13,7 @@ TARGET static inline __attribute__((always_inline)) void OF(some)(const int grou
   }
   for (int l = 0; l < my; l++) {
     const double *row = own + (long)(l > iy ? l - iy : iy - l) * stride, *here = p + (long)l * mx;
+#pragma GCC unroll 2
     for (int k = ranges[4 * l]; k < ranges[4 * l + 1]; k++)
       for (int g = 0; g < groups; g++) sum[g] += here[k] * READ_FOUR(row + at[g] - k);
   }

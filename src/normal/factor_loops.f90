@@ -78,8 +78,9 @@ module contact_normal_factor_loops
          real(c_double), intent(inout) :: a(stride, n + 1)
          !> Row of the matrix, the last number on its diagonal; overwritten
          real(c_double), intent(inout) :: row(n + 1)
-         !> Two solutions of L w = b, which become those with this row; its right-hand sides
+         !> Two solutions of L w = b, which become those with this row
          real(c_double), intent(inout) :: w(stride, 2)
+         !> Right-hand sides of this row
          real(c_double), intent(in) :: b(2)
       end function append_row
 

@@ -423,22 +423,22 @@ contains
    end function is_area
 
    !> Derivative of the pressures with respect to the approach for a fixed area, if the factor is that of the area
-   subroutine pressure_derivative(self, operator, p, q, found)
+   subroutine pressure_derivative(self, operator, p, n, q, found)
       class(area_factor), intent(inout) :: self
       !> Prepared for the window
       class(compliance), intent(in) :: operator
       !> Pressures of the last solution [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
+      !> Number of elements with pressure
+      integer, intent(in) :: n
       !> Derivative [N/mm3], shape (mx, my); zero outside the area
       real(wp), contiguous, intent(inout) :: q(:, :)
       !> Was the factor suitable? Otherwise q is unchanged
       logical, intent(out) :: found
-      integer :: n, box(2, 2), k
+      integer :: k
 
       found = .false.
-      if (self%n == 0 .or. .not. is_plain(operator)) return
-      call area_box(size(p, 1), size(p, 2), p, n, box)
-      if (n /= self%n) return
+      if (self%n == 0 .or. n /= self%n .or. .not. is_plain(operator)) return
       if (.not. is_area(self, p)) then
          call self%fit(operator, p, found)
          if (.not. found) return

@@ -39,7 +39,7 @@ module contact_normal_hertz
       real(wp) :: aob = 1.0_wp
       !> Effective radius of curvature 2/(a1 + b1) [mm], effective semi-axis [mm]
       real(wp) :: rho = 0.0_wp, cp = 0.0_wp
-      !> Derivative of the logarithm of the ratio of curvatures with respect to that of the ratio of semi-axes [-]; 0 if not computed
+      !> Derivative of the logarithm of the ratio of curvatures with respect to that of the ratio of semi-axes [-]; 0 if unknown
       real(wp) :: slope = 0.0_wp
       !> Normal force [N] and approach [mm]; the approach of a line contact is undefined and set to 0
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp

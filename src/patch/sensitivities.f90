@@ -113,7 +113,7 @@ contains
       reached = 0.0_wp
       is_found = .false.
       if (problem%follows_approach .and. .not. allocated(problem%parts)) &
-         & call solver%factor%pressure_derivative(operator, result%pn, q, is_found)
+         & call solver%factor%pressure_derivative(operator, result%pn, result%ncon, q, is_found)
       tolerance = problem%epsens
       if (has_estimate) tolerance = max(tolerance, rough)
       if (.not. is_found .and. solver%near_window%mx > 0) then

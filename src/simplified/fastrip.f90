@@ -37,8 +37,10 @@ contains
    pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division, scratch)
       !> Ellipse, material, force and creepages for strip theory
       type(strip_data), intent(in) :: data
-      !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
-      real(wp), intent(in) :: x(:), y(:), dx
+      !> Centres of the columns and rows [mm], shapes (mx) and (my)
+      real(wp), contiguous, intent(in) :: x(:), y(:)
+      !> Width of the elements [mm]
+      real(wp), intent(in) :: dx
       !> Coefficient of friction of each row [-], shape (my)
       real(wp), intent(in) :: mu(:)
       !> Elements in contact, shape (mx, my)

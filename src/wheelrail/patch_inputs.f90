@@ -271,12 +271,13 @@ contains
       !> Undeformed distance with its minimum at zero, and maximum interpenetration [mm]; changed if elements are excluded
       real(wp), intent(inout) :: h(:, :), approach
       !> Do a column and a row of elements belong to this patch?
-      logical :: column(slot%problem%grid%mx), row(slot%problem%grid%my)
+      logical, allocatable :: column(:), row(:)
       real(wp) :: s(2), x, lowest
       integer :: ix, iy, side
 
       associate (region => slot%region, plane => slot%plane, grid => slot%problem%grid, far => huge(1.0_wp))
          if (all(abs([region%middle_x, region%middle_yz(1, :)]) >= far)) return
+         allocate(column(grid%mx), row(grid%my))
          s = [-far, far]
          do side = 1, 2
             if (abs(region%middle_yz(1, side)) >= far) cycle
