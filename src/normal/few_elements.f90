@@ -175,16 +175,13 @@ contains
       !> Is the number of elements within the limits?
       logical, intent(out) :: fits
       integer :: box(2, 2), shift(2), n, changes, k
-      logical :: is_for_others
 
       fits = .false.
       call area_box(size(p, 1), size(p, 2), p, n, box)
       if (n > most .or. n < least) return
       if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most), &
          & self%at(most), self%w(most, 2))
-      is_for_others = abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp
-      if (.not. is_for_others) is_for_others = .not. self%model%same_as(operator%model)
-      if (is_for_others .or. self%changes > most_changes) then
+      if (.not. is_for(self, operator) .or. self%changes > most_changes) then
          self%n = 0
          self%dx = operator%dx
          self%dy = operator%dy
@@ -201,6 +198,16 @@ contains
       if (.not. fits) call renew(self, operator, p, n, fits)
       self%box = box
    end subroutine fit
+
+   !> Is the factor that of these bodies and elements?
+   pure logical function is_for(self, operator)
+      class(area_factor), intent(in) :: self
+      !> Operator with the sides of elements and the bodies
+      class(compliance), intent(in) :: operator
+
+      is_for = .not. (abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp)
+      if (is_for) is_for = self%model%same_as(operator%model)
+   end function is_for
 
    !> Position of the elements of the factor in this window: as in its own, or relative to the first or the last ones of the area
    pure subroutine find_shift(self, p, n, box, shift, changes)
@@ -439,7 +446,7 @@ contains
 
       found = .false.
       if (self%n == 0 .or. n /= self%n .or. .not. is_plain(operator)) return
-      if (.not. is_area(self, p)) then
+      if (.not. (is_for(self, operator) .and. is_area(self, p))) then
          call self%fit(operator, p, found)
          if (.not. found) return
       end if

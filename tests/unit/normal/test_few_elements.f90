@@ -17,7 +17,9 @@ program test_few_elements
    real(wp), allocatable :: p(:, :)
    !> Number of small steps, and of those after which the kept factor is compared with a new one
    integer, parameter :: small_steps = 800, between = 50
-   real(wp) :: turn
+   !> Derivatives of the pressures for two materials [N/mm3], and the coefficient of an element on itself for the first one
+   real(wp), allocatable :: stiffer(:, :), softer(:, :)
+   real(wp) :: turn, own
    integer :: k, by_factor
 
    call suite%start("contacts of few elements")
@@ -37,7 +39,13 @@ program test_few_elements
          & mod(k, between) == 0)
    end do
    ! another material needs another factorisation
+   call differentiate(stiffer)
    model%material = combine([0.28_wp, 0.28_wp], [41000.0_wp, 82000.0_wp])
+   own = operator%table%nn(0, 0)
+   call operator%prepare(model, side, side, size(p, 1), size(p, 2), 1)
+   call differentiate(softer)
+   call suite%close_to(reshape(softer*operator%table%nn(0, 0), [size(p)]), reshape(stiffer*own, [size(p)]), &
+      & 1.0e-10_wp*maxval(stiffer*own), "derivatives for the present material")
    call solve(17, 15, 8.3_wp, 7.6_wp, 0.02_wp)
    call release_normal(workspace)
    call operator%release()
@@ -77,6 +85,17 @@ contains
          & "pressures by a changed factor and by a new one")
       call release_normal(fresh)
    end subroutine follow
+
+   !> Derivative of the last pressures by the kept factor
+   subroutine differentiate(q)
+      !> [N/mm3]
+      real(wp), allocatable, intent(out) :: q(:, :)
+      logical :: found
+
+      allocate(q, mold=p)
+      call workspace%factor%pressure_derivative(operator, p, count(p > 0.0_wp), q, found)
+      call suite%check(found, "the factor gives the derivative")
+   end subroutine differentiate
 
    !> Paraboloid over a window
    subroutine describe(mx, my, x, y, problem)
