@@ -22,6 +22,8 @@ module contact_patch_peak_errors
    !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
    !> K times n^-2; of the hard cases
    real(wp), parameter :: coupled_floor = 4.0_wp
+   !> Where tractions of unlike bodies bend at the peak, pressures rise within elements: K times the bend of the tractions times this
+   real(wp), parameter :: coupled_bend = 1.0_wp/pi
    !> A peak whose second difference exceeds this multiple of that of a smooth one is not resolved: its error is this fraction of
    !> the excess; chosen with the hard cases of tests/stability
    real(wp), parameter :: usual_bend = 3.0_wp, unresolved = 0.15_wp
@@ -84,7 +86,8 @@ contains
       floor = peak_floor*max(1.0_wp/scale%across**2, bend/smooth_bend)
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
-      floor = max(floor, coupled_floor*scale%coupling/scale%across**2)
+      if (scale%coupling > 0.0_wp) floor = max(floor, coupled_floor*scale%coupling/scale%across**2, &
+         & coupled_bend*scale%coupling*bend_of_tractions(result, at)/result%pmax)
       if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
       e = max(e, floor, unresolved*cusp, rough_peak*max(0.0_wp, scale%roughness - usual_roughness)*scale%across, &
          & hidden_peak(problem, result)/result%pmax - 1.0_wp)
@@ -93,6 +96,28 @@ contains
       end if
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
+
+   !> Largest second differences of the tractions along their own direction, at an element and next to it: sum of both directions
+   !> [N/mm2]
+   pure real(wp) function bend_of_tractions(result, at) result(bend)
+      type(patch_result), intent(in) :: result
+      !> Column and row of the element
+      integer, intent(in) :: at(2)
+      real(wp) :: along, across
+      integer :: ix, iy
+
+      along = 0.0_wp
+      across = 0.0_wp
+      associate (px => result%px, py => result%py, mx => size(result%pn, 1), my => size(result%pn, 2))
+         do iy = max(1, at(2) - 1), min(my, at(2) + 1)
+            do ix = max(1, at(1) - 1), min(mx, at(1) + 1)
+               if (ix > 1 .and. ix < mx) along = max(along, abs(px(ix - 1, iy) - 2.0_wp*px(ix, iy) + px(ix + 1, iy)))
+               if (iy > 1 .and. iy < my) across = max(across, abs(py(ix, iy - 1) - 2.0_wp*py(ix, iy) + py(ix, iy + 1)))
+            end do
+         end do
+      end associate
+      bend = along + across
+   end function bend_of_tractions
 
    !> Largest pressure that peaks of few elements may have by their load, and by their load and the curvature of the undeformed
    !> distance; at least the highest one of the elements [N/mm2]

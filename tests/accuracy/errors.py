@@ -50,6 +50,8 @@ SIGNED_BOUNDS = {"elastic_energy": (0.3, 15.0, 0.8), "max_mises": (0.2, 5.0, 0.9
 #: Wheels whose largest pressure is at the edge of a profile section, or in a second strip of one element, by the first order:
 #: seeds, counts, numbers of the wheels, and bounds against the rms over sizes of the elements
 PEAK_WHEELS = ((90101, 30, (7, 11, 17, 22)), (98001, 100, (84,)))
+#: Dissimilar bodies whose tractions bend at the largest pressure: seed, count, numbers of the contacts among all kinds
+PEAK_SEED, PEAK_COUNT, PEAK_CONTACTS = 99501, 400, (88, 232, 340)
 PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 #: Sliding wheels with errors of forces down to 1e-5, by the first order: seeds, counts, numbers, bounds against the same rms
 SLIDING_WHEELS = ((62001, 30, (0, 2, 10, 16, 18, 23, 29)),)
@@ -364,7 +366,9 @@ def main():
         asked.kinds, asked.order = "unlike,extreme,warm,steps", ("--order", "2")
     elif asked.check == "wheels":
         asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
-    elif asked.check in ("peaks", "sliding"):
+    elif asked.check == "peaks":
+        asked.count, asked.seed, asked.sizes, asked.places = PEAK_COUNT, PEAK_SEED, "16,30", len(WHEEL_PLACES)
+    elif asked.check == "sliding":
         asked.count, asked.places = 0, len(WHEEL_PLACES)
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
@@ -388,7 +392,8 @@ def main():
         return
     with tempfile.TemporaryDirectory() as name:
         program = os.environ["CONTACT_PROGRAM"]
-        only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS}.get(asked.check, ())
+        only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS,
+                "peaks": PEAK_CONTACTS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
         wheels = {"peaks": PEAK_WHEELS, "sliding": SLIDING_WHEELS}.get(asked.check, ((asked.seed, asked.wheels, ()),))
