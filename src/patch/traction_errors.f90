@@ -48,6 +48,8 @@ module contact_patch_traction_errors
    !> of forces, since a small change of a force near zero or near the bound needs a larger one of the creepage (seeds 31001, 31002
    !> and 31004)
    real(wp), parameter :: creepage_floor = 0.3_wp
+   !> Range of the part of the bound that is used, for the ratio of errors of creepages to those of forces
+   real(wp), parameter :: least_used = 0.05_wp, most_used = 0.99_wp
    !> General error of a single layer in rolling, whose slip has a length of its own: factor of n^-1 (seed 4001)
    real(wp), parameter :: layer_floor = 0.3_wp
    !> Elements that do not resolve the relaxation of viscoelastic bodies: factor of n^-1, by order (seeds 8101 and 8103; 31003)
@@ -112,10 +114,12 @@ contains
       if (is_force) e = max(e, other_component*part*scale%friction*unit)
       adhesion = scale%adhesion
       if (is_moment .and. scale%order > first_order) adhesion = max(least_adhesion, adhesion)
-      if (is_force .and. is_first(scale)) adhesion = max(adhesion, turned_share*scale%cancelled)
+      if ((is_force .or. scale%is_moment_alone) .and. is_first(scale)) adhesion = max(adhesion, turned_share*scale%cancelled)
       floor = driven_floor(scale, adhesion) + turning_floor*scale%turning/scale%mean_across**2
       if (scale%is_moment_alone .and. is_force) floor = floor*merge(sqrt(min(1.0_wp, scale%used)), moment_alone, is_first(scale))
       if (is_moment .and. is_first(scale)) floor = max(floor, displaced*sqrt(scale%sticking)*scale%arm)
+      if (scale%is_moment_alone .and. .not. is_force .and. is_first(scale)) &
+         & floor = floor*max(1.0_wp, change_of_creepage(scale%used))
       if (.not. is_force .and. scale%jumps) floor = floor + creepage_floor*sqrt(scale%adhesion)/scale%mean_across**2
       if (scale%jumps) then
          e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))
@@ -128,6 +132,17 @@ contains
       if (scale%is_line .and. scale%order < normal_order) floor = max(floor, &
          & merge(line_floor(2), line_floor(1), scale%order > first_order)/scale%across**2)
    end subroutine bound_friction
+
+   !> Relative change of the creepage per change of the force over the friction bound, by the theory of Vermeulen and Johnson: the
+   !> creepage is proportional to 1 - (1 - u)^(1/3)
+   pure real(wp) function change_of_creepage(used) result(ratio)
+      !> Part u of the friction bound that is used
+      real(wp), intent(in) :: used
+      real(wp) :: root
+
+      root = (1.0_wp - min(max(used, least_used), most_used))**(1.0_wp/3.0_wp)
+      ratio = 1.0_wp/(3.0_wp*root**2*(1.0_wp - root))
+   end function change_of_creepage
 
    !> Error of a force or moment in full sliding of like elastic bodies in steady rolling by the first order, and its lower bound
    pure subroutine bound_sliding(row, unit, scale, e, floor)
