@@ -22,7 +22,7 @@ module contact_patch_peak_errors
    !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
    !> K times n^-2; of the hard cases
    real(wp), parameter :: coupled_floor = 4.0_wp
-   !> Where tractions of unlike bodies bend at the peak, pressures rise within elements: K times the bend of the tractions times this
+   !> Where tractions of unlike bodies bend at the peak, pressures rise within elements: factor of K times the bend
    real(wp), parameter :: coupled_bend = 1.0_wp/pi
    !> A peak whose second difference exceeds this multiple of that of a smooth one is not resolved: its error is this fraction of
    !> the excess; chosen with the hard cases of tests/stability

@@ -401,7 +401,8 @@ def main():
                 if asked.count else [])
         if asked.check in ADDED:
             seed, numbers, order = ADDED[asked.check]
-            rows += judge(program, seed, ACCEPTANCE[0], list(CHANGES), limits, Path(name), ("--order", order), asked.places, numbers)
+            rows += judge(program, seed, ACCEPTANCE[0], list(CHANGES), limits, Path(name), ("--order", order), asked.places,
+                          numbers)
         wheels = {"peaks": PEAK_WHEELS, "sliding": SLIDING_WHEELS}.get(asked.check, ((asked.seed, asked.wheels, ()),))
         for seed, count, numbers in wheels:
             rows += judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers) if count else []
