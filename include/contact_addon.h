@@ -120,7 +120,8 @@ void cntc_settimestep(const int *ire, const int *icp, const double *dt);
 /* Set rolling direction and step.
  *   chi: rolling direction [A], basic contact
  *   dq: rolling step: in basic contact [L], default 2 mm; for wheel and rail relative to the
- *       element size [-] */
+ *       element size [-]. Calculations leave it, cntc_getparameters returns the step that was
+ *       used */
 void cntc_setrollingstepsize(const int *ire, const int *icp, const double *chi, const double *dq);
 
 /* Set the friction law, imeth = 10 V + L.

@@ -122,8 +122,8 @@ contains
          call fatal_error(error, "there are no friction data")
       else if (problem%has_result) then
          code = library_code%discretisation
-         ! without patches there is nothing to continue
-         if (size(problem%wheel_rail_result%patches) == 0) return
+         ! a new sequence, P = 2, continues nothing; nor does a case after one without patches
+         if (problem%digits%p == 2 .or. size(problem%wheel_rail_result%patches) == 0) return
          call describe_search(problem%motion(), problem%spec%wheel_rail%search, problem%wheel_rail%problem%spec%search, text)
          if (allocated(text)) call fatal_error(error, text)
       end if

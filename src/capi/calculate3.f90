@@ -75,7 +75,7 @@ contains
          ! the effective rolling direction and step are written
          solved = problem%spec
          if (allocated(problem%solved)) solved = problem%solved
-         solved%rolling = problem%stored%rolling
+         solved%rolling = problem%stored%acting
          call write_results(this, problem, solved, log)
          call dump_contact_case(problem, solved)
       else
@@ -161,17 +161,16 @@ contains
       type(library_problem), intent(inout) :: problem
 
       associate (result => problem%result, kinematics => problem%stored%kinematics, &
-         & rolling => problem%stored%rolling)
+         & acting => problem%stored%acting)
          ! prescribed values are kept, even if they were not reached
          if (problem%spec%normal == normal_control%force) then
             kinematics%pen = result%pen
          else
             kinematics%fn = result%fn
          end if
-         rolling%chi = result%chi
-         ! a layer replaces the step of transient rolling by that of one element, for its own case only
-         if (problem%spec%motion /= motion%transient_rolling) rolling%dq = result%dq
-         rolling%veloc = result%veloc
+         acting%chi = result%chi
+         acting%dq = result%dq
+         acting%veloc = result%veloc
          if (problem%spec%motion == motion%none) return
          if (problem%spec%force < force_control%fx_and_ceta) kinematics%fx = result%fx_rel
          if (problem%spec%force < force_control%fx_and_fy) kinematics%fy = result%fy_rel

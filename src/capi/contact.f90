@@ -194,7 +194,9 @@ contains
 
       ! by the published interface, the velocity has no sign
       associate (value => raised(abs(a%numbers(1)%v)*inward(problem%units, quantity%velocity), min_velocity))
-         if (fits(a%call_of, "VELOC", value)) problem%stored%rolling%veloc = value(1)
+         if (.not. fits(a%call_of, "VELOC", value)) return
+         problem%stored%rolling%veloc = value(1)
+         problem%stored%acting%veloc = value(1)
       end associate
    end subroutine set_velocity
 end module contact_capi_contact

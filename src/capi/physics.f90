@@ -169,9 +169,14 @@ contains
             if (a%is_good .and. problem%digits%d == 1) problem%digits%d = digit_of("D", search%location, 1)
          end associate
       else
-         call a%real("CHI", problem%stored%rolling%chi)
-         call a%real("DQ", problem%stored%rolling%dq)
-         call a%end_line()
+         associate (rolling => problem%stored%rolling)
+            call a%real("CHI", rolling%chi)
+            call a%real("DQ", rolling%dq)
+            call a%end_line()
+            if (.not. a%is_good) return
+            problem%stored%acting%chi = rolling%chi
+            problem%stored%acting%dq = rolling%dq
+         end associate
       end if
    end subroutine set_rolling_step
 

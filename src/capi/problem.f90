@@ -49,7 +49,11 @@ module contact_capi_problem
    type :: stored_values
       !> Values of contact problems
       type(kinematics_spec) :: kinematics
+      !> Direction, step and velocity of rolling as set by the caller; a calculation leaves them
       type(rolling_spec) :: rolling
+      !> The same as used in the last calculation, or as set since then: what callers get and files contain. Shifts, steady rolling
+      !> and layers have a direction, step and velocity of their own
+      type(rolling_spec) :: acting
       !> Values of module 1
       type(wheelset_spec) :: wheelset
    end type stored_values
@@ -173,6 +177,7 @@ contains
          problem%stored%rolling%dq = 2.0_wp
          call open_contact(problem%problem_slot)
       end if
+      problem%stored%acting = problem%stored%rolling
    end function new_problem
 
    !> Free a problem with all its data

@@ -40,7 +40,7 @@ contains
       integer, intent(in) :: icp
       real(wp) :: list(6)
 
-      associate (units => problem%units, rolling => problem%stored%rolling, kinematics => problem%stored%kinematics)
+      associate (units => problem%units, rolling => problem%stored%acting, kinematics => problem%stored%kinematics)
          list(1:3) = [rolling%veloc, rolling%chi, rolling%dq]
          if (problem%module_number == 1) then
             associate (patch => problem%wheel_rail_result%patches(icp)%contact)

@@ -129,12 +129,6 @@ def set_grid(problem, value):
         problem.set_distance(lambda x, y: 0.01 * ((x / length) ** 2 + (y / width) ** 2))
 
 
-def set_motion(problem, value):
-    """Shifts and frictionless cases set the values of rolling to those of the program"""
-    problem.set_flags(ic_tang=value)
-    problem.set_rolling(1e4, 0.1)
-
-
 def set_load(problem, value):
     kind, number = value
     if kind == "force":
@@ -154,7 +148,8 @@ def set_kinematics(problem, value):
 
 #: The same for contacts of two bodies
 CONTACT = {
-    "motion": ((3, 3, 3, 0, 1, 2), set_motion),
+    "motion": ((3, 3, 3, 0, 1, 2), lambda problem, value: problem.set_flags(ic_tang=value)),
+    "rolling": (((1e4, 0.1), (3e4, 0.05), (1e4, 0.4)), lambda problem, value: problem.set_rolling(*value)),
     **COMMON,
     "influence": ((2, 2, 3), lambda problem, value: problem.set_flags(ic_inflcf=value)),
     "pressures": ((0, 0, 0, 1, 2, 5, 6), lambda problem, value: problem.set_flags(ic_bound=value)),
