@@ -117,7 +117,7 @@ contains
       !> First and last point on the fine mesh, whose first point is that of the coarse mesh; none is chosen on entry
       integer, intent(inout) :: first(:), last(:)
       real(wp) :: limit
-      integer :: ic, jc, j, nxc
+      integer :: ic, jc, j, nxc, beside
 
       nxc = size(xc)
       limit = min(min(minval(corner), minval(locus%gap)) + gap%depth + hidden, 0.5_wp*no_surface)
@@ -134,8 +134,10 @@ contains
       do j = 1, min(gap%n, locus%n)
          if (.not. locus%gap(j) < limit) cycle
          ic = nint((locus%x(j) - xc(1))*coarse/(xc(2) - xc(1))) + 1
-         first(j) = min(first(j), max(ic - coarse, 1))
-         last(j) = max(last(j), min(ic + coarse, (nxc - 1)*coarse + 1))
+         ! along the track the gap is a parabola, and a cell more is for what it neglects
+         beside = coarse + ceiling(sqrt((limit - locus%gap(j))/gap%kappa)*coarse/(xc(2) - xc(1)))
+         first(j) = min(first(j), max(ic - beside, 1))
+         last(j) = max(last(j), min(ic + beside, (nxc - 1)*coarse + 1))
       end do
    end subroutine choose_by_corners
 

@@ -189,11 +189,31 @@ def totals_of(result):
     return np.array(forces), names
 
 
+def is_another_equilibrium(result, table, state, bound):
+    """Does a new problem at the height that was found give its forces?
+
+    The vertical force falls with the height where two patches become one with approximate pressures (B = 5, 6), or a few large
+    elements: then two heights have the same vertical force, and a wheel stays near that of its previous call.
+    """
+    if "place" not in state or state["place"][-1] is not None:
+        return False
+    # a height holds until a vertical force is set
+    fresh = make(contact.WheelRail, table, {**state, "place": (*state["place"][:-1], result.totals()["z_ws"])})
+    at_height = solve(fresh)[0]
+    fresh.close()
+    if at_height is None:
+        return False
+    (forces, names), (right, right_names) = totals_of(result), totals_of(at_height)
+    met = abs(forces[2] - state["place"][-2]) <= 2.0 * EPS * state["place"][-2]
+    # the errors that are estimated differ: those of the force, or of the height
+    return met and np.abs(forces - right).max() < bound * np.abs(right).max() and len(names) == len(right_names)
+
+
 def change(kind, table, seed, changes, where):
     """One problem, of which a setting changes before each call"""
     dice = random.Random(seed)
     state = {name: values[0] if isinstance(values, tuple) else chosen(dice, values) for name, (values, _) in table.items()}
-    problem, past, refused = make(kind, table, state), [], 0
+    problem, past, refused, others = make(kind, table, state), [], 0, []
     for _ in range(changes):
         name = dice.choice(list(table))
         state[name] = chosen(dice, table[name][0])
@@ -207,18 +227,21 @@ def change(kind, table, seed, changes, where):
         if found is None or expected is None:
             refused += 1
             # refused combinations continue with the first values
-            for other in ("motion", "material", "pressures", "temperatures", "friction"):
-                state[other] = table[other][0][0]
-                table[other][1](problem, state[other])
+            for setting in ("motion", "material", "pressures", "temperatures", "friction"):
+                state[setting] = table[setting][0][0]
+                table[setting][1](problem, state[setting])
             continue
         (forces, names), (right, right_names) = totals_of(found), totals_of(expected)
         away = np.abs(forces - right).max() / max(np.abs(right).max(), 1e-300)
         # pressures and tractions are within EPS each; forces that friction limits follow its iteration
         bound = 1e-3 if state["friction"][0] else 4.0 * EPS
+        if (away >= bound or names != right_names) and is_another_equilibrium(found, table, state, bound):
+            others.append(label)
+            continue
         check(away < bound, f"{label}{away:.1e} away, {forces} in place of {right}")
         check(names == right_names, f"{label}totals {names} in place of {right_names}")
     problem.close()
-    return refused
+    return refused, others
 
 
 def searches():
@@ -240,18 +263,33 @@ def searches():
         check(away < 4.0 * EPS, f"D = {first}, {second}, {third}: {away:.1e} away")
 
 
-def steps_after_a_layer():
-    """Transient rolling with a layer takes steps of one element; without it the step that was set holds again"""
-    state = {name: values[0] if isinstance(values, tuple) else None for name, (values, _) in CONTACT.items()}
-    state.update(motion=2, grid=(33, 7, 1.4, 0.7, False), load=("force", 9000.0), kinematics=("creepages", 0.0007, 0.003, 0.0004))
-    problem = make(contact.Problem, CONTACT, {**state, "material": ("layer", ())})
-    solve(problem)
-    set_material(problem, "elastic", ())
-    fresh = make(contact.Problem, CONTACT, state)
-    (forces, _), (right, _) = totals_of(solve(problem)[0]), totals_of(solve(fresh)[0])
-    problem.close()
-    fresh.close()
-    check(np.abs(forces - right).max() < 4.0 * EPS * right[0], f"step after a layer: {forces} in place of {right}")
+def heights():
+    """A height that a search has found gives the force that it was searched for, and all searches the same place of contact
+
+    On the flange a contact with one row of elements is long: a search on a grid has to see all of it, at any distance of the bodies
+    at which the gap is computed.
+    """
+    place, worn = (6.9003708, 0.0024564779, 37.590152, 0.0010210906), "S1002_worn.prw"
+    for load in (10e3, 31895.683, 60e3):
+        places = []
+        for search in (2, 5, 6, 7):
+            state = {name: values[0] if isinstance(values, tuple) else None for name, (values, _) in WHEEL.items()}
+            state.update(wheel=worn, grid=(0.5, 2.0, 4.0), search=search, pressures=5, place=(*place, load, None))
+            found = solved_once(state)
+            at_height = solved_once({**state, "place": (*place, load, found.totals()["z_ws"])})
+            forces, right = totals_of(found)[0], totals_of(at_height)[0]
+            away = np.abs(forces - right).max() / np.abs(right).max()
+            check(away < 4.0 * EPS, f"D = {search}, {load} N: {away:.1e} away, {forces} in place of {right} at the height")
+            places.append(found.patches[0].totals()["xcp_tr"])
+        check(np.ptp(places) < 0.2, f"{load} N: contact at x = {places} mm with D = 2, 5, 6, 7")
+
+
+def solved_once(state):
+    """Result of a new wheel on a rail"""
+    wheel = make(contact.WheelRail, WHEEL, state)
+    result = solve(wheel)[0]
+    wheel.close()
+    return result
 
 
 def main():
@@ -260,12 +298,15 @@ def main():
         reader.add_argument(option, type=int, default=number)
     expected_names = reader.parse_args()
     searches()
-    steps_after_a_layer()
+    heights()
     for kind, table, count, where in ((contact.WheelRail, WHEEL, expected_names.wheels, "wheel"),
                                       (contact.Problem, CONTACT, expected_names.contacts, "contact")):
-        refused = sum(change(kind, table, expected_names.seed + number, expected_names.changes, where) for number in range(count))
-        print(f"{count} problems with {expected_names.changes} changes each, {where}: {refused} combinations are refused")
+        outcomes = [change(kind, table, expected_names.seed + number, expected_names.changes, where) for number in range(count)]
+        refused, others = sum(outcome[0] for outcome in outcomes), [label for outcome in outcomes for label in outcome[1]]
+        print(f"{count} problems with {expected_names.changes} changes each, {where}: {refused} combinations are refused, "
+              f"{len(others)} at another height with the same force", *others, sep="\n   ")
         check(refused < 0.5 * count * expected_names.changes or count == 0, f"{where}: most combinations are refused")
+        check(len(others) <= max(5, count * expected_names.changes // 500), f"{where}: {len(others)} at another height")
     sys.exit(failures > 0)
 
 
