@@ -23,7 +23,8 @@ module contact_wheelrail_variable
    !> Step of the coarse mesh in steps of the fine mesh, along the track and across it
    integer, parameter :: coarse = 8
    !> Gaps are computed on the fine mesh up to this value above the smallest one [mm]: the maximum penetration of most wheels.
-   !> Elsewhere they are interpolated, with errors of about a hundredth of a millimetre
+   !> Elsewhere they are those of the contact locus if the bodies are prismatic, otherwise interpolated, with errors of about a
+   !> hundredth of a millimetre on a tread
    real(wp), parameter :: min_depth = 0.2_wp
    !> Maximum decrease of the gap of prismatic bodies within a coarse cell, below its corners [mm]; larger decreases are found by
    !> the contact locus
@@ -97,7 +98,7 @@ contains
       last = last - (i - 1)
       allocate(table(size(gap%x_table), gap%n), source=no_surface)
       call fill(bodies, gap%x_table, gap%y, first, last, table)
-      call find_smallest(bodies, gap, table, first, last, xc, corner)
+      call find_smallest(bodies, gap, table, first, last, xc, corner, locus)
       where (last < first .and. gap%gap < no_surface) gap%gap = max(gap%gap, least)
       if (allocated(gap%table)) deallocate(gap%table)
       if (allocated(gap%unweighed)) deallocate(gap%unweighed)
@@ -316,7 +317,7 @@ contains
    end subroutine widen_rows
 
    !> Position and value of the smallest gap along the track at each lateral position, and height and inclination of the rail there
-   subroutine find_smallest(bodies, gap, table, first, last, xc, corner)
+   subroutine find_smallest(bodies, gap, table, first, last, xc, corner, locus)
       type(wheel_rail_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
       !> Gaps on the fine mesh [mm], shape (x, y), and first and last point in each row
@@ -324,6 +325,8 @@ contains
       integer, intent(in) :: first(:), last(:)
       !> Positions along the track and gaps of the coarse mesh [mm], shape (x, y), for rows without points
       real(wp), intent(in) :: xc(:), corner(:, :)
+      !> The same by the contact locus, for rows without points of prismatic bodies; no rows if the bodies vary
+      type(gap_curve), intent(in) :: locus
       type(frame) :: track, seen
       real(wp) :: place, wheel
       logical :: found
@@ -337,6 +340,10 @@ contains
       do j = 1, gap%n
          if (last(j) >= first(j)) then
             call smallest_in_row(gap%x_table(first(j):last(j)), table(first(j):last(j), j), gap%x(j), gap%gap(j))
+         else if (j <= locus%n) then
+            ! between corners the gap of a flank may be off by many millimetres
+            gap%x(j) = locus%x(j)
+            gap%gap(j) = locus%gap(j)
          else
             call smallest_between(xc, corner, real(j - 1, wp)/coarse, gap%x(j), gap%gap(j))
          end if

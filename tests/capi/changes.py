@@ -266,22 +266,24 @@ def searches():
 def heights():
     """A height that a search has found gives the force that it was searched for, and all searches the same place of contact
 
-    On the flange a contact with one row of elements is long: a search on a grid has to see all of it, at any distance of the bodies
-    at which the gap is computed.
+    On the flange, with few rows of elements, a search on a grid has to see the whole length of a contact, and the next row beyond
+    it, at any height at which the gap is computed.
     """
-    place, worn = (6.9003708, 0.0024564779, 37.590152, 0.0010210906), "S1002_worn.prw"
-    for load in (10e3, 31895.683, 60e3):
+    low, high = (6.9003708, 0.0024564779, 37.590152, 0.0010210906), (8.455554223941213, -0.002594497009012595, 0.0, 2.1028447924e-4)
+    for place, load, pressures in ((low, 10e3, 5), (low, 31895.683, 5), (low, 60e3, 5), (high, 37797.411904, 0)):
         places = []
         for search in (2, 5, 6, 7):
             state = {name: values[0] if isinstance(values, tuple) else None for name, (values, _) in WHEEL.items()}
-            state.update(wheel=worn, grid=(0.5, 2.0, 4.0), search=search, pressures=5, place=(*place, load, None))
+            state.update(wheel="S1002_worn.prw", grid=(0.5, 2.0, 4.0), search=search, pressures=pressures,
+                         place=(*place, load, None))
             found = solved_once(state)
             at_height = solved_once({**state, "place": (*place, load, found.totals()["z_ws"])})
             forces, right = totals_of(found)[0], totals_of(at_height)[0]
             away = np.abs(forces - right).max() / np.abs(right).max()
             check(away < 4.0 * EPS, f"D = {search}, {load} N: {away:.1e} away, {forces} in place of {right} at the height")
             places.append(found.patches[0].totals()["xcp_tr"])
-        check(np.ptp(places) < 0.2, f"{load} N: contact at x = {places} mm with D = 2, 5, 6, 7")
+        if place == low:
+            check(np.ptp(places) < 0.2, f"{load} N: contact at x = {places} mm with D = 2, 5, 6, 7")
 
 
 def solved_once(state):
