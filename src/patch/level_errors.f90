@@ -37,9 +37,9 @@ module contact_patch_level_errors
    !> Full sliding in a shift: largest part of the bound that cancels if slip has the same direction everywhere; chosen
    real(wp), parameter :: one_direction = 0.1_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
-   !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). With the second order n is
-   !> that of the slip area: the usual error is 2 n^-2 of the rise (seeds 71 and 73). Smallest part that slips, chosen
-   real(wp), parameter :: temperature_floor(2) = [0.2_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, least_slip = 0.1_wp
+   !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area:
+   !> the usual error by the second order is 2 n^-2 of the rise (seeds 71 and 73). Smallest part that slips, chosen
+   real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, least_slip = 0.1_wp
    !> Power of the motion with spin, by the second order: factor of the turn of the slip direction times n^-2 (seed 71002)
    real(wp), parameter :: turning_power_floor = 0.03_wp
    !> Normal force; area; energy of pressures
@@ -152,7 +152,7 @@ contains
       end select
       slipping = scale%mean_across*max(least_slip, 1.0_wp - scale%sticking)
       floor = abs(row%value - bulk)*merge((temperature_floor(2) + turning_temperature_floor*scale%turning)/slipping**2, &
-         & temperature_floor(1)/scale%mean_across, scale%jumps)
+         & temperature_floor(1)/slipping, scale%jumps)
       e = difference/(coarsening**merge(normal_order, scale%heat_order, scale%jumps .and. scale%heat_order >= first_order) - 1.0_wp)
    end subroutine bound_temperature
 
