@@ -13,6 +13,7 @@ import unittest
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 try:
     import h5py  # noqa: F401
+    from playwright.sync_api import TimeoutError as NotInTime  # noqa: F401
     from playwright.sync_api import sync_playwright
     if not BROWSER:
         raise ImportError("there is no chromium")

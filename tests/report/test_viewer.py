@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 
 import h5py
 import numpy as np
-from browser import COLOURS, PHONE, PROGRAM, SETTLED, SOURCE, Page, many_cases
+from browser import COLOURS, PHONE, PROGRAM, SETTLED, SOURCE, NotInTime, Page, many_cases
 
 INDEX = "contactReport.state.index"
 # The page continues to scroll for a while after a touch ends
@@ -208,8 +208,14 @@ class Viewer(Page):
             self.assertEqual(self.troubles, [])
 
     def saved(self, page, name):
-        with page.expect_download() as download:
-            page.click("button[aria-label='%s']" % name)
+        # beside other programs the browser sometimes does not start a download; a button that never works fails twice
+        try:
+            with page.expect_download(timeout=30000) as download:
+                page.click("button[aria-label='%s']" % name)
+        except NotInTime:
+            print("no download within 30 s, clicked again:", name)
+            with page.expect_download() as download:
+                page.click("button[aria-label='%s']" % name)
         path = os.path.join(self.scratch.name, "saved")
         download.value.save_as(path)
         with open(path, "rb") as file:

@@ -8,7 +8,7 @@ function save(name, content, kind) {
   document.body.append(link);
   link.click();
   link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
+  setTimeout(() => URL.revokeObjectURL(address), 60000);
 }
 // CSV field: texts with a comma, a quote or a line break are quoted, numbers are unchanged, missing values are empty
 const csvCell = value =>
