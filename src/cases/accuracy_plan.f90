@@ -43,7 +43,7 @@ module contact_cases_accuracy_plan
    !> expected cost only; part of the accuracy that estimates must meet, below 1 where they are often smaller than the error, above
    !> 1 where they rarely are
    type :: accuracy_law
-      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, late_bound = 0.0_wp, share = 1.0_wp
+      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, guessed_bound = 0.0_wp, share = 1.0_wp
    end type accuracy_law
    !> Forces in steady rolling by the first and by the second order, and all other results; from tests/accuracy: upper quartiles of
    !> estimates, and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order
@@ -216,7 +216,7 @@ contains
       end if
       if (.not. material%coupled()) return
       law%bound = coupled_friction_floor*abs(material%ak)*driven
-      law%late_bound = hidden_slip*driven**3*sqrt(expected_adhesion(spec))
+      law%guessed_bound = hidden_slip*driven**3*sqrt(expected_adhesion(spec))
    end function expected_law
 
    !> Fraction of the contact in adhesion in steady rolling, by the theory of Vermeulen and Johnson: creepages relative to those of
@@ -359,7 +359,7 @@ contains
       real(wp) :: goal
 
       goal = aim*law%share*required
-      across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), max(law%bound, law%late_bound)/goal)
+      across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), max(law%bound, law%guessed_bound)/goal)
    end function expected_across
 
    !> Is an estimate small enough? None above the accuracy is, whatever the share

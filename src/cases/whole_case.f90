@@ -15,8 +15,9 @@ module contact_cases_whole_case
    use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
    use contact_elastic_material, only : combine, combined_material, coupling_threshold
+   use contact_profile_prepare, only : is_slices_file
    use contact_text_words, only : integer_text, real_text
-   use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
+   use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_cases_distance, only : is_distance_form, list_forms, visit_distance
    implicit none (type, external)
    private
@@ -324,7 +325,8 @@ contains
          call visit_profile(a, "RFNAME", wheel_rail%rail_profile)
          if (a%is_reading) wheel_rail%new_rail_profile = a%is_good
          if (a%is_reading .and. a%is_good .and. wheel_rail%track%gaught > 0.0_wp) then
-            if (is_slices(wheel_rail%rail_profile)) call a%refuse_group("GAUGHT = " // real_text(wheel_rail%track%gaught) // &
+            if (is_slices_file(wheel_rail%rail_profile%name)) call a%refuse_group("GAUGHT = " // &
+               & real_text(wheel_rail%track%gaught) // &
                & " places the rail by its gauge point, but the profile varies along the track; a slices file needs absolute " // &
                & "placement, GAUGHT = 0 or negative")
          end if
@@ -383,15 +385,4 @@ contains
          end if
       end associate
    end subroutine visit_wheelset
-
-   !> Is it a file with slices of a variable profile?
-   pure logical function is_slices(profile)
-      type(profile_spec), intent(in) :: profile
-      integer :: dot
-      character(len=4) :: extension
-
-      dot = index(profile%name, ".", back=.true.)
-      extension = profile%name(dot + 1:)
-      is_slices = dot > 0 .and. any(extension == ["slcs", "slcw", "SLCS", "SLCW"])
-   end function is_slices
 end module contact_cases_whole_case

@@ -6,6 +6,7 @@ module contact_experiment_input_names
    use contact_experiment_lock, only : is_leftover_rest, lock_suffix
    use contact_experiment_place, only : experiment_place, written_in_place
    use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_profile_prepare, only : is_slices_file
    use contact_profile_slices_file, only : resolve_path
    use contact_text_lexer, only : input_lexer
    use contact_text_words, only : replaced
@@ -88,7 +89,7 @@ contains
          call refuse(profile%name, relation, error, place%input, profile%line, profile%column)
          return
       end if
-      if (.not. is_slices(profile%name)) return
+      if (.not. is_slices_file(profile%name)) return
       call open_slices(path, place, confined, slices)
       call find_result(slices, place, path, line, relation)
       if (relation /= unrelated) call refuse(path, relation, error, slices%file, line, 0)
@@ -118,7 +119,7 @@ contains
             n = n + 1
             call locate(name, place, path)
             if (relation_of(path, place) /= unrelated) return
-            if (.not. is_slices(path)) cycle
+            if (.not. is_slices_file(path)) cycle
             call open_slices(path, place, confined, slices)
             call find_result(slices, place, path, line, relation)
             if (relation /= unrelated) return
@@ -202,15 +203,6 @@ contains
          return
       end do
    end subroutine next_quoted
-
-   !> Has a file the extension of slices of a profile?
-   pure logical function is_slices(name)
-      character(len=*), intent(in) :: name
-      integer :: dot
-
-      dot = index(name, ".", back=.true.)
-      is_slices = any(trim(name(dot + 1:)) == ["slcs", "slcw", "SLCS", "SLCW"])
-   end function is_slices
 
    !> Path of a file, given by its name in the input
    pure subroutine locate(name, place, path)

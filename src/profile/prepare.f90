@@ -17,7 +17,7 @@ module contact_profile_prepare
    implicit none (type, external)
    private
 
-   public :: read_profile, prepare_points, extension_of, length_origin
+   public :: read_profile, prepare_points, extension_of, is_slices_file, length_origin
 
    !> Range of profile lengths in millimetres [mm]; excludes files in other units
    real(wp), parameter :: shortest = 5.0_wp, longest = 500.0_wp
@@ -108,6 +108,14 @@ contains
       end do
       if (any(extension(:3) == ["prr", "prw", "ban", "whl"])) extension = extension(:3)
    end function extension_of
+
+   !> Has a file the extension of slices of a rail or a wheel?
+   pure logical function is_slices_file(file)
+      !> Its name
+      character(len=*), intent(in) :: file
+
+      is_slices_file = extension_of(file) == "slcs" .or. extension_of(file) == "slcw"
+   end function is_slices_file
 
    !> Refuse a file whose extension belongs to the other body
    subroutine refuse_extension(request, error)

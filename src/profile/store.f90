@@ -10,7 +10,7 @@ module contact_profile_store
    use contact_base_log, only : log_type
    use contact_base_system, only : file_stamp, stamp_of
    use contact_profile_curve, only : profile_curve
-   use contact_profile_prepare, only : extension_of, read_profile
+   use contact_profile_prepare, only : is_slices_file, read_profile
    use contact_profile_request, only : profile_request, same_request
    use contact_profile_slices_file, only : read_slices_file, slices_list
    use contact_profile_surface, only : large_overshoot, new_surface, profile_surface, surface_cut
@@ -185,7 +185,7 @@ contains
       integer :: k
 
       profile%request = request
-      if (.not. is_slices_file(request)) then
+      if (.not. has_slices(request)) then
          call read_profile(request, profile%curve, log, error)
          return
       end if
@@ -257,13 +257,12 @@ contains
          & "begins or ends by features (NFEAT), or give more slices")
    end subroutine warn_of_overshoot
 
-   pure logical function is_slices_file(request)
+   pure logical function has_slices(request)
       type(profile_request), intent(in) :: request
 
-      is_slices_file = .false.
-      if (allocated(request%points)) return
-      is_slices_file = extension_of(request%file) == "slcs" .or. extension_of(request%file) == "slcw"
-   end function is_slices_file
+      has_slices = .false.
+      if (.not. allocated(request%points)) has_slices = is_slices_file(request%file)
+   end function has_slices
 
    !> Are all files unchanged since they were read, according to the file system?
    logical function are_untouched(files)
@@ -307,7 +306,7 @@ contains
       if (allocated(error)) return
       fingerprint = text%fingerprint()
       allocate(list%slices(0))
-      if (is_slices_file(request)) call read_slices_file(text, request%side, list, error)
+      if (has_slices(request)) call read_slices_file(text, request%side, list, error)
       if (allocated(error)) return
       allocate(files(size(list%slices) + 1))
       files(1)%name = request%file
