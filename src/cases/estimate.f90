@@ -40,8 +40,8 @@ module contact_cases_estimate
    real(wp), parameter :: pressures = 6.0e-7_wp, by_step = 1.0e-6_wp, steadily = 1.5e-6_wp
    !> Time per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
    real(wp), parameter :: by_convex_gs = 3.6e-7_wp, by_steady_gs = 2.2e-7_wp
-   !> Factors of the time: friction that varies with slip; trials for a prescribed force beyond the first; outer iterations, the later
-   !> ones of which take little
+   !> Factors of the time: friction that varies with slip; trials for a prescribed force beyond the first; outer iterations, of
+   !> which later ones take little
    real(wp), parameter :: changing_friction = 1.7_wp, trials = 2.0_wp
    integer, parameter :: turns = 2
    !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
