@@ -44,14 +44,16 @@ OMP_NUM_THREADS=1
 OPENBLAS_NUM_THREADS=1
 export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
 
-# performance_rail writes the slices of its crossing to the current folder
-measure_rail() {
+# Run a program that writes files to the current folder in a folder of its own
+in_scratch() {
   scratch=$(mktemp -d) || return 1
-  (cd "$scratch" && "$programs/tests/performance_rail" "$top")
+  (cd "$scratch" && "$@")
   status=$?
   rm -rf "$scratch"
   return $status
 }
+
+measure_rail() { in_scratch "$programs/tests/performance_rail" "$top"; }
 
 # Title of a part in Markdown
 title() { printf '\n## %s\n\n' "$1"; }
@@ -68,7 +70,7 @@ measure_vehicle() {
   printf 'Eight wheels, 1 ms per step, S1002 on 60E1, EPS = 1e-5, P = 2; processor time of a call of the library on one thread, ms.\n\n'
   steps=500
   case $options in *--quick*) steps=60 ;; esac
-  "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps
+  in_scratch "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps
 }
 
 # Lines of the document that are written by hand
