@@ -20,6 +20,11 @@ STILL = """() => new Promise(done => { let last = -1, times = 0;
   const look = () => { times = scrollY === last ? times + 1 : 0; last = scrollY;
     if (times > 20) done(); else requestAnimationFrame(look); };
   look(); })"""
+# Mouse events of the page, for a click without an effect
+LISTEN = """() => { if (window.heard) return; window.heard = [];
+  for (const kind of ['mousedown', 'mouseup', 'click', 'scroll', 'resize'])
+    addEventListener(kind, e => heard.push([kind, performance.now(), e.target.ariaLabel || e.target.id || e.target.tagName]),
+      true); }"""
 WIDTH = "contactReport.state.view[1] - contactReport.state.view[0]"
 
 
@@ -209,11 +214,12 @@ class Viewer(Page):
 
     def saved(self, page, name):
         # beside other programs the browser sometimes does not start a download; a button that never works fails twice
+        page.evaluate(LISTEN)
         try:
             with page.expect_download(timeout=30000) as download:
                 page.click("button[aria-label='%s']" % name)
         except NotInTime:
-            print("no download within 30 s, clicked again:", name)
+            print("no download within 30 s, clicked again:", name, page.evaluate("[performance.now(), heard.slice(-12)]"))
             with page.expect_download() as download:
                 page.click("button[aria-label='%s']" % name)
         path = os.path.join(self.scratch.name, "saved")
