@@ -116,35 +116,54 @@ contains
    subroutine complete_table(table)
       !> Table without shift
       type(kernel_table), intent(inout) :: table
-      integer :: k, l
-      real(wp) :: v(6)
+      integer :: l
 
       if (allocated(table%xx) .or. .not. allocated(table%nn)) return
       associate (nx => table%nx, ny => table%ny)
          allocate(table%xx(-nx:nx, -ny:ny), table%yy(-nx:nx, -ny:ny), table%xy(-nx:nx, -ny:ny))
          if (table%material%coupled()) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
-         do l = 0, ny
-            do k = 0, nx
-               v = combine_corners(difference_of_corners(table, k, l), table%material)
-               ! a coefficient that is odd in an offset is exactly zero at offset 0
-               if (k == 0 .or. l == 0) v(4) = 0.0_wp
-               table%xx(k, l) = v(2)
-               table%yy(k, l) = v(3)
-               table%xy(k, l) = v(4)
-               if (.not. allocated(table%xn)) cycle
-               table%xn(k, l) = merge(0.0_wp, v(5), k == 0)
-               table%yn(k, l) = merge(0.0_wp, v(6), l == 0)
+         if (nx*ny > largest_kept) then
+            !$omp parallel do
+            do l = 0, ny
+               call set_tangential_rows(table, l)
             end do
-         end do
-         call mirror(table%xx, nx, ny, 1, 1)
-         call mirror(table%yy, nx, ny, 1, 1)
-         call mirror(table%xy, nx, ny, -1, -1)
-         if (nx*ny > largest_kept) deallocate(table%corner)
-         if (.not. allocated(table%xn)) return
-         call mirror(table%xn, nx, ny, -1, 1)
-         call mirror(table%yn, nx, ny, 1, -1)
+            !$omp end parallel do
+            deallocate(table%corner)
+         else
+            do l = 0, ny
+               call set_tangential_rows(table, l)
+            end do
+         end if
       end associate
    end subroutine complete_table
+
+   !> The coefficients of `complete_table` at one distance across, to both sides
+   subroutine set_tangential_rows(table, l)
+      !> With normal coefficients and corner functions
+      type(kernel_table), intent(inout) :: table
+      !> Offset along y, not negative
+      integer, intent(in) :: l
+      integer :: k
+      real(wp) :: v(6)
+
+      do k = 0, table%nx
+         v = combine_corners(difference_of_corners(table, k, l), table%material)
+         ! a coefficient that is odd in an offset is exactly zero at offset 0
+         if (k == 0 .or. l == 0) v(4) = 0.0_wp
+         table%xx(k, l) = v(2)
+         table%yy(k, l) = v(3)
+         table%xy(k, l) = v(4)
+         if (.not. allocated(table%xn)) cycle
+         table%xn(k, l) = merge(0.0_wp, v(5), k == 0)
+         table%yn(k, l) = merge(0.0_wp, v(6), l == 0)
+      end do
+      call mirror_row(table%nx, table%ny, l, 1, 1, table%xx)
+      call mirror_row(table%nx, table%ny, l, 1, 1, table%yy)
+      call mirror_row(table%nx, table%ny, l, -1, -1, table%xy)
+      if (.not. allocated(table%xn)) return
+      call mirror_row(table%nx, table%ny, l, -1, 1, table%xn)
+      call mirror_row(table%nx, table%ny, l, 1, -1, table%yn)
+   end subroutine set_tangential_rows
 
    !> Coefficients xx and yy of an element on itself, for a table of normal coefficients
    pure function own_tangential(table) result(own)
@@ -181,7 +200,7 @@ contains
       !> Are all five functions required?
       logical, intent(in) :: coupled
       real(wp), allocatable :: wider(:, :, :)
-      integer :: k, l, known(2), number, wanted(2)
+      integer :: l, known(2), number, wanted(2)
       logical :: is_square
 
       known = -2
@@ -200,17 +219,20 @@ contains
             call fill_row(l)
          end do
          !$omp end parallel do
+         !$omp parallel do
+         do l = -1, wanted(2)
+            call mirror_in_row(l)
+         end do
+         !$omp end parallel do
       else
          ! without threads: a parallel region requests memory
          do l = -1, wanted(2)
             call fill_row(l)
          end do
-      end if
-      do l = -1, wanted(2)
-         do k = -1, wanted(1)
-            if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = mirrored(number, wider(:, l, k))
+         do l = -1, wanted(2)
+            call mirror_in_row(l)
          end do
-      end do
+      end if
       call move_alloc(wider, table%corner)
       table%corner_sides = [dx, dy]
       table%corner_coupled = coupled
@@ -231,6 +253,17 @@ contains
             end if
          end do
       end subroutine fill_row
+
+      !> The functions of a row that are mirrored
+      subroutine mirror_in_row(l)
+         !> Index of the row
+         integer, intent(in) :: l
+         integer :: k
+
+         do k = -1, wanted(1)
+            if (is_mirrored(k, l) .and. (k > known(1) .or. l > known(2))) wider(:, k, l) = mirrored(number, wider(:, l, k))
+         end do
+      end subroutine mirror_in_row
 
       !> The first three functions, or all five
       pure function some_functions(number, x, y) result(f)
@@ -262,26 +295,23 @@ contains
       end function is_mirrored
    end subroutine find_corners
 
-   !> Set the other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
-   pure subroutine mirror(kernel, nx, ny, sign_x, sign_y)
-      !> Maximum offsets
-      integer, intent(in) :: nx, ny
-      !> Shape (-nx:nx, -ny:ny); given for non-negative offsets
-      real(wp), contiguous, intent(inout) :: kernel(-nx:, -ny:)
+   !> Set a row of a kernel that is even (+1) or odd (-1) in each offset for negative offsets, and the row on the other side
+   pure subroutine mirror_row(nx, ny, l, sign_x, sign_y, kernel)
+      !> Maximum offsets, and that of the row
+      integer, intent(in) :: nx, ny, l
       integer, intent(in) :: sign_x, sign_y
-      integer :: k, l
+      !> The row is given for non-negative offsets
+      real(wp), intent(inout) :: kernel(-nx:nx, -ny:ny)
+      integer :: k
 
-      do l = 0, ny
-         do k = 1, nx
-            kernel(-k, l) = sign_x*kernel(k, l)
-         end do
+      do k = 1, nx
+         kernel(-k, l) = sign_x*kernel(k, l)
       end do
-      do l = 1, ny
-         do k = -nx, nx
-            kernel(k, -l) = sign_y*kernel(k, l)
-         end do
+      if (l == 0) return
+      do k = -nx, nx
+         kernel(k, -l) = sign_y*kernel(k, l)
       end do
-   end subroutine mirror
+   end subroutine mirror_row
 
    !> All coefficients for observation points shifted by (shift_x, shift_y)
    subroutine fill_shifted_table(table, material, dx, dy, nx, ny, shift_x, shift_y)
@@ -309,6 +339,7 @@ contains
             corner(:, k, l) = corner_functions((k + 0.5_wp)*dx + shift_x, (l + 0.5_wp)*dy + shift_y, material%coupled())
          end do
       end do
+      !$omp parallel do private(k, v) if (nx*ny > 20000)
       do l = -ny, ny
          do k = -nx, nx
             v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)

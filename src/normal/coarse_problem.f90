@@ -4,6 +4,7 @@ module contact_normal_coarse_problem
    use contact_base_kinds, only : wp
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor
    use contact_normal_problem, only : normal_problem
+   use contact_numeric_pieces, only : pieces_of
    implicit none (type, external)
    private
 
@@ -17,8 +18,7 @@ contains
       type(normal_problem), intent(in) :: fine
       !> Receives size, distances, force and limits
       type(normal_problem), intent(inout) :: coarse
-      integer :: fx, fy, mx, my, ix, iy, jx, jy, n
-      real(wp) :: h
+      integer :: fx, fy, mx, my, iy
 
       fx = coarsening_factor(fine%mx)
       fy = coarsening_factor(fine%my)
@@ -36,7 +36,26 @@ contains
       coarse%fn = fine%fn
       coarse%maxgs = fine%maxgs
       coarse%deadline = fine%deadline
-      do iy = 1, my
+      if (pieces_of(fine%mx*fine%my) == 1) then
+         do iy = 1, my
+            call coarsen_row(iy)
+         end do
+      else
+         !$omp parallel do
+         do iy = 1, my
+            call coarsen_row(iy)
+         end do
+         !$omp end parallel do
+      end if
+
+   contains
+
+      !> Distances of a coarse row
+      subroutine coarsen_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix, jx, jy, n
+         real(wp) :: h
+
          do ix = 1, mx
             h = 0.0_wp
             n = 0
@@ -50,7 +69,7 @@ contains
             coarse%h(ix, iy) = excluded_distance
             if (n > 0) coarse%h(ix, iy) = h/n
          end do
-      end do
+      end subroutine coarsen_row
    end subroutine coarsen
 
    !> Bilinear interpolation of pressures to the fine grid
@@ -61,17 +80,33 @@ contains
       type(normal_problem), intent(in) :: fine
       !> Pressures on the fine grid [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
-      integer :: ix, iy, i0, i1, j0, j1, fx, fy
-      real(wp) :: a, b
+      integer :: iy
 
-      fx = coarsening_factor(fine%mx)
-      fy = coarsening_factor(fine%my)
-      do iy = 1, fine%my
+      if (pieces_of(fine%mx*fine%my) == 1) then
+         do iy = 1, fine%my
+            call interpolate_row(iy)
+         end do
+      else
+         !$omp parallel do
+         do iy = 1, fine%my
+            call interpolate_row(iy)
+         end do
+         !$omp end parallel do
+      end if
+
+   contains
+
+      !> Pressures of a row
+      subroutine interpolate_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix, i0, i1, j0, j1
+         real(wp) :: a, b
+
          call coarse_neighbours(iy, fine%my, j0, j1, b)
          do ix = 1, fine%mx
             call coarse_neighbours(ix, fine%mx, i0, i1, a)
             p(ix, iy) = (1.0_wp - b)*((1.0_wp - a)*pc(i0, j0) + a*pc(i1, j0)) + b*((1.0_wp - a)*pc(i0, j1) + a*pc(i1, j1))
          end do
-      end do
+      end subroutine interpolate_row
    end subroutine prolong
 end module contact_normal_coarse_problem

@@ -5,11 +5,12 @@
 !> which are done before threads are awake, are one piece and have none.
 module contact_numeric_pieces
    use contact_base_kinds, only : wp
-   use contact_numeric_vectors, only : add, inner
+   use contact_numeric_vectors, only : add, clear_numbers, copy_numbers, inner
    implicit none (type, external)
    private
 
-   public :: add_long, copy_long, divide_long, fill_long, first_of, inner_long, length_of, most_pieces, pieces_of
+   public :: add_long, clear_long, copy_long, copy_whole, divide_long, fill_long, fill_whole, first_of, inner_long, length_of, &
+      & most_pieces, pieces_of
 
    !> Pieces of a vector at most
    integer, parameter :: most_pieces = 64
@@ -106,7 +107,7 @@ contains
       integer :: i, k
 
       if (pieces_of(n) == 1) then
-         b = a
+         call copy_numbers(n, a, b)
          return
       end if
       !$omp parallel do private(i)
@@ -140,6 +141,66 @@ contains
       end do
       !$omp end parallel do
    end subroutine fill_long
+
+   !> v := 0; new memory is cleared by the system when it is first touched, which threads also share
+   subroutine clear_long(n, v)
+      !> Length
+      integer, intent(in) :: n
+      !> The vector
+      real(wp), intent(inout) :: v(n)
+
+      if (pieces_of(n) == 1) then
+         call clear_numbers(n, v)
+      else
+         call fill_long(n, 0.0_wp, v)
+      end if
+   end subroutine clear_long
+
+   !> v := value, whole numbers
+   subroutine fill_whole(n, value, v)
+      !> Length
+      integer, intent(in) :: n
+      !> Of all its numbers
+      integer, intent(in) :: value
+      !> The vector
+      integer, intent(inout) :: v(n)
+      integer :: i, k
+
+      if (pieces_of(n) == 1) then
+         v = value
+         return
+      end if
+      !$omp parallel do private(i)
+      do k = 1, pieces_of(n)
+         do i = first_of(n, k), first_of(n, k) + length_of(n, k) - 1
+            v(i) = value
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine fill_whole
+
+   !> b := a, whole numbers
+   subroutine copy_whole(n, a, b)
+      !> Length
+      integer, intent(in) :: n
+      !> What is copied
+      integer, intent(in) :: a(n)
+      !> Where it is copied to
+      integer, intent(inout) :: b(n)
+      integer :: i, k
+
+      if (pieces_of(n) == 1) then
+         b = a
+         return
+      end if
+      !$omp parallel do private(i)
+      do k = 1, pieces_of(n)
+         do i = first_of(n, k), first_of(n, k) + length_of(n, k) - 1
+            b(i) = a(i)
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine copy_whole
 
    !> v := v/divisor
    subroutine divide_long(n, divisor, v)

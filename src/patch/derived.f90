@@ -4,10 +4,10 @@ module contact_patch_derived
    use contact_base_constants, only : nmm_per_joule
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
-   use contact_grid_element_division, only : bounding_box, contact_box, copy_states, element, set_states
+   use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_conjugate_gradient, only : approach_scale
    use contact_normal_few_elements, only : by_factor
-   use contact_numeric_vectors, only : clear_numbers, copy_numbers
+   use contact_numeric_pieces, only : clear_long, copy_long, copy_whole, fill_long, fill_whole
    use contact_patch_kinematics, only : rigid_slip
    use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : carried, patch_problem, patch_state
@@ -81,29 +81,19 @@ contains
             & result%wx(mx, my), result%wy(mx, my))
          allocate(result%division(mx, my))
       end if
-      call copy_numbers(mx*my, problem%h, result%h)
-      call fill_numbers(mx*my, problem%mu, result%mu)
+      call copy_long(mx*my, problem%h, result%h)
+      call fill_long(mx*my, problem%mu, result%mu)
       if (allocated(problem%friction)) call problem%friction%at_rest(result%mu)
       if (allocated(result%friction)) deallocate(result%friction)
-      call clear_numbers(mx*my, result%un)
-      call clear_numbers(mx*my, result%ux)
-      call clear_numbers(mx*my, result%uy)
-      call clear_numbers(mx*my, result%sx)
-      call clear_numbers(mx*my, result%sy)
-      call clear_numbers(mx*my, result%wx)
-      call clear_numbers(mx*my, result%wy)
-      call set_states(mx*my, element%exterior, result%division)
+      call clear_long(mx*my, result%un)
+      call clear_long(mx*my, result%ux)
+      call clear_long(mx*my, result%uy)
+      call clear_long(mx*my, result%sx)
+      call clear_long(mx*my, result%sy)
+      call clear_long(mx*my, result%wx)
+      call clear_long(mx*my, result%wy)
+      call fill_whole(mx*my, element%exterior, result%division)
    end subroutine reset_result
-
-   !> Set contiguous numbers to one value
-   pure subroutine fill_numbers(n, value, to)
-      !> Length
-      integer, intent(in) :: n
-      real(wp), intent(in) :: value
-      real(wp), intent(inout) :: to(n)
-
-      to = value
-   end subroutine fill_numbers
 
    !> Totals and fields derived from the tractions
    subroutine derive(problem, state, workspace, result)
@@ -127,10 +117,10 @@ contains
       end if
       result%inorm = merge(result%normal%passes, -1, result%normal%succeeded())
       result%itang = merge(result%tangential%passes, -1, result%tangential%succeeded())
-      call copy_states(size(result%division), state%now%division, result%division)
-      call copy_numbers(size(result%pn), state%now%pn, result%pn)
-      call copy_numbers(size(result%px), state%now%px, result%px)
-      call copy_numbers(size(result%py), state%now%py, result%py)
+      call copy_whole(size(result%division), state%now%division, result%division)
+      call copy_long(size(result%pn), state%now%pn, result%pn)
+      call copy_long(size(result%px), state%now%px, result%px)
+      call copy_long(size(result%py), state%now%py, result%py)
       result%pmax = 0.0_wp
       if (.not. is_deferred(problem)) result%pmax = largest_pressure(result%pn, result%tangential%order)
       call sum_up(problem, box, result)
@@ -393,11 +383,11 @@ contains
          call prepare_window(problem, workspace)
          call workspace%window%normal(state%now%pn, result%un)
          if (problem%motion /= motion%none) then
-            workspace%pt(:, :, 1) = state%now%px
-            workspace%pt(:, :, 2) = state%now%py
+            call copy_long(size(state%now%px), state%now%px, workspace%pt(:, :, 1))
+            call copy_long(size(state%now%py), state%now%py, workspace%pt(:, :, 2))
             call workspace%window%tangential(workspace%pt, workspace%ut)
-            result%ux = workspace%ut(:, :, 1)
-            result%uy = workspace%ut(:, :, 2)
+            call copy_long(size(result%ux), workspace%ut(:, :, 1), result%ux)
+            call copy_long(size(result%uy), workspace%ut(:, :, 2), result%uy)
          end if
          if (problem%model%coupled()) then
             if (problem%motion /= motion%none) then

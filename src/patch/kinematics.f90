@@ -3,6 +3,7 @@ module contact_patch_kinematics
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
+   use contact_numeric_pieces, only : clear_long, copy_long
    use contact_patch_order, only : spin_offset_of
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
    use contact_patch_result, only : patch_result
@@ -97,7 +98,7 @@ contains
       real(wp), allocatable :: edge(:, :, :)
       real(wp) :: shift_x, shift_y
 
-      workspace%old_displacement = 0.0_wp
+      call clear_long(size(workspace%old_displacement), workspace%old_displacement)
       if (problem%corrects_leading_edge) then
          call displacement_of(problem, state%before, workspace, edge)
          call move_alloc(edge, workspace%edge_displacement)
@@ -150,8 +151,8 @@ contains
       real(wp), allocatable :: by_normal(:, :, :)
 
       call prepare_window(problem, workspace)
-      workspace%pt(:, :, 1) = fields%px
-      workspace%pt(:, :, 2) = fields%py
+      call copy_long(size(fields%px), fields%px, workspace%pt(:, :, 1))
+      call copy_long(size(fields%py), fields%py, workspace%pt(:, :, 2))
       allocate(displacement, by_normal, mold=workspace%pt)
       call workspace%window%tangential(workspace%pt, displacement)
       if (.not. problem%model%coupled()) return

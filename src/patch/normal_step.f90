@@ -12,6 +12,7 @@ module contact_patch_normal_step
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_normal_problem, only : force_round_off
+   use contact_numeric_pieces, only : copy_long
    use contact_numeric_vectors, only : copy_field
    use contact_patch_field_loops, only : mark_elements, subtract_approach
    use contact_patch_problem, only : patch_problem, patch_state
@@ -198,8 +199,8 @@ contains
       type(patch_workspace), intent(inout) :: workspace
 
       call prepare_window(problem, workspace)
-      workspace%pt(:, :, 1) = state%now%px
-      workspace%pt(:, :, 2) = state%now%py
+      call copy_long(size(state%now%px), state%now%px, workspace%pt(:, :, 1))
+      call copy_long(size(state%now%py), state%now%py, workspace%pt(:, :, 2))
       call workspace%window%normal_by_tangential(workspace%pt, workspace%lift)
    end subroutine shear_lift
 end module contact_patch_normal_step

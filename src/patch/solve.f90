@@ -12,6 +12,7 @@ module contact_patch_solve
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_normal_conjugate_gradient, only : approach_scale
+   use contact_numeric_pieces, only : clear_long
    use contact_patch_damping, only : damping_forces
    use contact_patch_derived, only : derive, remember_friction, reset_result
    use contact_patch_heat, only : derive_temperatures
@@ -68,8 +69,8 @@ contains
       ! in simplified theory the spin term has other weights
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) call rigid_slip(problem, result)
       if (problem%motion == motion%none) then
-         state%now%px = 0.0_wp
-         state%now%py = 0.0_wp
+         call clear_long(size(state%now%px), state%now%px)
+         call clear_long(size(state%now%py), state%now%py)
       else if (problem%motion /= motion%steady_rolling .and. .not. allocated(problem%simplified)) then
          call previous_displacement(problem, state, workspace)
       end if

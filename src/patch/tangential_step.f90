@@ -8,6 +8,7 @@ module contact_patch_tangential_step
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_grid_picture, only : trace_picture
+   use contact_numeric_pieces, only : pieces_of
    use contact_patch_kinematics, only : rigid_slip
    use contact_patch_leading_edge, only : correct_leading_edge
    use contact_patch_order, only : lower_order, set_second_order
@@ -166,8 +167,7 @@ contains
       type(bounding_box), intent(in) :: box
       type(patch_workspace), intent(inout) :: workspace
       type(patch_result), intent(in) :: result
-      integer :: ix, iy, jx, jy, mx, my
-      real(wp) :: g, length
+      integer :: iy, mx, my
 
       mx = box%ix1 - box%ix0 + 1
       my = box%iy1 - box%iy0 + 1
@@ -204,25 +204,48 @@ contains
             if (workspace%friction%follows_paths()) allocate(s%path(mx, my))
          end if
          s%creep = [result%cksi, result%ceta]
-         do iy = 1, my
-            jy = box%iy0 + iy - 1
-            do ix = 1, mx
-               jx = box%ix0 + ix - 1
-               t%contact(ix, iy) = state%now%division(jx, jy) > element%exterior
-               g = 0.0_wp
-               if (t%contact(ix, iy)) g = result%mu(jx, jy)*state%now%pn(jx, jy)
-               t%bound(ix, iy) = g
-               t%shift(ix, iy, 1) = result%wx(jx, jy)
-               t%shift(ix, iy, 2) = result%wy(jx, jy)
-               s%p(ix, iy, :) = [state%now%px(jx, jy), state%now%py(jx, jy)]
-               length = hypot(s%p(ix, iy, 1), s%p(ix, iy, 2))
-               if (length > g) s%p(ix, iy, :) = s%p(ix, iy, :)*(g/length)
+         if (pieces_of(mx*my) == 1) then
+            do iy = 1, my
+               call set_row(state, box, iy, result, t, s)
             end do
-         end do
+         else
+            !$omp parallel do
+            do iy = 1, my
+               call set_row(state, box, iy, result, t, s)
+            end do
+            !$omp end parallel do
+         end if
          if (problem%remembers_yield) call set_yield(problem, state%before, box, t)
          if (.not. t%steady) t%shift = t%shift - workspace%old_displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
       end associate
    end subroutine set_tangential
+
+   !> A row of the tangential problem: contact, bounds, rigid slip and estimated tractions
+   pure subroutine set_row(state, box, iy, result, t, s)
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      !> Row of the box
+      integer, intent(in) :: iy
+      type(patch_result), intent(in) :: result
+      type(tangential_problem), intent(inout) :: t
+      type(tangential_solution), intent(inout) :: s
+      integer :: ix, jx, jy
+      real(wp) :: g, length
+
+      jy = box%iy0 + iy - 1
+      do ix = 1, t%mx
+         jx = box%ix0 + ix - 1
+         t%contact(ix, iy) = state%now%division(jx, jy) > element%exterior
+         g = 0.0_wp
+         if (t%contact(ix, iy)) g = result%mu(jx, jy)*state%now%pn(jx, jy)
+         t%bound(ix, iy) = g
+         t%shift(ix, iy, 1) = result%wx(jx, jy)
+         t%shift(ix, iy, 2) = result%wy(jx, jy)
+         s%p(ix, iy, :) = [state%now%px(jx, jy), state%now%py(jx, jy)]
+         length = hypot(s%p(ix, iy, 1), s%p(ix, iy, 2))
+         if (length > g) s%p(ix, iy, :) = s%p(ix, iy, :)*(g/length)
+      end do
+   end subroutine set_row
 
    !> Influence coefficients of the same particles one step before, for steps of any length and direction
    subroutine prepare_step(problem, workspace)

@@ -3,9 +3,9 @@ module contact_patch_time_steps
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : copy_states, element, set_states
+   use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : is_same_side, potential_contact
-   use contact_numeric_vectors, only : clear_numbers, copy_numbers
+   use contact_numeric_pieces, only : clear_long, copy_long, copy_whole, fill_whole
    use contact_patch_problem, only : carried, memory_field, patch_problem, patch_state, traction_fields
    implicit none (type, external)
    private
@@ -50,8 +50,8 @@ contains
          call copy_fields(state%now, state%before)
       case (time_link%continue_normal)
          call copy_fields(state%now, state%before)
-         state%before%px = 0.0_wp
-         state%before%py = 0.0_wp
+         call clear_long(size(state%before%px), state%before%px)
+         call clear_long(size(state%before%py), state%before%py)
          state%before%force(2:3) = 0.0_wp
       case default
          call clear_time_step(state%before, problem%grid)
@@ -279,6 +279,7 @@ contains
       call move_alloc(fields%py, old%py)
       call move_alloc(fields%rate, old%rate)
       call fit_fields(fields, grid%mx, grid%my)
+      call clear_fields(fields)
       fields%grid = grid
       if (allocated(old%rate)) allocate(fields%rate(grid%mx, grid%my), source=0.0_wp)
       first = max(1, 1 - kx)
@@ -341,8 +342,7 @@ contains
 
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
-      call set_states(size(fields%division), element%exterior, fields%division)
-      call clear_tractions(fields)
+      call clear_fields(fields)
       fields%pen = 0.0_wp
       if (allocated(fields%rate)) deallocate(fields%rate)
       fields%is_solved = .false.
@@ -358,16 +358,16 @@ contains
 
       call fit_fields(to, from%grid%mx, from%grid%my)
       to%grid = from%grid
-      call copy_states(size(to%division), from%division, to%division)
-      call copy_numbers(size(to%pn), from%pn, to%pn)
-      call copy_numbers(size(to%px), from%px, to%px)
-      call copy_numbers(size(to%py), from%py, to%py)
+      call copy_whole(size(to%division), from%division, to%division)
+      call copy_long(size(to%pn), from%pn, to%pn)
+      call copy_long(size(to%px), from%px, to%px)
+      call copy_long(size(to%py), from%py, to%py)
       to%pen = from%pen
       to%is_solved = from%is_solved
       to%force = from%force
    end subroutine copy_fields
 
-   !> Fields of a time step on a grid, zero if new; arrays of equal size are reused
+   !> Fields of a time step on a grid, without values if new; arrays of equal size are reused
    subroutine fit_fields(fields, grid_mx, grid_my)
       type(traction_fields), intent(inout) :: fields
       integer, intent(in) :: grid_mx, grid_my
@@ -376,18 +376,18 @@ contains
          if (all(shape(fields%division) == [grid_mx, grid_my])) return
          deallocate(fields%division, fields%pn, fields%px, fields%py)
       end if
-      allocate(fields%division(grid_mx, grid_my), source=element%exterior)
+      allocate(fields%division(grid_mx, grid_my))
       allocate(fields%pn(grid_mx, grid_my), fields%px(grid_mx, grid_my), fields%py(grid_mx, grid_my))
-      call clear_tractions(fields)
    end subroutine fit_fields
 
-   !> Set tractions to zero
-   pure subroutine clear_tractions(fields)
-      !> With allocated tractions
+   !> Set tractions to zero, and all elements to exterior
+   subroutine clear_fields(fields)
+      !> With allocated arrays
       type(traction_fields), intent(inout) :: fields
 
-      call clear_numbers(size(fields%pn), fields%pn)
-      call clear_numbers(size(fields%px), fields%px)
-      call clear_numbers(size(fields%py), fields%py)
-   end subroutine clear_tractions
+      call fill_whole(size(fields%division), element%exterior, fields%division)
+      call clear_long(size(fields%pn), fields%pn)
+      call clear_long(size(fields%px), fields%px)
+      call clear_long(size(fields%py), fields%py)
+   end subroutine clear_fields
 end module contact_patch_time_steps

@@ -75,7 +75,7 @@ contains
    subroutine fit_workspace(problem, workspace)
       !> Its grid defines the size
       type(patch_problem), intent(in) :: problem
-      !> Arrays on the grid; zero if new
+      !> Arrays on the grid, without values; memory that is never used is never touched
       type(patch_workspace), intent(inout) :: workspace
       integer :: mx, my
 
@@ -87,7 +87,7 @@ contains
          deallocate(workspace%un, workspace%lift, workspace%ut, workspace%pt, workspace%old_displacement)
       end if
       allocate(workspace%un(mx, my), workspace%lift(mx, my), workspace%ut(mx, my, 2), workspace%pt(mx, my, 2), &
-         & workspace%old_displacement(mx, my, 2), source=0.0_wp)
+         & workspace%old_displacement(mx, my, 2))
    end subroutine fit_workspace
 
    !> Prepare the compliance on the whole grid

@@ -11,6 +11,7 @@ module contact_tangential_nested
    use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_numeric_pieces, only : pieces_of
    use contact_tangential_local_estimate, only : estimate_locally
    use contact_tangential_newton_adjoint, only : newton_adjoint
    use contact_tangential_newton, only : newton_derivative, newton_outcome, newton_solve, newton_workspace
@@ -208,8 +209,8 @@ contains
    subroutine coarsen(fine, coarse)
       type(tangential_problem), intent(in) :: fine
       type(tangential_problem), intent(inout) :: coarse
-      integer :: fx, fy, mx, my, ix, iy, jx, jy, n
-      real(wp) :: g, w(2), step
+      integer :: fx, fy, mx, my, ix, iy, jx, jy
+      real(wp) :: step
 
       fx = coarsening_factor(fine%mx)
       fy = coarsening_factor(fine%my)
@@ -230,7 +231,31 @@ contains
       coarse%dq = step*fine%dq
       coarse%n_forces = fine%n_forces
       coarse%deadline = fine%deadline
-      do iy = 1, my
+      if (pieces_of(fine%mx*fine%my) == 1) then
+         do iy = 1, my
+            call coarsen_row(iy)
+         end do
+      else
+         !$omp parallel do
+         do iy = 1, my
+            call coarsen_row(iy)
+         end do
+         !$omp end parallel do
+      end if
+      coarse%target = fine%target/(fx*fy)
+      if (allocated(coarse%share)) deallocate(coarse%share)
+      if (allocated(fine%share)) call coarsen_share()
+      if (allocated(coarse%yield)) deallocate(coarse%yield)
+      if (fine%hardens()) call coarsen_limits()
+
+   contains
+
+      !> Contact, bounds and rigid slip of a coarse row
+      subroutine coarsen_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix, jx, jy, n
+         real(wp) :: g, w(2)
+
          do ix = 1, mx
             g = 0.0_wp
             w = 0.0_wp
@@ -247,14 +272,7 @@ contains
             coarse%bound(ix, iy) = g/(fx*fy)
             coarse%shift(ix, iy, :) = step*w/n
          end do
-      end do
-      coarse%target = fine%target/(fx*fy)
-      if (allocated(coarse%share)) deallocate(coarse%share)
-      if (allocated(fine%share)) call coarsen_share()
-      if (allocated(coarse%yield)) deallocate(coarse%yield)
-      if (fine%hardens()) call coarsen_limits()
-
-   contains
+      end subroutine coarsen_row
 
       !> Average the fractions of the step
       subroutine coarsen_share()
@@ -293,8 +311,7 @@ contains
       type(level_type), intent(inout) :: level
       type(tangential_problem), intent(in) :: fine
       type(tangential_solution), intent(inout) :: solution
-      integer :: mx, my, ix, iy, k, fx, fy, i0, j0, i1, j1
-      real(wp) :: a, b, q(2), length
+      integer :: mx, my, ix, iy, k
 
       mx = level%problem%mx
       my = level%problem%my
@@ -314,9 +331,27 @@ contains
       do k = 1, 2
          call extend(level)
       end do
-      fx = coarsening_factor(fine%mx)
-      fy = coarsening_factor(fine%my)
-      do iy = 1, fine%my
+      if (pieces_of(fine%mx*fine%my) == 1) then
+         do iy = 1, fine%my
+            call interpolate_row(iy)
+         end do
+      else
+         !$omp parallel do
+         do iy = 1, fine%my
+            call interpolate_row(iy)
+         end do
+         !$omp end parallel do
+      end if
+      solution%creep = level%solution%creep
+
+   contains
+
+      !> Tractions of a row
+      subroutine interpolate_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix, i0, j0, i1, j1
+         real(wp) :: a, b, q(2), length
+
          call coarse_neighbours(iy, fine%my, j0, j1, b)
          do ix = 1, fine%mx
             solution%p(ix, iy, :) = 0.0_wp
@@ -328,8 +363,7 @@ contains
             if (length > 1.0_wp) q = q/length
             solution%p(ix, iy, :) = q*fine%bound(ix, iy)
          end do
-      end do
-      solution%creep = level%solution%creep
+      end subroutine interpolate_row
    end subroutine prolong
 
    !> Extend the known elements by one ring, with the mean of the known neighbours

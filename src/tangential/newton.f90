@@ -9,6 +9,7 @@ module contact_tangential_newton
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_compliance, only : compliance
+   use contact_numeric_pieces, only : copy_long
    use contact_tangential_layer_start, only : march_along_rows
    use contact_tangential_newton_jacobian, only : apply_d, differentiate_return_map, fit_workspace, linear_system, linearise, &
       & new_system, newton_workspace
@@ -221,16 +222,16 @@ contains
          if (trial < best) then
             best = trial
             best_creep = creep
-            workspace%residual = workspace%trial
-            workspace%best_slip = workspace%trial_slip
+            call copy_long(2*problem%mx*problem%my, workspace%trial, workspace%residual)
+            call copy_long(2*problem%mx*problem%my, workspace%trial_slip, workspace%best_slip)
          end if
          if (trial < residual*(1.0_wp - decrease*alpha)) exit
       end do
       ! a limited step that succeeded: the next one may be longer
       if (longest < 1.0_wp .and. attempt == 1) creep_range = range_growth*creep_range
       if (.not. best < huge(best)) return
-      solution%p = workspace%residual
-      solution%slip = workspace%best_slip
+      call copy_long(2*problem%mx*problem%my, workspace%residual, solution%p)
+      call copy_long(2*problem%mx*problem%my, workspace%best_slip, solution%slip)
       solution%creep = best_creep
    end subroutine take_step
 

@@ -7,6 +7,7 @@ module contact_tangential_newton_jacobian
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
+   use contact_numeric_pieces, only : copy_long, first_of, length_of, pieces_of
    use contact_tangential_problem, only : add_creepages, apply_operator, limits_before, residual_scale, &
       & tangential_problem, tangential_solution
    use contact_tangential_slip_loops, only : jacobian_of_projection, linearise_projection, project_change
@@ -94,10 +95,10 @@ contains
       if (.not. allocated(workspace%hessenberg)) &
          & allocate(workspace%hessenberg(restart + 1, restart), workspace%part(restart + 1, most_pieces))
       allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
-      allocate(workspace%weight(mx, my), workspace%inverse_weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
-      allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)
-      allocate(workspace%residual(mx, my, 2), workspace%step(mx, my, 2), workspace%best_slip(mx, my, 2), source=0.0_wp)
-      allocate(workspace%border(mx, my, 2, 2), source=0.0_wp)
+      allocate(workspace%weight(mx, my), workspace%inverse_weight(mx, my), workspace%direction(mx, my, 2))
+      allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2))
+      allocate(workspace%residual(mx, my, 2), workspace%step(mx, my, 2), workspace%best_slip(mx, my, 2))
+      allocate(workspace%border(mx, my, 2, 2))
       workspace%mx = mx
       workspace%my = my
    end subroutine fit_workspace
@@ -119,7 +120,7 @@ contains
          call weigh_inverse(problem, workspace)
          return
       end if
-      workspace%trial_slip = solution%slip
+      call copy_long(size(solution%slip), solution%slip, workspace%trial_slip)
       if (allocated(problem%second)) then
          call workspace%turns%linearise(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
             & problem%direction, solution%p, problem%bound, solution%slip, system%r)
@@ -141,13 +142,47 @@ contains
       type(newton_workspace), intent(inout) :: workspace
 
       if (allocated(workspace%point)) then
-         workspace%inverse_weight = workspace%weight
-      else if (problem%steady) then
-         workspace%inverse_weight = workspace%weight**2
+         call copy_long(size(workspace%weight), workspace%weight, workspace%inverse_weight)
       else
-         workspace%inverse_weight = sqrt(workspace%weight)
+         call weigh(size(workspace%weight), problem%steady, workspace%weight, workspace%inverse_weight)
       end if
    end subroutine weigh_inverse
+
+   !> Squares or roots of weights
+   subroutine weigh(n, squared, weight, weighed)
+      !> Number of elements
+      integer, intent(in) :: n
+      !> Squares; otherwise roots
+      logical, intent(in) :: squared
+      !> Weights, and their squares or roots
+      real(wp), intent(in) :: weight(n)
+      real(wp), intent(inout) :: weighed(n)
+      integer :: k
+
+      if (pieces_of(n) == 1) then
+         call weigh_piece(n, squared, weight, weighed)
+         return
+      end if
+      !$omp parallel do
+      do k = 1, pieces_of(n)
+         call weigh_piece(length_of(n, k), squared, weight(first_of(n, k)), weighed(first_of(n, k)))
+      end do
+      !$omp end parallel do
+   end subroutine weigh
+
+   !> The same for a piece
+   pure subroutine weigh_piece(n, squared, weight, weighed)
+      integer, intent(in) :: n
+      logical, intent(in) :: squared
+      real(wp), intent(in) :: weight(n)
+      real(wp), intent(inout) :: weighed(n)
+
+      if (squared) then
+         weighed = weight**2
+      else
+         weighed = sqrt(weight)
+      end if
+   end subroutine weigh_piece
 
    !> The same if the yield limit has a slope
    subroutine linearise_return_map(problem, system, solution, workspace)

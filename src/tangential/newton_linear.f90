@@ -5,7 +5,7 @@
 module contact_tangential_newton_linear
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
-   use contact_numeric_pieces, only : add_long, copy_long, divide_long, inner_long
+   use contact_numeric_pieces, only : add_long, clear_long, copy_long, divide_long, inner_long, pieces_of
    use contact_numeric_vectors, only : add, add_four, inner, inner_four
    use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, most_pieces, &
       & newton_workspace, restart
@@ -58,16 +58,16 @@ contains
       n = system%n + system%n_forces
       if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
       associate (v => workspace%basis, z => workspace%preconditioned, h => workspace%hessenberg, x => workspace%x, b => workspace%b)
-         x = 0.0_wp
-         call flatten(workspace%residual, b)
-         b(:system%n) = -b(:system%n)
-         if (n > system%n) b(system%n + 1:n) = -system%g_norm*unbalance(:system%n_forces)
-         v(:n, 1) = b(:n)
-         start = norm2(v(:n, 1))
+         call clear_long(n, x)
+         ! b is the negative of the right-hand side
+         call copy_long(system%n, workspace%residual, b)
+         if (n > system%n) b(system%n + 1:n) = system%g_norm*unbalance(:system%n_forces)
+         call copy_long(n, b, v(:, 1))
+         start = norm_of(n, b)
          beta = start
          do cycle_ = 1, max_cycles
             if (.not. beta > tolerance*start) exit
-            v(:n, 1) = v(:n, 1)/beta
+            call divide_long(n, merge(-beta, beta, cycle_ == 1), v(:, 1))
             s = 0.0_wp
             s(1) = beta
             used = 0
@@ -105,18 +105,31 @@ contains
             beta = abs(s(used + 1))
             if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
             call apply_jacobian(problem, operator, system, workspace, x(:n), workspace%work(:n))
-            v(:n, 1) = b(:n) - workspace%work(:n)
-            beta = norm2(v(:n, 1))
+            v(:n, 1) = -b(:n) - workspace%work(:n)
+            beta = norm_of(n, v(:, 1))
          end do
          if (present(reached)) reached = beta/start
          m = system%n
-         call unfold(x, workspace%step)
+         call copy_long(m, x, workspace%step)
          correction = 0.0_wp
          do k = 1, system%n_forces
             correction(k) = x(m + k)*system%creep_scale/system%g_norm
          end do
       end associate
    end subroutine solve_linear
+
+   !> Length of a vector; threads share long ones
+   real(wp) function norm_of(n, v) result(norm)
+      !> Number of components
+      integer, intent(in) :: n
+      real(wp), intent(in) :: v(n)
+
+      if (pieces_of(n) == 1) then
+         norm = norm2(v)
+      else
+         norm = sqrt(inner_long(n, v, v))
+      end if
+   end function norm_of
 
    !> Orthogonalise the next vector against the first j vectors; returns its remaining length
    !>
@@ -381,34 +394,4 @@ contains
          end if
       end if
    end subroutine prepare_border
-
-   !> Copy a traction field to the first part of a vector of unknowns
-   pure subroutine flatten(field, vector)
-      real(wp), contiguous, intent(in) :: field(:, :, :)
-      real(wp), contiguous, intent(inout) :: vector(:)
-      integer :: iy, k, first
-
-      first = 0
-      do k = 1, size(field, 3)
-         do iy = 1, size(field, 2)
-            vector(first + 1:first + size(field, 1)) = field(:, iy, k)
-            first = first + size(field, 1)
-         end do
-      end do
-   end subroutine flatten
-
-   !> Copy the first part of a vector of unknowns to a traction field
-   pure subroutine unfold(vector, field)
-      real(wp), contiguous, intent(in) :: vector(:)
-      real(wp), contiguous, intent(inout) :: field(:, :, :)
-      integer :: iy, k, first
-
-      first = 0
-      do k = 1, size(field, 3)
-         do iy = 1, size(field, 2)
-            field(:, iy, k) = vector(first + 1:first + size(field, 1))
-            first = first + size(field, 1)
-         end do
-      end do
-   end subroutine unfold
 end module contact_tangential_newton_linear

@@ -15,6 +15,7 @@ module contact_tangential_problem
    use contact_base_solver_settings, only : solver_settings
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
+   use contact_numeric_pieces, only : add_long, clear_long, fill_whole, pieces_of
    use contact_tangential_second_order, only : second_order
    use contact_tangential_slip_loops, only : squares
    use contact_tangential_slip_turns, only : turned_residual
@@ -113,9 +114,11 @@ contains
          if (all(shape(solution%division) == [problem%mx, problem%my])) return
          deallocate(solution%p, solution%slip, solution%division)
       end if
-      allocate(solution%p(problem%mx, problem%my, 2), source=0.0_wp)
-      allocate(solution%slip(problem%mx, problem%my, 2), source=0.0_wp)
-      allocate(solution%division(problem%mx, problem%my), source=element%exterior)
+      allocate(solution%p(problem%mx, problem%my, 2), solution%slip(problem%mx, problem%my, 2), &
+         & solution%division(problem%mx, problem%my))
+      call clear_long(size(solution%p), solution%p)
+      call clear_long(size(solution%slip), solution%slip)
+      call fill_whole(size(solution%division), element%exterior, solution%division)
    end subroutine prepare_solution
 
    !> Product B p on the whole window
@@ -151,7 +154,7 @@ contains
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
 
       call apply_operator(problem, operator, p, slip)
-      slip = slip + problem%shift
+      call add_long(size(slip), 1.0_wp, problem%shift, slip)
       call add_creepages(problem, creep, slip)
    end subroutine slip_of
 
@@ -328,12 +331,30 @@ contains
       !> Members of element, shape (mx, my)
       integer, intent(inout) :: division(:, :)
       real(wp), allocatable :: before(:, :)
-      type(yield_point) :: point
-      real(wp) :: length, scale
-      integer :: ix, iy
+      integer :: iy
 
       if (problem%hardens()) before = limits_before(problem, p, slip, r)
-      do iy = 1, problem%my
+      if (pieces_of(size(division)) == 1) then
+         do iy = 1, problem%my
+            call divide_row(iy)
+         end do
+      else
+         !$omp parallel do
+         do iy = 1, problem%my
+            call divide_row(iy)
+         end do
+         !$omp end parallel do
+      end if
+
+   contains
+
+      !> States of a row
+      subroutine divide_row(iy)
+         integer, intent(in) :: iy
+         type(yield_point) :: point
+         real(wp) :: length, scale
+         integer :: ix
+
          do ix = 1, problem%mx
             division(ix, iy) = element%exterior
             if (.not. problem%contact(ix, iy)) cycle
@@ -347,7 +368,7 @@ contains
                division(ix, iy) = merge(element%slip, element%adhesion, length > problem%bound(ix, iy))
             end if
          end do
-      end do
+      end subroutine divide_row
    end subroutine divide_elements
 
    !> Separate plastic shearing from slip, in a solution whose slip is the sum of both
