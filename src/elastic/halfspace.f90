@@ -214,12 +214,13 @@ contains
       allocate(wider(number, -1:wanted(1), -1:wanted(2)))
       is_square = abs(dx - dy) <= 0.0_wp
       if (nx*ny > largest_kept) then
-         !$omp parallel do
+         ! rows that are mirrored in part take less time
+         !$omp parallel do schedule(dynamic, 4)
          do l = -1, wanted(2)
             call fill_row(l)
          end do
          !$omp end parallel do
-         !$omp parallel do
+         !$omp parallel do schedule(dynamic, 4)
          do l = -1, wanted(2)
             call mirror_in_row(l)
          end do

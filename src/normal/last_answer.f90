@@ -5,6 +5,7 @@ module contact_normal_last_answer
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
    use contact_normal_problem, only : normal_problem
+   use contact_numeric_pieces, only : copy_field
    implicit none (type, external)
    private
 
@@ -82,10 +83,10 @@ contains
          q%eps = problem%eps
          q%maxgs = problem%maxgs
       end associate
-      self%problem%h = problem%h
+      call copy_field(problem%h, self%problem%h)
       if (.not. self%model%same_as(operator%model)) self%model = operator%model
       self%y_first = operator%y_first
-      self%estimate = p
+      call copy_field(p, self%estimate)
    end subroutine note_question
 
    !> Record the solution, if the method converged
@@ -101,7 +102,7 @@ contains
       type(solve_report), intent(in) :: report
 
       if (report%ended /= ending%converged .or. allocated(problem%parts)) return
-      self%p = p
+      call copy_field(p, self%p)
       self%pen = pen
       self%iterations = report%iterations
       self%residual = report%residual

@@ -9,8 +9,8 @@ module contact_numeric_pieces
    implicit none (type, external)
    private
 
-   public :: add_long, clear_long, copy_long, copy_whole, divide_long, fill_long, fill_whole, first_of, inner_long, length_of, &
-      & most_pieces, pieces_of
+   public :: add_long, clear_long, copy_field, copy_long, copy_whole, divide_long, fill_long, fill_whole, first_of, inner_long, &
+      & length_of, most_pieces, pieces_of
 
    !> Pieces of a vector at most
    integer, parameter :: most_pieces = 64
@@ -118,6 +118,20 @@ contains
       end do
       !$omp end parallel do
    end subroutine copy_long
+
+   !> Copy a field, which is allocated anew only if its shape changes
+   subroutine copy_field(from, to)
+      !> Original
+      real(wp), contiguous, intent(in) :: from(:, :)
+      !> Copy
+      real(wp), allocatable, intent(inout) :: to(:, :)
+
+      if (allocated(to)) then
+         if (any(shape(to) /= shape(from))) deallocate(to)
+      end if
+      if (.not. allocated(to)) allocate(to(size(from, 1), size(from, 2)))
+      call copy_long(size(from), from, to)
+   end subroutine copy_field
 
    !> v := value
    subroutine fill_long(n, value, v)

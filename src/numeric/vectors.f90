@@ -8,7 +8,7 @@ module contact_numeric_vectors
    implicit none (type, external)
    private
 
-   public :: add, add_four, clear_numbers, copy_field, copy_numbers, inner, inner_four, largest_difference, largest_of, smallest_of
+   public :: add, add_four, clear_numbers, copy_numbers, inner, inner_four, largest_difference, largest_of, smallest_of
 
    !> Numbers that are copied or set by one call of the C library: it uses string instructions for more than two kilobytes, whose
    !> start takes as long as copying that number
@@ -108,20 +108,6 @@ contains
          to(i:min(i + part - 1, n)) = from(i:min(i + part - 1, n))
       end do
    end subroutine copy_numbers
-
-   !> Copy a field, which is allocated anew only if its shape changes
-   pure subroutine copy_field(from, to)
-      !> Original
-      real(wp), contiguous, intent(in) :: from(:, :)
-      !> Copy
-      real(wp), allocatable, intent(inout) :: to(:, :)
-
-      if (allocated(to)) then
-         if (any(shape(to) /= shape(from))) deallocate(to)
-      end if
-      if (.not. allocated(to)) allocate(to(size(from, 1), size(from, 2)))
-      call copy_numbers(size(from), from, to)
-   end subroutine copy_field
 
    !> Set contiguous numbers to zero, see `copy_numbers`
    pure subroutine clear_numbers(n, to)

@@ -12,8 +12,7 @@ module contact_patch_normal_step
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_normal_problem, only : force_round_off
-   use contact_numeric_pieces, only : copy_long
-   use contact_numeric_vectors, only : copy_field
+   use contact_numeric_pieces, only : copy_field, copy_long
    use contact_patch_field_loops, only : mark_elements, subtract_approach
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_relative_tractions, only : divide_by_pressures, multiply_by_pressures

@@ -8,7 +8,7 @@ module contact_patch_result
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_numeric_vectors, only : copy_field
+   use contact_numeric_pieces, only : copy_field
    use contact_patch_quantities, only : element_field, error_law, error_scale, is_lateral, orientation, total_list
    implicit none (type, external)
    private
@@ -198,7 +198,7 @@ contains
    end subroutine copy_result
 
    !> Move the fields of a solution, or copy them into arrays that are reused if their shapes are equal
-   pure subroutine hand_over(from, to, copies)
+   subroutine hand_over(from, to, copies)
       type(patch_result), intent(inout) :: from, to
       !> Shall the fields be copied? Otherwise they are moved
       logical, intent(in) :: copies
@@ -224,7 +224,7 @@ contains
    contains
 
       !> Move or copy one field
-      pure subroutine one(here, there)
+      subroutine one(here, there)
          real(wp), allocatable, intent(inout) :: here(:, :), there(:, :)
 
          if (copies) then

@@ -336,7 +336,7 @@ contains
             call interpolate_row(iy)
          end do
       else
-         !$omp parallel do
+         !$omp parallel do schedule(dynamic, 8)
          do iy = 1, fine%my
             call interpolate_row(iy)
          end do

@@ -339,7 +339,7 @@ contains
             call divide_row(iy)
          end do
       else
-         !$omp parallel do
+         !$omp parallel do schedule(dynamic, 8)
          do iy = 1, problem%my
             call divide_row(iy)
          end do
