@@ -119,7 +119,7 @@ contains
       type(gauss_rule), allocatable :: rules(:)
       !> Integrals across an element from each corner; and differences along x of the integrals from the end of the window
       real(wp), allocatable :: corner(:, :, :), behind(:, :)
-      real(wp) :: m(6), y
+      real(wp) :: y
       integer :: k, l
 
       steps%late = late
@@ -142,7 +142,19 @@ contains
       end do
       corner(:, :table%nx - 1, -1) = spread(mirrored, 2, 2*table%nx + 1)*corner(:, :table%nx - 1, 0)
       behind(:, -1) = mirrored*behind(:, 0)
+      !$omp parallel do if (table%nx*(table%ny + 1) > 2000)
       do l = 0, table%ny
+         call march_along(l)
+      end do
+
+   contains
+
+      !> Coefficients of a row, from its end on
+      subroutine march_along(l)
+         integer, intent(in) :: l
+         real(wp) :: m(6)
+         integer :: k
+
          m = combine_corners(behind(:, l) - behind(:, l - 1), late)
          call add_both(table, table%nx, l, m)
          do k = table%nx - 1, -table%nx, -1
@@ -150,7 +162,7 @@ contains
                & + corner(:, k - 1, l - 1), late)
             call add_both(table, k, l, m)
          end do
-      end do
+      end subroutine march_along
    end subroutine add_memory
 
    !> Gauss rule with n points

@@ -92,13 +92,33 @@ contains
       class(one_sided_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :)
       real(wp), contiguous, intent(inout) :: u(:, :)
+      integer :: l
 
       call need_spectra(self)
       call self%plan%forward(p, self%s1)
-      self%s1 = self%kernel(:, :, 1)*self%s1
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
+
+   contains
+
+      !> Product of a column of the spectrum
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s1(:, l) = self%kernel(:, l, 1)*self%s1(:, l)
+      end subroutine multiply
    end subroutine normal
 
    !> Both tangential components of the displacements or of their change per step
@@ -107,46 +127,75 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       logical, intent(in) :: change
+      integer :: l
 
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      self%mixed = self%kernel(:, :, 2)*self%s1 + self%kernel(:, :, 4)*self%s2
-      self%s2 = self%kernel(:, :, 4)*self%s1 + self%kernel(:, :, 3)*self%s2
-      call back(self, self%mixed, u(:, :, 1), change)
-      call back(self, self%s2, u(:, :, 2), change)
-      self%products = self%products + 1
-      self%transforms = self%transforms + 4
-   end subroutine pair_product
-
-   !> Transform back, optionally after taking the difference with the next element ahead
-   subroutine back(self, spectrum, u, change)
-      class(one_sided_operator), intent(inout) :: self
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :)
-      logical, intent(in) :: change
-      integer :: l
-
-      if (change) then
+      if (self%plan%is_shared()) then
+         !$omp parallel do
          do l = 1, self%plan%kx
-            spectrum(:, l) = self%difference(l)*spectrum(:, l)
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
          end do
       end if
-      call self%plan%backward(spectrum, u)
-   end subroutine back
+      call self%plan%backward(self%mixed, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
+      self%products = self%products + 1
+      self%transforms = self%transforms + 4
+
+   contains
+
+      !> Product of a column of the spectra, optionally with the difference to the next element ahead
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         associate (kernel => self%kernel(:, l, :), s1 => self%s1(:, l), s2 => self%s2(:, l), mixed => self%mixed(:, l))
+            mixed = kernel(:, 2)*s1 + kernel(:, 4)*s2
+            s2 = kernel(:, 4)*s1 + kernel(:, 3)*s2
+            if (.not. change) return
+            mixed = self%difference(l)*mixed
+            s2 = self%difference(l)*s2
+         end associate
+      end subroutine multiply
+   end subroutine pair_product
 
    subroutine normal_by_tangential(self, p, u)
       class(one_sided_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :)
+      integer :: l
 
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      self%s1 = -(self%kernel(:, :, 5)*self%s1 + self%kernel(:, :, 6)*self%s2)
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
+
+   contains
+
+      !> Product of a column of the spectra
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s1(:, l) = -(self%kernel(:, l, 5)*self%s1(:, l) + self%kernel(:, l, 6)*self%s2(:, l))
+      end subroutine multiply
    end subroutine normal_by_tangential
 
    !> Tangential displacements due to pressures, or their change per step
@@ -155,14 +204,37 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       logical, intent(in) :: change
+      integer :: l
 
       call need_spectra(self)
       call self%plan%forward(p, self%sn)
-      self%s1 = self%kernel(:, :, 5)*self%sn
-      self%s2 = self%kernel(:, :, 6)*self%sn
-      call back(self, self%s1, u(:, :, 1), change)
-      call back(self, self%s2, u(:, :, 2), change)
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
       self%transforms = self%transforms + 3
+
+   contains
+
+      !> Product of a column of the spectra, optionally with the difference to the next element ahead
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s1(:, l) = self%kernel(:, l, 5)*self%sn(:, l)
+         self%s2(:, l) = self%kernel(:, l, 6)*self%sn(:, l)
+         if (.not. change) return
+         self%s1(:, l) = self%difference(l)*self%s1(:, l)
+         self%s2(:, l) = self%difference(l)*self%s2(:, l)
+      end subroutine multiply
    end subroutine by_normal
 end module contact_elastic_one_sided

@@ -331,15 +331,34 @@ contains
       !> Normal displacement differences [mm], shape (mx, my)
       real(wp), contiguous, intent(inout) :: u(:, :)
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
+      integer :: l
 
       call need_coupling(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      ! c_nx = -c_xn, c_ny = -c_yn
-      self%s1 = -i*(self%xn*self%s1 + self%yn*self%s2)
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
+
+   contains
+
+      !> Product of a column of the spectra: c_nx = -c_xn, c_ny = -c_yn
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s1(:, l) = -i*(self%xn(:, l)*self%s1(:, l) + self%yn(:, l)*self%s2(:, l))
+      end subroutine multiply
    end subroutine normal_by_tangential
 
    subroutine tangential_by_normal(self, p, u)
@@ -349,15 +368,35 @@ contains
       !> Tangential displacement differences [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
+      integer :: l
 
       call need_coupling(self)
       call self%plan%forward(p, self%s1)
-      self%s2 = i*self%yn*self%s1
-      self%s1 = i*self%xn*self%s1
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
       self%transforms = self%transforms + 3
+
+   contains
+
+      !> Products of a column of the spectrum
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s2(:, l) = i*self%yn(:, l)*self%s1(:, l)
+         self%s1(:, l) = i*self%xn(:, l)*self%s1(:, l)
+      end subroutine multiply
    end subroutine tangential_by_normal
 
    subroutine steady_by_normal(self, p, u)
@@ -369,14 +408,31 @@ contains
 
       call need_coupling(self)
       call self%plan%forward(p, self%s1)
-      do l = 1, self%plan%kx
-         self%s2(:, l) = i*self%difference(l)*self%yn(:, l)*self%s1(:, l)
-         self%s1(:, l) = i*self%difference(l)*self%xn(:, l)*self%s1(:, l)
-      end do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
       self%transforms = self%transforms + 3
+
+   contains
+
+      !> Products of a column of the spectrum
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s2(:, l) = i*self%difference(l)*self%yn(:, l)*self%s1(:, l)
+         self%s1(:, l) = i*self%difference(l)*self%xn(:, l)*self%s1(:, l)
+      end subroutine multiply
    end subroutine steady_by_normal
 
    subroutine release(self)

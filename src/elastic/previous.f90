@@ -104,19 +104,40 @@ contains
       real(wp), contiguous, intent(in) :: px(:, :), py(:, :), pn(:, :)
       !> Displacement differences [mm], shape (mx, my)
       real(wp), contiguous, intent(inout) :: ux(:, :), uy(:, :)
+      integer :: l
 
       call self%plan%forward(px, self%sx)
       call self%plan%forward(py, self%sy)
-      self%s = self%xx*self%sx + self%xy*self%sy
-      self%sy = self%xy*self%sx + self%yy*self%sy
       self%transforms = self%transforms + 4
       if (self%model%coupled()) then
          call self%plan%forward(pn, self%sn)
-         self%s = self%s + self%xn*self%sn
-         self%sy = self%sy + self%yn*self%sn
          self%transforms = self%transforms + 1
+      end if
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
       end if
       call self%plan%backward(self%s, ux)
       call self%plan%backward(self%sy, uy)
+
+   contains
+
+      !> Products of a column of the spectra
+      subroutine multiply(l)
+         integer, intent(in) :: l
+
+         self%s(:, l) = self%xx(:, l)*self%sx(:, l) + self%xy(:, l)*self%sy(:, l)
+         self%sy(:, l) = self%xy(:, l)*self%sx(:, l) + self%yy(:, l)*self%sy(:, l)
+         if (.not. self%model%coupled()) return
+         self%s(:, l) = self%s(:, l) + self%xn(:, l)*self%sn(:, l)
+         self%sy(:, l) = self%sy(:, l) + self%yn(:, l)*self%sn(:, l)
+      end subroutine multiply
    end subroutine tangential
 end module contact_elastic_previous

@@ -8,11 +8,10 @@ module contact_fft_plan
    use contact_base_kinds, only : wp
    use contact_fft_four_lines, only : columns_at_once, four_columns_backward, four_columns_forward, four_columns_one, &
       & four_columns_two, four_rows_backward, four_rows_forward, line_factors, rows_at_once, work_size
-   use contact_fft_kept_plans, only : line_backward, line_forward, plan_set
-   use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
-   use contact_fft_lines, only : multiply_one, multiply_two, turn_two
+   use contact_fft_lines, only : multiply_one
+   use contact_fft_one_row, only : one_row
    use contact_fft_sizes, only : fast_line_size, fast_size, good_size, largest_fast_size
-   !$ use omp_lib, only : omp_get_max_threads
+   !$ use omp_lib, only : omp_get_active_level, omp_get_max_active_levels, omp_get_max_threads
    implicit none (type, external)
    private
 
@@ -35,9 +34,8 @@ module contact_fft_plan
       !> Steps of the transforms of rows and columns, and their workspace, one column per thread
       type(line_factors), private :: rows, columns
       real(wp), allocatable, private :: work(:, :)
-      !> A window of one row: the row padded, transformed, and transformed back, shape (px, 3), and its plans
-      complex(wp), allocatable, private :: line(:, :)
-      type(plan_set), private :: line_plans
+      !> A window of one row
+      type(one_row), private :: row
    contains
       !> Make plans for a window; existing plans of the same size are kept
       procedure :: prepare => prepare_plan
@@ -49,6 +47,8 @@ module contact_fft_plan
       !> Products with a kernel whose spectrum is real, of two fields with a symmetric 2 by 2 block of them
       procedure :: convolve
       procedure :: convolve_pair
+      !> Is the padded window so large that threads share its lines?
+      procedure :: is_shared
       !> Free the plans
       procedure :: release => release_plan
    end type fft_plan
@@ -68,9 +68,8 @@ contains
       self%py = py
       self%kx = px/2 + 1
       if (py == 1) then
-         allocate(self%half(2*self%kx), self%line(px, 3))
-         self%line = 0.0_wp
-         call get_line_plans(self)
+         allocate(self%half(2*self%kx))
+         call self%row%prepare(mx, px)
          return
       end if
       allocate(self%half(2*my*columns_at_once*blocks_of_columns(self)))
@@ -98,40 +97,51 @@ contains
       allocate(self%work(work_size(max(self%px, self%py)), threads))
    end subroutine fit_workspace
 
-   !> Plans of a window of one row
-   subroutine get_line_plans(self)
-      type(fft_plan), intent(inout) :: self
-      integer :: n
-
-      n = self%px
-      ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
-      !$omp critical (contact_fft_planner)
-      call self%line_plans%take(n)
-      if (.not. self%line_plans%is_kept) then
-         self%line_plans%plan(line_forward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, forwards)
-         self%line_plans%plan(line_backward) = plan_complex(n, 1, self%line(:, 1), 1, n, self%line(:, 2), 1, n, backwards)
-         call self%line_plans%keep(n)
-      end if
-      !$omp end critical (contact_fft_planner)
-   end subroutine get_line_plans
-
    subroutine transform_forward(self, field, spectrum)
       class(fft_plan), intent(inout) :: self
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
       !> Spectrum, shape (py, kx)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      integer :: k
+      integer :: stage, t, threads
 
       if (self%py == 1) then
-         call transform_line(self, field, spectrum)
+         call self%row%forward(field, spectrum)
          return
       end if
-      call transform_rows(self, 1, 1, self%my, self%my, field, self%half)
-      do k = 1, self%kx, columns_at_once
-         call transform_columns(self, 1, k, self%half, spectrum(:, k:))
+      threads = threads_of(self)
+      do stage = 1, 2
+         if (threads == 1) then
+            call share_of_forward(self, stage, 1, 1, field, spectrum)
+         else
+            !$omp parallel do num_threads(threads) schedule(static, 1)
+            do t = 1, threads
+               call share_of_forward(self, stage, t, threads, field, spectrum)
+            end do
+            !$omp end parallel do
+         end if
       end do
    end subroutine transform_forward
+
+   !> What falls to one of some threads
+   subroutine share_of_forward(self, stage, t, threads, field, spectrum)
+      type(fft_plan), intent(inout) :: self
+      !> 1: rows, 2: columns
+      integer, intent(in) :: stage, t, threads
+      real(wp), contiguous, intent(in) :: field(:, :)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      integer :: first, k, last
+
+      if (stage == 1) then
+         call find_share(self%my, rows_at_once, t, threads, first, last)
+         call transform_rows(self, t, first, last, self%my, field, self%half)
+         return
+      end if
+      call find_share(self%kx, columns_at_once, t, threads, first, last)
+      do k = first, last, columns_at_once
+         call transform_columns(self, t, k, self%half, spectrum(:, k:))
+      end do
+   end subroutine share_of_forward
 
    subroutine transform_backward(self, spectrum, field)
       class(fft_plan), intent(inout) :: self
@@ -139,18 +149,46 @@ contains
       complex(wp), contiguous, intent(in) :: spectrum(:, :)
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(inout) :: field(:, :)
-      integer :: k
+      integer :: stage, t, threads
 
       if (self%py == 1) then
-         call transform_line_back(self, spectrum, field)
+         call self%row%backward(spectrum, field)
          return
       end if
-      do k = 1, self%kx, columns_at_once
-         call four_columns_backward(self%columns%steps, self%columns%positions, self%columns%factors, self%my, &
-            & min(columns_at_once, self%kx + 1 - k), spectrum(:, k), self%half(1 + self%my*(k - 1)), self%work)
+      threads = threads_of(self)
+      do stage = 1, 2
+         if (threads == 1) then
+            call share_of_backward(self, stage, 1, 1, spectrum, field)
+         else
+            !$omp parallel do num_threads(threads) schedule(static, 1)
+            do t = 1, threads
+               call share_of_backward(self, stage, t, threads, spectrum, field)
+            end do
+            !$omp end parallel do
+         end if
       end do
-      call transform_rows_back(self, 1, 1, self%my, self%my, self%half, field)
    end subroutine transform_backward
+
+   !> What falls to one of some threads
+   subroutine share_of_backward(self, stage, t, threads, spectrum, field)
+      type(fft_plan), intent(inout) :: self
+      !> 1: columns, 2: rows
+      integer, intent(in) :: stage, t, threads
+      complex(wp), contiguous, intent(in) :: spectrum(:, :)
+      real(wp), contiguous, intent(inout) :: field(:, :)
+      integer :: first, k, last
+
+      if (stage == 2) then
+         call find_share(self%my, rows_at_once, t, threads, first, last)
+         call transform_rows_back(self, t, first, last, self%my, self%half, field)
+         return
+      end if
+      call find_share(self%kx, columns_at_once, t, threads, first, last)
+      do k = first, last, columns_at_once
+         call four_columns_backward(self%columns%steps, self%columns%positions, self%columns%factors, self%my, &
+            & min(columns_at_once, self%kx + 1 - k), spectrum(:, k), self%half(1 + self%my*(k - 1)), self%work(:, t))
+      end do
+   end subroutine share_of_backward
 
    !> Real or imaginary parts of a transform, those of opposite frequencies in y added
    subroutine transform_quarter(self, quarter, imaginary, sign_y, spectrum)
@@ -193,7 +231,7 @@ contains
 
       if (self%py == 1) then
          if (t > 1 .or. stage > 1) return
-         call transform_line(self, quarter, self%half)
+         call self%row%forward(quarter, self%half)
          do k = 1, self%kx
             call fold(1, self%half(k), imaginary, sign_y, spectrum(:, k))
          end do
@@ -238,9 +276,9 @@ contains
       real(wp), contiguous, intent(inout) :: product(:, :)
 
       if (self%py == 1) then
-         call transform_line(self, field, self%half)
+         call self%row%forward(field, self%half)
          call multiply_one(self%kx, kernel, self%half)
-         call transform_line_back(self, self%half, product)
+         call self%row%backward(self%half, product)
       else
          call make_product(self, 1, field, product, kernel)
       end if
@@ -258,7 +296,7 @@ contains
       complex(wp), contiguous, intent(in), optional :: factor(:)
 
       if (self%py == 1) then
-         call multiply_lines(self, fields, products, xx, yy, xy, factor)
+         call self%row%multiply(fields, products, xx, yy, xy, factor)
       else
          call make_product(self, 2, fields, products, xx, yy, xy, factor)
       end if
@@ -292,12 +330,22 @@ contains
       end do
    end subroutine make_product
 
+   pure logical function is_shared(self)
+      class(fft_plan), intent(in) :: self
+
+      is_shared = self%px*self%py > worth_threads
+   end function is_shared
+
    !> Number of threads that share the lines; they have workspace
    integer function threads_of(self) result(threads)
       type(fft_plan), intent(inout) :: self
 
       threads = 1
-      !$ if (self%px*self%py > worth_threads) threads = omp_get_max_threads()
+      if (self%is_shared()) then
+         !$ threads = omp_get_max_threads()
+         ! threads that transform fields of their own do not share the lines of one
+         !$ if (omp_get_active_level() >= omp_get_max_active_levels()) threads = 1
+      end if
       if (self%py > 1) call fit_workspace(self, threads)
    end function threads_of
 
@@ -408,56 +456,6 @@ contains
       end do
    end subroutine transform_rows_back
 
-   !> Transform a window of one row
-   subroutine transform_line(self, field, spectrum)
-      type(fft_plan), intent(inout) :: self
-      real(wp), intent(in) :: field(self%mx)
-      complex(wp), intent(inout) :: spectrum(self%kx)
-
-      self%line(:self%mx, 1) = field
-      call execute_complex(self%line_plans%plan(line_forward), self%line(:, 1), self%line(:, 2))
-      spectrum = self%line(:self%kx, 2)
-   end subroutine transform_line
-
-   !> The same back, from a spectrum of real values
-   subroutine transform_line_back(self, spectrum, field)
-      type(fft_plan), intent(inout) :: self
-      complex(wp), intent(in) :: spectrum(self%kx)
-      real(wp), intent(inout) :: field(self%mx)
-      integer :: k
-
-      self%line(:self%kx, 2) = spectrum
-      do k = 2, (self%px + 1)/2
-         self%line(self%px + 2 - k, 2) = conjg(spectrum(k))
-      end do
-      call execute_complex(self%line_plans%plan(line_backward), self%line(:, 2), self%line(:, 3))
-      field = self%line(:self%mx, 3)%re
-   end subroutine transform_line_back
-
-   !> Product of two fields on a window of one row: their transform need not be separated
-   subroutine multiply_lines(self, fields, products, xx, yy, xy, factor)
-      type(fft_plan), intent(inout) :: self
-      real(wp), intent(in) :: fields(self%mx, 2)
-      real(wp), intent(inout) :: products(self%mx, 2)
-      real(wp), contiguous, intent(in) :: xx(:, :), yy(:, :), xy(:, :)
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-      integer :: ix
-
-      associate (row => self%line(:, 1), done => self%line(:, 2), back => self%line(:, 3))
-         do ix = 1, self%mx
-            row(ix) = cmplx(fields(ix, 1), fields(ix, 2), wp)
-         end do
-         call execute_complex(self%line_plans%plan(line_forward), row, done)
-         call multiply_two(self%px, xx, yy, xy, done)
-         if (present(factor)) call turn_two(self%px, factor, done)
-         call execute_complex(self%line_plans%plan(line_backward), done, back)
-         do ix = 1, self%mx
-            products(ix, 1) = back(ix)%re
-            products(ix, 2) = back(ix)%im
-         end do
-      end associate
-   end subroutine multiply_lines
-
    !> Spectrum of a full period of real values
    subroutine kernel_spectrum(period, spectrum)
       !> One period, shape (px, py)
@@ -483,10 +481,9 @@ contains
    subroutine clear(self)
       class(fft_plan), intent(inout) :: self
 
-      call self%line_plans%release()
+      call self%row%release()
       self%mx = 0
       if (allocated(self%half)) deallocate(self%half)
       if (allocated(self%work)) deallocate(self%work)
-      if (allocated(self%line)) deallocate(self%line)
    end subroutine clear
 end module contact_fft_plan

@@ -191,15 +191,33 @@ contains
       type(tangential_solution), intent(in) :: solution
       type(newton_workspace), intent(inout) :: workspace
       real(wp), allocatable :: before(:, :)
-      integer :: ix, iy
-      real(wp) :: z(2), length
+      integer :: iy
 
       before = limits_before(problem, solution%p, solution%slip, system%r)
       allocate(workspace%point(problem%mx, problem%my))
-      workspace%weight = 0.0_wp
-      workspace%direction = 0.0_wp
-      workspace%residual = 0.0_wp
-      do iy = 1, problem%my
+      if (pieces_of(problem%mx*problem%my) > 1) then
+         !$omp parallel do
+         do iy = 1, problem%my
+            call linearise_row(iy)
+         end do
+         !$omp end parallel do
+      else
+         do iy = 1, problem%my
+            call linearise_row(iy)
+         end do
+      end if
+
+   contains
+
+      !> Weights, directions and residuals of a row
+      subroutine linearise_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix
+         real(wp) :: z(2), length
+
+         workspace%weight(:, iy) = 0.0_wp
+         workspace%direction(:, iy, :) = 0.0_wp
+         workspace%residual(:, iy, :) = 0.0_wp
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
             z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
@@ -216,7 +234,7 @@ contains
             end associate
             workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
          end do
-      end do
+      end subroutine linearise_row
    end subroutine linearise_return_map
 
    !> v := v + n radial n.w, the radial part of the derivative of the return map
@@ -227,15 +245,33 @@ contains
       real(wp), contiguous, intent(in) :: w(:, :, :)
       !> Field to which the part is added, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
-      integer :: ix, iy
-      real(wp) :: c
+      integer :: iy
 
-      do iy = 1, size(v, 2)
+      if (pieces_of(size(workspace%weight)) > 1) then
+         !$omp parallel do
+         do iy = 1, size(v, 2)
+            call add_row(iy)
+         end do
+         !$omp end parallel do
+      else
+         do iy = 1, size(v, 2)
+            call add_row(iy)
+         end do
+      end if
+
+   contains
+
+      !> A row of the field
+      subroutine add_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix
+         real(wp) :: c
+
          do ix = 1, size(v, 1)
             c = workspace%direction(ix, iy, 1)*w(ix, iy, 1) + workspace%direction(ix, iy, 2)*w(ix, iy, 2)
             v(ix, iy, :) = v(ix, iy, :) + workspace%point(ix, iy)%radius_by_length*c*workspace%direction(ix, iy, :)
          end do
-      end do
+      end subroutine add_row
    end subroutine add_radial
 
    !> Change of the returned tractions due to changes of z = p - r S and of the bound
@@ -252,10 +288,28 @@ contains
       real(wp), contiguous, intent(inout) :: out(:, :, :)
       !> Changes of the traction bound [N/mm2], shape (mx, my); absent: none
       real(wp), contiguous, intent(in), optional :: bound(:, :)
-      integer :: ix, iy, k
-      real(wp) :: c, g, limit, n(2)
+      integer :: iy
 
-      do iy = 1, problem%my
+      if (pieces_of(problem%mx*problem%my) > 1) then
+         !$omp parallel do
+         do iy = 1, problem%my
+            call differentiate_row(iy)
+         end do
+         !$omp end parallel do
+      else
+         do iy = 1, problem%my
+            call differentiate_row(iy)
+         end do
+      end if
+
+   contains
+
+      !> Changes of the tractions of a row
+      subroutine differentiate_row(iy)
+         integer, intent(in) :: iy
+         integer :: ix, k
+         real(wp) :: c, g, limit, n(2)
+
          limit = 0.0_wp
          do k = 1, problem%mx
             ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
@@ -275,7 +329,7 @@ contains
                end if
             end associate
          end do
-      end do
+      end subroutine differentiate_row
    end subroutine differentiate_return_map
 
    !> v := D v

@@ -255,7 +255,7 @@ contains
       end do
       dc = matmul(system%schur, rest)
       do k = 1, system%n_forces
-         u = u - dc(k)*workspace%border(:, :, :, k)
+         call add_long(size(u), -dc(k), workspace%border(:, :, :, k), u)
          out(system%n + k) = dc(k)
       end do
    end subroutine precondition
@@ -287,7 +287,7 @@ contains
          call project_change(size(workspace%weight), workspace%inverse_weight, workspace%direction, workspace%trial)
       end if
       if (allocated(problem%second)) then
-         workspace%trial_slip = workspace%trial
+         call copy_long(size(v), workspace%trial, workspace%trial_slip)
          call problem%second%leave_stiff(workspace%trial_slip)
          call operator%tangential_inverse(workspace%trial_slip, u)
       else

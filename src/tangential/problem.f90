@@ -248,7 +248,7 @@ contains
    end function squared_residual
 
    !> Contribution with the return map instead of the projection, and the sum of squares for its scale
-   pure subroutine add_yielding(problem, p, slip, r, total, scale)
+   subroutine add_yielding(problem, p, slip, r, total, scale)
       !> As in contact_residual
       type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :), r
@@ -293,7 +293,7 @@ contains
    !>
    !> In steady rolling these are the limits of the next upstream elements after the step: each row is followed from its leading
    !> side. Material keeps its limit in gaps between contact areas.
-   pure function limits_before(problem, p, slip, r) result(before)
+   function limits_before(problem, p, slip, r) result(before)
       !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
       !> Tractions p [N/mm2] and slip per step S [mm], both of shape (mx, my, 2)
@@ -301,13 +301,31 @@ contains
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
       real(wp), allocatable :: before(:, :)
-      type(yield_point) :: point
-      real(wp) :: limit
-      integer :: ix, iy, k
+      integer :: iy
 
       before = problem%yield%limit
       if (.not. problem%steady) return
-      do iy = 1, problem%my
+      if (pieces_of(problem%mx*problem%my) > 1) then
+         !$omp parallel do
+         do iy = 1, problem%my
+            call follow_row(iy)
+         end do
+         !$omp end parallel do
+      else
+         do iy = 1, problem%my
+            call follow_row(iy)
+         end do
+      end if
+
+   contains
+
+      !> Limits of a row, from its leading side on
+      subroutine follow_row(iy)
+         integer, intent(in) :: iy
+         type(yield_point) :: point
+         real(wp) :: limit
+         integer :: ix, k
+
          limit = problem%yield%limit(merge(problem%mx, 1, problem%direction > 0), iy)
          do k = 1, problem%mx
             ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
@@ -317,7 +335,7 @@ contains
                & ix, iy, limit, r)
             limit = point%limit
          end do
-      end do
+      end subroutine follow_row
    end function limits_before
 
    !> Element states for given tractions and slip: slip if |p - r S| > g

@@ -5,6 +5,7 @@
 !> element's slip by one angle that depends on three. Derivation: doc/theory/second_order.md.
 module contact_tangential_slip_turns
    use contact_base_kinds, only : wp
+   use contact_numeric_pieces, only : most_pieces, pieces_of
    use contact_tangential_slip_means, only : add_by_shares, local_mean, mean_slip
    implicit none (type, external)
    private
@@ -96,7 +97,7 @@ contains
    end subroutine differentiate_turn
 
    !> Sum of |p - P_g(p - r S)|**2 over the contact, S the acting slip: weighted, and turned in elements that slip [(N/mm2)2]
-   pure real(wp) function turned_residual(mx, my, weight, is_turned, contact, direction, p, bound, slip, r) result(total)
+   real(wp) function turned_residual(mx, my, weight, is_turned, contact, direction, p, bound, slip, r) result(total)
       !> Size of the window
       integer, intent(in) :: mx, my
       !> Weights of the rows of the equations [-]
@@ -111,30 +112,58 @@ contains
       real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
       !> Slip per step [mm], and its scale [(N/mm2)/mm]
       real(wp), intent(in) :: slip(mx, my, 2), r
-      type(local_mean) :: mean
-      real(wp) :: w(2), z(2), turn(2)
-      integer :: ix, iy
+      real(wp) :: part(most_pieces)
+      integer :: k
 
-      total = 0.0_wp
-      do iy = 1, my
-         do ix = 1, mx
-            if (.not. contact(ix, iy)) cycle
-            w = r*weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
-            z = [p(ix, iy, 1) - w(1), p(ix, iy, 2) - w(2)]
-            if (.not. leaves_disc(z, bound(ix, iy))) then
-               total = total + (w(1)**2 + w(2)**2)
-               cycle
-            end if
-            if (is_turned) then
-               mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
-               turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
-               z = [p(ix, iy, 1) - (turn(1)*w(1) - turn(2)*w(2)), p(ix, iy, 2) - (turn(2)*w(1) + turn(1)*w(2))]
-            end if
-            if (leaves_disc(z, bound(ix, iy))) z = z*(bound(ix, iy)/sqrt(z(1)**2 + z(2)**2))
-            total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
-         end do
+      if (pieces_of(mx*my) == 1) then
+         total = residual_of_rows(1, my)
+         return
+      end if
+      !$omp parallel do
+      do k = 1, most_pieces
+         part(k) = residual_of_rows(first_row(my, k), first_row(my, k + 1) - 1)
       end do
+      !$omp end parallel do
+      total = sum(part)
+
+   contains
+
+      !> The sum over some rows
+      pure real(wp) function residual_of_rows(first, last) result(total)
+         integer, intent(in) :: first, last
+         type(local_mean) :: mean
+         real(wp) :: w(2), z(2), turn(2)
+         integer :: ix, iy
+
+         total = 0.0_wp
+         do iy = first, last
+            do ix = 1, mx
+               if (.not. contact(ix, iy)) cycle
+               w = r*weight(ix, iy)*[slip(ix, iy, 1), slip(ix, iy, 2)]
+               z = [p(ix, iy, 1) - w(1), p(ix, iy, 2) - w(2)]
+               if (.not. leaves_disc(z, bound(ix, iy))) then
+                  total = total + (w(1)**2 + w(2)**2)
+                  cycle
+               end if
+               if (is_turned) then
+                  mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
+                  turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
+                  z = [p(ix, iy, 1) - (turn(1)*w(1) - turn(2)*w(2)), p(ix, iy, 2) - (turn(2)*w(1) + turn(1)*w(2))]
+               end if
+               if (leaves_disc(z, bound(ix, iy))) z = z*(bound(ix, iy)/sqrt(z(1)**2 + z(2)**2))
+               total = total + ((p(ix, iy, 1) - z(1))**2 + (p(ix, iy, 2) - z(2))**2)
+            end do
+         end do
+      end function residual_of_rows
    end function turned_residual
+
+   !> First row of a piece of the window
+   pure integer function first_row(my, piece)
+      !> Rows of the window, and number of the piece, up to most_pieces + 1
+      integer, intent(in) :: my, piece
+
+      first_row = 1 + ((piece - 1)*my)/most_pieces
+   end function first_row
 
    !> Does an element slip? Its traction less its slip lies outside of the disc of its bound
    pure logical function leaves_disc(z, bound) result(leaves)
@@ -160,30 +189,63 @@ contains
       real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
       !> Slip per step [mm], and its scale [(N/mm2)/mm]
       real(wp), intent(in) :: slip(mx, my, 2), r
-      real(wp) :: factor
-      integer :: ix, iy, k
-      logical :: slips
+      integer :: at(most_pieces), k
 
       call fit_turns(self, mx*my)
-      k = 0
-      do iy = 1, my
-         do ix = 1, mx
-            if (.not. contact(ix, iy)) cycle
-            factor = r*weight(ix, iy)
-            slips = is_turned
-            if (slips) slips = leaves_disc([p(ix, iy, 1) - factor*slip(ix, iy, 1), p(ix, iy, 2) - factor*slip(ix, iy, 2)], &
-               & bound(ix, iy))
-            if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
-            k = k + 1
-            self%at(:, k) = ix + mx*(iy - 1)
-            self%row(:, k) = [weight(ix, iy), 0.0_wp]
-            self%across(:, k) = 0.0_wp
-            self%by(:, :, k) = 0.0_wp
-            if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
-               & self%across(:, k), self%by(:, :, k))
-         end do
+      self%n = 0
+      if (pieces_of(mx*my) == 1) then
+         call linearise_rows(1, my, .true., self%n)
+         return
+      end if
+      ! places in the list by the numbers of elements of the pieces before
+      !$omp parallel do
+      do k = 1, most_pieces
+         at(k) = 0
+         call linearise_rows(first_row(my, k), first_row(my, k + 1) - 1, .false., at(k))
       end do
-      self%n = k
+      !$omp end parallel do
+      self%n = sum(at)
+      do k = most_pieces, 1, -1
+         at(k) = sum(at(:k - 1))
+      end do
+      !$omp parallel do
+      do k = 1, most_pieces
+         call linearise_rows(first_row(my, k), first_row(my, k + 1) - 1, .true., at(k))
+      end do
+      !$omp end parallel do
+
+   contains
+
+      !> The elements of some rows
+      subroutine linearise_rows(first, last, sets, k)
+         integer, intent(in) :: first, last
+         !> Are derivatives set? Otherwise elements are counted
+         logical, intent(in) :: sets
+         !> Number of elements in the list before and after
+         integer, intent(inout) :: k
+         real(wp) :: factor
+         integer :: ix, iy
+         logical :: slips
+
+         do iy = first, last
+            do ix = 1, mx
+               if (.not. contact(ix, iy)) cycle
+               factor = r*weight(ix, iy)
+               slips = is_turned
+               if (slips) slips = leaves_disc([p(ix, iy, 1) - factor*slip(ix, iy, 1), p(ix, iy, 2) - factor*slip(ix, iy, 2)], &
+                  & bound(ix, iy))
+               if (.not. (slips .or. weight(ix, iy) < 1.0_wp)) cycle
+               k = k + 1
+               if (.not. sets) cycle
+               self%at(:, k) = ix + mx*(iy - 1)
+               self%row(:, k) = [weight(ix, iy), 0.0_wp]
+               self%across(:, k) = 0.0_wp
+               self%by(:, :, k) = 0.0_wp
+               if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
+                  & self%across(:, k), self%by(:, :, k))
+            end do
+         end do
+      end subroutine linearise_rows
    end subroutine linearise_turns
 
    !> Arrays for a window with this number of elements
@@ -197,21 +259,37 @@ contains
       self%window = window
    end subroutine fit_turns
 
-   pure subroutine act(self, slip)
+   subroutine act(self, slip)
       class(slip_turns), intent(in) :: self
       !> That of the derivative [mm]
       real(wp), intent(inout) :: slip(self%window, 2)
-      real(wp) :: x
       integer :: k
 
-      do k = 1, self%n
-         associate (i => self%at(2, k), row => self%row(:, k))
-            x = slip(i, 1)
-            slip(i, 1) = row(1)*x - row(2)*slip(i, 2)
-            slip(i, 2) = row(2)*x + row(1)*slip(i, 2)
-         end associate
-      end do
+      if (pieces_of(self%window) == 1) then
+         do k = 1, self%n
+            call turn_one(self%row(:, k), slip(self%at(2, k), 1), slip(self%at(2, k), 2))
+         end do
+      else
+         !$omp parallel do
+         do k = 1, self%n
+            call turn_one(self%row(:, k), slip(self%at(2, k), 1), slip(self%at(2, k), 2))
+         end do
+         !$omp end parallel do
+      end if
    end subroutine act
+
+   !> Slip of an element, weighted and turned
+   pure subroutine turn_one(row, x, y)
+      !> Weight times cosine and sine of the turn
+      real(wp), intent(in) :: row(2)
+      !> Slip
+      real(wp), intent(inout) :: x, y
+      real(wp) :: old
+
+      old = x
+      x = row(1)*old - row(2)*y
+      y = row(2)*old + row(1)*y
+   end subroutine turn_one
 
    !> Turn of an element in slip, and what it changes by
    pure subroutine linearise_element(mx, my, contact, direction, slip, ix, iy, at, row, across, by)
@@ -244,19 +322,17 @@ contains
          & [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)], by)
    end subroutine linearise_element
 
-   !> self%angle := changes of the angles by a field of slip
-   pure subroutine find_angles(self, slip)
-      class(slip_turns), intent(inout) :: self
-      real(wp), intent(in) :: slip(self%window, 2)
-      integer :: k
+   !> Change of an angle by a field of slip
+   pure real(wp) function angle_by(elements, at, by, slip) result(angle)
+      !> Elements of the window; those behind, here and ahead
+      integer, intent(in) :: elements, at(3)
+      !> The angle per slip
+      real(wp), intent(in) :: by(2, 3)
+      real(wp), intent(in) :: slip(elements, 2)
 
-      do k = 1, self%n
-         associate (at => self%at(:, k), by => self%by(:, :, k))
-            self%angle(k) = by(1, 1)*slip(at(1), 1) + by(2, 1)*slip(at(1), 2) + by(1, 2)*slip(at(2), 1) &
-               & + by(2, 2)*slip(at(2), 2) + by(1, 3)*slip(at(3), 1) + by(2, 3)*slip(at(3), 2)
-         end associate
-      end do
-   end subroutine find_angles
+      angle = by(1, 1)*slip(at(1), 1) + by(2, 1)*slip(at(1), 2) + by(1, 2)*slip(at(2), 1) &
+         & + by(2, 2)*slip(at(2), 2) + by(1, 3)*slip(at(3), 1) + by(2, 3)*slip(at(3), 2)
+   end function angle_by
 
    !> slip := slip + the derivative self%angle applied to the slip behind, here and ahead
    pure subroutine add_by_angles(self, slip)
@@ -274,22 +350,45 @@ contains
       end do
    end subroutine add_by_angles
 
-   pure subroutine apply(self, slip)
+   subroutine apply(self, slip)
       class(slip_turns), intent(inout) :: self
       !> [mm]
       real(wp), intent(inout) :: slip(self%window, 2)
-      real(wp) :: x
       integer :: k
 
-      call find_angles(self, slip)
-      do k = 1, self%n
-         associate (i => self%at(2, k), row => self%row(:, k))
-            x = slip(i, 1)
-            slip(i, 1) = row(1)*x - row(2)*slip(i, 2) + self%angle(k)*self%across(1, k)
-            slip(i, 2) = row(2)*x + row(1)*slip(i, 2) + self%angle(k)*self%across(2, k)
-         end associate
-      end do
+      if (pieces_of(self%window) == 1) then
+         do k = 1, self%n
+            self%angle(k) = angle_by(self%window, self%at(:, k), self%by(:, :, k), slip)
+         end do
+         do k = 1, self%n
+            call apply_one(self%row(:, k), self%across(:, k), self%angle(k), slip(self%at(2, k), 1), slip(self%at(2, k), 2))
+         end do
+      else
+         !$omp parallel do
+         do k = 1, self%n
+            self%angle(k) = angle_by(self%window, self%at(:, k), self%by(:, :, k), slip)
+         end do
+         !$omp end parallel do
+         !$omp parallel do
+         do k = 1, self%n
+            call apply_one(self%row(:, k), self%across(:, k), self%angle(k), slip(self%at(2, k), 1), slip(self%at(2, k), 2))
+         end do
+         !$omp end parallel do
+      end if
    end subroutine apply
+
+   !> Change of the acting slip of an element by those of its slip and of its angle
+   pure subroutine apply_one(row, across, angle, x, y)
+      !> See slip_turns
+      real(wp), intent(in) :: row(2), across(2), angle
+      !> Change of slip on entry, of acting slip on exit
+      real(wp), intent(inout) :: x, y
+      real(wp) :: old
+
+      old = x
+      x = row(1)*old - row(2)*y + angle*across(1)
+      y = row(2)*old + row(1)*y + angle*across(2)
+   end subroutine apply_one
 
    pure subroutine apply_transposed(self, slip)
       class(slip_turns), intent(inout) :: self
