@@ -11,7 +11,7 @@ module contact_cases_patch_setup
    use contact_cases_geometry, only : build_grid, part_labels, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_rules, only : refuse_broken_rules
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_friction_law, only : friction_driver
    use contact_friction_new_law, only : friction_model
    use contact_grid_potential_contact, only : fit_field, potential_contact
@@ -51,7 +51,7 @@ contains
       problem%fn = spec%kinematics%fn
       problem%pen = spec%kinematics%pen
       problem%force_prescribed = spec%normal == normal_control%force
-      ! a Hertzian geometry is discretised anew if the case gives a grid, not if the load changes
+      ! a Hertzian grid and distance follow load and materials if the case gives or forms them, not if it keeps them
       if (spec%has_new_geometry() .or. .not. problem%has_geometry) then
          call set_geometry(spec, problem, error)
          if (allocated(error)) return
@@ -130,18 +130,22 @@ contains
       problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
    end subroutine set_method
 
-   !> Potential contact and undeformed distance
+   !> Potential contact, unless the case keeps it, and undeformed distance
    subroutine set_geometry(spec, problem, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
       type(potential_contact) :: grid
 
-      problem%has_geometry = .false.
-      call build_grid(spec%grid, problem%hertz, grid, error)
+      grid = problem%grid
+      if (spec%parts%grid /= part_source%kept .or. .not. problem%has_geometry) then
+         problem%has_geometry = .false.
+         call build_grid(spec%grid, problem%hertz, grid, error)
+      end if
       if (.not. allocated(error)) call spec%limits%check(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (.not. allocated(error)) call require_memory(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (allocated(error)) return
+      problem%has_geometry = .false.
       problem%grid = grid
       call undeformed_distance(spec%geometry, grid, problem%hertz, problem%h, error)
       if (allocated(error)) return

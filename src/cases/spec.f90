@@ -203,7 +203,7 @@ module contact_cases_spec
    contains
       !> Is there an interfacial layer with a yield limit in the valid range?
       procedure :: has_plasticity
-      !> Does the case give a grid or an undeformed distance?
+      !> Does the case give a grid or an undeformed distance, or form one from the values in store?
       procedure :: has_new_geometry
    end type case_spec
 
@@ -252,7 +252,7 @@ contains
 
    pure logical function has_new_geometry(self)
       class(case_spec), intent(in) :: self
-      has_new_geometry = self%parts%grid == part_source%given .or. self%parts%geometry == part_source%given
+      has_new_geometry = self%parts%grid /= part_source%kept .or. self%parts%geometry /= part_source%kept
    end function has_new_geometry
 
    pure logical function has_plasticity(self)

@@ -303,6 +303,15 @@ contains
          else if (.not. has_renew .and. digits%d > 0) then
             digits%z = 1
          end if
+         if (has_previous .and. .not. has_renew) then
+            if (digits%d == 0 .and. digits%z == 0 .and. digits%p == 2 .and. digits%i == 0 &
+               & .and. previous%grid%brings_geometry() .and. changes_load()) then
+               ! semi-axes or curvatures are kept, and the grid around them follows load and materials
+               digits%d = 1
+               digits%z = 1
+               digits%c = max(1, digits%c)
+            end if
+         end if
          if (a%has_group("extra_slip")) then
             digits%e = 9
          else if (a%document%child(a%case_node, "slip_source") == 0) then
@@ -312,6 +321,27 @@ contains
       end associate
 
    contains
+
+      !> Does the case give a load, an approach or elastic constants?
+      logical function changes_load()
+         changes_load = a%document%child(a%case_node, "normal") > 0 &
+            & .or. gives("kinematics", [character(len=6) :: "fn", "pen"]) &
+            & .or. gives("material", [character(len=6) :: "gg", "gg1", "gg2", "poiss", "poiss1", "poiss2"])
+      end function changes_load
+
+      !> Does the case give one of the keys of a group?
+      logical function gives(group, keys)
+         character(len=*), intent(in) :: group, keys(:)
+         integer :: k, node
+
+         gives = .false.
+         node = a%document%child(a%case_node, group)
+         if (node == 0) return
+         if (a%document%nodes(node)%kind /= toml_kind%table) return
+         do k = 1, size(keys)
+            gives = gives .or. a%document%child(node, trim(keys(k))) > 0
+         end do
+      end function gives
 
       !> Does the grid bring its own geometry? False without a grid: Fortran may evaluate both sides of `.and.`
       logical function brings_geometry()

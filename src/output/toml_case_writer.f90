@@ -3,7 +3,8 @@
 !> A case contains what differs from the previous one. Digits that the reader derives from the rest of the case are left out, see
 !> contact_input_toml_case.
 module contact_output_toml_case_writer
-   use contact_base_choices, only : motion, slip_source, variation
+   use contact_base_choices, only : estimate_choice, motion, slip_source, time_link, variation
+   use contact_base_kinds, only : wp
    use contact_cases_own_keys, only : visit_own_case
    use contact_cases_spec, only : case_spec, friction_set, part_source
    use contact_cases_whole_case, only : visit_case
@@ -199,29 +200,57 @@ contains
       logical, intent(in) :: is_first
       type(case_spec), intent(in) :: old, spec
       character(len=:), allocatable :: names
-      integer :: geometry, material
+      !> Sources that the reader assumes without the key
+      integer :: grid, geometry, material
+      !> Source of the undeformed distance; that of a Hertzian grid is not read, but formed
+      integer :: distance
       logical :: differs
 
       if (is_first .or. allocated(spec%wheel_rail)) return
       associate (parts => spec%parts)
+         distance = parts%geometry
+         if (distance == part_source%given .and. parts%grid /= part_source%given .and. spec%grid%brings_geometry()) &
+            & distance = part_source%renewed
+         grid = part_source%kept
+         if (spec%link == time_link%initiate .and. spec%estimate == estimate_choice%fresh .and. old%grid%brings_geometry() &
+            & .and. distance /= part_source%given .and. changes_load(old, spec)) grid = part_source%renewed
          material = part_source%kept
-         if (parts%grid == part_source%given .or. (spec%motion >= motion%transient_rolling .neqv. &
+         if (parts%grid == part_source%given .or. grid == part_source%renewed .or. (spec%motion >= motion%transient_rolling .neqv. &
             & old%motion >= motion%transient_rolling)) material = part_source%renewed
-         geometry = merge(part_source%renewed, part_source%kept, parts%grid /= part_source%kept)
-         differs = parts%grid == part_source%renewed .or. (parts%material /= part_source%given .and. parts%material /= material)
+         geometry = merge(part_source%renewed, part_source%kept, parts%grid == part_source%given .or. grid == part_source%renewed)
+         differs = (parts%grid /= part_source%given .and. parts%grid /= grid) .or. &
+            & (parts%material /= part_source%given .and. parts%material /= material)
          if (parts%grid == part_source%given .and. spec%grid%brings_geometry()) then
-            differs = differs .or. parts%geometry == part_source%renewed
+            differs = differs .or. distance == part_source%renewed
          else
-            differs = differs .or. (parts%geometry /= part_source%given .and. parts%geometry /= geometry)
+            differs = differs .or. (distance /= part_source%given .and. distance /= geometry)
          end if
          if (.not. differs) return
          names = ""
          if (parts%grid == part_source%renewed) names = names // ', "grid"'
-         if (parts%geometry == part_source%renewed) names = names // ', "geometry"'
+         if (distance == part_source%renewed) names = names // ', "geometry"'
          if (parts%material == part_source%renewed) names = names // ', "material"'
       end associate
       a%case_text = a%case_text // "renew = [" // names(min(3, len(names) + 1):) // "]" // line_feed
    end subroutine put_renewal
+
+   !> Does the case change load, approach or elastic constants? Then the file has their keys
+   pure logical function changes_load(old, spec)
+      type(case_spec), intent(in) :: old, spec
+
+      changes_load = spec%normal /= old%normal .or. differs([spec%kinematics%fn, spec%kinematics%pen], &
+         & [old%kinematics%fn, old%kinematics%pen])
+      if (spec%parts%material == part_source%given) changes_load = changes_load .or. &
+         & differs([spec%material%gg, spec%material%poiss], [old%material%gg, old%material%poiss])
+
+   contains
+
+      pure logical function differs(one, two)
+         real(wp), intent(in) :: one(:), two(:)
+
+         differs = any(abs(one - two) > 0.0_wp)
+      end function differs
+   end function changes_load
 
    !> Write what ends: damping and temperatures of the previous case; and how temperatures are computed
    subroutine put_ends(a, old, spec, is_first)
