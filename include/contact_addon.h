@@ -399,7 +399,7 @@ void cntc_getmaximumpressure(const int *ire, const int *icp, double *pnmax);
  *   ptmax: traction [F/L2] */
 void cntc_getmaximumtraction(const int *ire, const int *icp, double *ptmax);
 
-/* Get the largest surface temperatures.
+/* Get the largest surface temperatures in contact.
  *   t1max, t2max: of bodies 1 and 2 [degC] */
 void cntc_getmaximumtemperature(const int *ire, const int *icp, double *t1max, double *t2max);
 

@@ -132,7 +132,7 @@
 %   cntc_getelementdivision     - get the state of each element.
 %   cntc_getmaximumpressure     - get the largest pressure.
 %   cntc_getmaximumtraction     - get the largest tangential traction.
-%   cntc_getmaximumtemperature  - get the largest surface temperatures.
+%   cntc_getmaximumtemperature  - get the largest surface temperatures in contact.
 %   cntc_geterrors              - get the estimated errors of the totals of a patch, after a calculation with the flag CNTC_own_errors = 1.
 %   cntc_getwear                - get totals of wear and fatigue of a patch, after a calculation with the flag CNTC_own_wear = 1.
 %   cntc_getfielddata           - get one field for each element.

@@ -1,5 +1,5 @@
 function [ t1max, t2max ] = cntc_getmaximumtemperature( ire, icp )
-% CNTC_GETMAXIMUMTEMPERATURE  Get the largest surface temperatures.
+% CNTC_GETMAXIMUMTEMPERATURE  Get the largest surface temperatures in contact.
 %
 %   [t1max, t2max] = cntc_getmaximumtemperature( ire, icp )
 %

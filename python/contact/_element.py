@@ -119,6 +119,8 @@ class Patch(View):
         Creepages [-], [-], [A/L]; shifts [L], [L], [A].
     contact_area, adhesion_area, slip_area
         Areas [L2].
+    max_pressure
+        Largest pressure [F/L2]; with the second order the maximum between element centres, as PMAX of files.
     state
         0 exterior, 1 adhesion, 2 slip, 3 plastic.
     pn, px, py
@@ -134,6 +136,8 @@ class Patch(View):
     temperatures
         Surface temperatures of bodies 1 and 2, shape (2, my, mx) [degrees C]; None without
         :meth:`Problem.set_temperatures`.
+    max_temperatures
+        Highest temperatures of bodies 1 and 2 in contact [degrees C]; None without.
     border
         Where contact is cut off: "x low", "x high", "y low", "y high" for sides of the grid, and ends of profiles.
         Not empty means that pressures and forces are wrong: the grid is too small, or the profile too short.
@@ -165,6 +169,7 @@ class Patch(View):
     contact_area: float
     adhesion_area: float
     slip_area: float
+    max_pressure: float
     state: NDArray[np.intc]
     pn: Field
     px: Field
@@ -177,6 +182,7 @@ class Patch(View):
     distance: Field
     friction: Field
     temperatures: Field | None
+    max_temperatures: tuple[float, float] | None
     border: tuple[str, ...]
     units: str
     motion: str
@@ -206,6 +212,8 @@ class Patch(View):
         found = {"fn": self.fn, "fx": self.fx, "fy": self.fy, "mz": self.mz, "pen": self.approach, "pmax": self.max_pressure}
         motion = {"shift": ("shift_x", "shift_y", "rotation"), "frictionless": ()}.get(self.motion, ("cksi", "ceta", "cphi"))
         found.update(zip(motion, (self.cksi, self.ceta, self.cphi)))
+        if self.max_temperatures is not None:
+            found.update(zip(("max_temp1", "max_temp2"), self.max_temperatures))
         found["contact_area"] = self.contact_area
         # as in files: without totals that do not apply to the case
         found.update((name, value) for name, value in (self.wear or {}).items() if value != 0.0 or name not in _CONDITIONAL)
@@ -225,11 +233,6 @@ class Patch(View):
         return min(across, default=0)
 
     @property
-    def max_pressure(self) -> float:
-        """Largest pressure [F/L2]."""
-        return float(self.pn.max(initial=0.0))
-
-    @property
     def max_traction(self) -> float:
         """Largest tangential traction [F/L2]."""
         return float(np.hypot(self.px, self.py).max(initial=0.0))
@@ -242,16 +245,18 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
     areas = cntc.getcontactpatchareas(ire, icp)
     heat, border, wants_wear, *wants_errors = cntc.getflags(ire, icp, [CNTC[name] for name in (
         "ic_heat", "own_border", "own_wear", "own_errors", "own_accuracy")])
-    temperatures = None
+    temperatures = highest = None
     if heat:
         temperatures = np.stack([cntc.getfielddata(ire, icp, CNTC[name]) for name in ("fld_temp1", "fld_temp2")])
+        first, second = cntc.getmaximumtemperature(ire, icp)
+        highest = (float(first), float(second))
     pn, px, py = cntc.gettractions(ire, icp)
     un, ux, uy = cntc.getdisplacements(ire, icp)
     sx, sy = cntc.getmicroslip(ire, icp)
     return Patch(x + dx * np.arange(mx), y + dy * np.arange(my), dx, dy, fn, fx, fy, mz,
                  cntc.getpenetration(ire, icp), *cntc.getcreepages(ire, icp), *areas[:3],
-                 cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
-                 cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures,
+                 float(cntc.getmaximumpressure(ire, icp)), cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
+                 cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures, highest,
                  tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1), units, motion,
                  _errors(ire, icp, motion) if any(wants_errors) else None, *_wear(ire, icp, motion, bool(wants_wear)))
 

@@ -98,7 +98,7 @@ contains
       type(result_view), intent(in) :: view
 
       if (allocated(view%patch%temp1)) then
-         call a%set_each_result([maxval(view%patch%temp1), maxval(view%patch%temp2)])
+         call a%set_each_result(view%patch%largest_temperatures())
       else
          call report_error(a%call_of, "surface temperatures are not calculated in this case")
          call a%set_each_result([0.0_wp, 0.0_wp])

@@ -166,6 +166,8 @@ module contact_patch_result
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area
+      !> Highest surface temperatures of both bodies in contact [degC]
+      procedure :: largest_temperatures
       !> All totals and all element fields, for outputs
       procedure :: totals
       procedure :: fields
@@ -284,10 +286,10 @@ contains
          call list%add("fy_damp", "N", "lateral damping force, not part of FY", self%damping(3), orientation%across)
       end if
       if (allocated(self%temp1)) then
-         associate (highest => [highest_in_contact(self, self%temp1), highest_in_contact(self, self%temp2)])
-            call list%add("max_temp1", "degC", "highest surface temperature of body 1", highest(1), law=error_law%peak)
-            call list%add("max_temp2", "degC", "highest surface temperature of body 2", highest(2), law=error_law%peak)
-            call list%add("max_temp", "degC", "highest surface temperature", maxval(highest), heading="MAX(T1,T2)", &
+         associate (highest => self%largest_temperatures())
+            call list%add("max_temp1", "degC", "highest surface temperature of body 1 in contact", highest(1), law=error_law%peak)
+            call list%add("max_temp2", "degC", "highest surface temperature of body 2 in contact", highest(2), law=error_law%peak)
+            call list%add("max_temp", "degC", "highest surface temperature in contact", maxval(highest), heading="MAX(T1,T2)", &
                & in_files=.false., law=error_law%peak)
          end associate
       end if
@@ -346,6 +348,15 @@ contains
       call list%add("max_tresca", "N/mm2", "largest Tresca stress at the points below the surface", highest(2), &
          & law=error_law%stress)
    end subroutine add_stresses
+
+   !> Highest temperatures of both bodies in the contact area, or anywhere if there is no contact [degC]
+   pure function largest_temperatures(self) result(highest)
+      !> Result with temperatures
+      class(patch_result), intent(in) :: self
+      real(wp) :: highest(2)
+
+      highest = [highest_in_contact(self, self%temp1), highest_in_contact(self, self%temp2)]
+   end function largest_temperatures
 
    !> Maximum temperature in the contact area, or anywhere if there is no contact [degC]
    pure real(wp) function highest_in_contact(contact, temperature) result(highest)

@@ -477,6 +477,15 @@ def temperatures():
         pair.set_temperatures(90.0, 15.0)
         patch = pair.solve().patches[0]
         check(patch.temperatures.max() > 90.0, "a braked wheel is warm")
+        # a cold rail takes the wheel's heat: in contact no body has the temperature that it has outside
+        pair.set_velocity(20000.0, pitch=-20000.0 / 460.0)
+        pair.set_temperatures(15.0, 90.0)
+        patch = pair.solve().patches[0]
+        shown = cntc.getmaximumtemperature(pair.number, 1)
+        for body in (0, 1):
+            close(shown[body], patch.temperatures[body][patch.state > 0].max(), 1e-9, f"highest in contact, body {body + 1}")
+            close(patch.totals()[f"max_temp{body + 1}"], shown[body], 1e-9, f"total of body {body + 1}")
+        check(patch.temperatures[1].max() - shown[1] > 1.0, "outside the contact the wheel is warmer")
     number = 7
     cntc.initialize(number, 3)
     same(cntc.getflags(number, 1, [cntc.CNTC["own_heat"]])[0], 0, "the routines keep the established ones")

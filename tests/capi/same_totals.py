@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Totals of Python results are those that the program gives for the input that the library writes
+
+Arguments: the program. All totals that both have are compared, with order 2, dissimilar bodies, temperatures and wheels.
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
+from checks import SOURCE, check, close, finish
+import contact
+import numpy as np
+
+PROGRAM = sys.argv[1]
+PROFILES = os.path.join(SOURCE, "examples/profiles")
+
+
+def ball(problem, g2=82000.0):
+    problem.set_material(g=82000.0, nu=0.28, g2=g2, nu2=0.28)
+    problem.set_friction(0.3)
+    problem.set_grid(14, 14, 1.2, 1.2)
+    problem.set_distance(lambda x, y: 0.001*(x - 0.3)**2 + 0.001*(y - 0.2)**2)
+    problem.set_normal_force(70e3)
+    problem.set_solver(eps=1e-8, maxout=40)
+
+
+def steady(problem):
+    ball(problem)
+    problem.set_creepages(0.001, 0.0005, 1e-4)
+
+
+def dissimilar(problem):
+    ball(problem, 40000.0)
+    problem.set_creepages(0.002)
+
+
+def hot(problem):
+    ball(problem)
+    problem.set_creepages(0.01)
+    problem.set_rolling(20000.0)
+    problem.set_temperatures(10.0, 400.0)
+
+
+def shift(problem):
+    ball(problem)
+    problem.set_creepages(0.005, 0.002)
+
+
+def wheel(pair):
+    pair.set_material(g=82000.0, nu=0.28)
+    pair.set_friction(0.3)
+    pair.set_grid(dx=0.5, ds=0.5)
+    pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025)
+    pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=460.0)
+    pair.set_rail(os.path.join(PROFILES, "60E1.prr"))
+    pair.set_wheel(os.path.join(PROFILES, "S1002.prw"))
+    pair.set_velocity(20000.0, pitch=-43.5)
+    pair.set_position(y=3.0)
+    pair.set_vertical_force(90e3)
+    pair.set_temperatures(10.0, 60.0)
+
+
+def shown(name, *options):
+    """Totals of the patches, by the program"""
+    run = subprocess.run([PROGRAM, "--quiet", "--json", "--order", "2", "--heat", "moving-source", "--contact-angle", "contact",
+                          *options, "2", name], capture_output=True, text=True, timeout=120)
+    check(run.returncode == 0, f"{name}: {run.stderr}")
+    with open(name + ".jsonl", encoding="utf-8") as file:
+        case = json.loads(file.readline())
+    return [{key: item["value"] if isinstance(item, dict) else item for key, item in patch["totals"].items()}
+            for patch in case["patches"]]
+
+
+def compare(name, patches):
+    others = shown(name)
+    check(len(others) == len(patches), f"{name}: number of patches")
+    for patch, other in zip(patches, others):
+        totals = patch.totals()
+        check({"fn", "fx", "pen", "pmax", "contact_area"} <= set(totals), f"{name}: {sorted(totals)}")
+        check(set(totals) <= set(other), f"{name}: totals that files do not have, {sorted(set(totals) - set(other))}")
+        check(("max_temp1" in other) == ("max_temp1" in totals), f"{name}: temperatures")
+        for key, value in totals.items():
+            scale = {"fx": patch.fn, "fy": patch.fn, "mz": 10*patch.fn, "cksi": 1e-3, "ceta": 1e-3, "cphi": 1e-4}.get(key, 1e-12)
+            close(value, other[key], 2e-5*max(abs(other[key]), scale), f"{name}: {key}")
+        check(patch.max_pressure == totals["pmax"], f"{name}: largest pressure")
+
+
+def basic():
+    between = 0
+    for name, motion, setting in (("steady", "steady", steady), ("dissimilar", "steady", dissimilar), ("hot", "steady", hot),
+                                  ("shift", "shift", shift)):
+        contact.output_to(".", name)
+        with contact.Problem(motion=motion) as problem:
+            setting(problem)
+            problem.set_flags(if_wrtinp=1)
+            result = problem.solve()
+        between += result.max_pressure > 1.001*result.pn.max()
+        compare(name, [result])
+    check(between >= 2, "the largest pressure is between element centres")
+    check(result.max_pressure == np.max(result.pn), "in shifts it is that of an element")
+
+
+def wheels():
+    contact.output_to(".", "wheel")
+    with contact.WheelRail("right") as pair:
+        wheel(pair)
+        pair.set_flags(if_wrtinp=1)
+        result = pair.solve()
+    compare("wheel", result.patches)
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as scratch:
+        os.chdir(scratch)
+        basic()
+        wheels()
+        os.chdir(SOURCE)
+    finish()
