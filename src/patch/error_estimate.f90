@@ -153,6 +153,7 @@ contains
          end associate
       end if
       scale = scales(problem, order, result)
+      scale%in_pair = present(details)
       if (present(details)) scale%hidden = abs(details%approach)/max(result%pen, tiny(load))
       scale%coarse_sticking = real(level%result%nadh, wp)/level%result%ncon
       scale%energy(1) = normal_energy(result)
@@ -177,6 +178,7 @@ contains
          if (.not. scale_of(fine%rows(k), scale) > 0.0_wp) cycle
          difference = difference/scale_of(fine%rows(k), scale)
          scale%friction = max(scale%friction, difference)
+         if (fine%rows(k)%scale /= error_scale%moment) scale%forces = max(scale%forces, difference)
       end do
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled

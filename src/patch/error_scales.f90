@@ -60,6 +60,10 @@ module contact_patch_error_scales
       real(wp) :: gain = 0.0_wp
       !> Maximum difference of the levels in tangential forces, relative to their scale [-]
       real(wp) :: friction = 0.0_wp
+      !> The same without the moment [-]
+      real(wp) :: forces = 0.0_wp
+      !> Is it a patch of wheel and rail, whose position depends on the elements, too?
+      logical :: in_pair = .false.
       !> Are both tangential forces prescribed, so that only the moment has an error?
       logical :: is_moment_alone = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
@@ -70,6 +74,8 @@ module contact_patch_error_scales
       !> Moment of the force across the rolling direction with an arm of one element, in rolling, over that of the friction bound
       !> [-]
       real(wp) :: arm = 0.0_wp
+      !> Root of the ratio of the sides of the contact: arms of the longer one exceed the radius of the area by this factor [-]
+      real(wp) :: slender = 1.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
@@ -156,6 +162,7 @@ contains
       scale%across = minval(across)
       extent = across*[result%grid%dx, result%grid%dy]
       scale%mean_across = sqrt(real(product(across), wp))
+      scale%slender = sqrt(maxval(extent)/minval(extent))
       if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) then
          scale%is_line = .true.
          scale%across = across(1)
