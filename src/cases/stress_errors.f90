@@ -43,16 +43,17 @@ module contact_cases_stress_errors
    !> (seeds 95001 and 97001)
    real(wp), parameter :: peak_share = 0.3_wp
    !> Stresses due to tangential tractions: unknown fraction of their error by the levels; factor of n^-1 times the root of the
-   !> fraction in adhesion for steady rolling by the first order, about half of the usual error
-   real(wp), parameter :: unknown_share = 0.3_wp, friction_floor = 0.05_wp
+   !> fraction in adhesion for steady rolling by the first order: half of it was a fifth of the error in 27 of 3660 stresses, where
+   !> the levels agree by chance (seeds 99711 and 99713)
+   real(wp), parameter :: unknown_share = 0.3_wp, friction_floor = 0.1_wp
    !> Tractions of different directions have such errors in sliding as well: factor of the part of the bound that cancels. Ratio of
    !> the floor with an interfacial layer to that without
    real(wp), parameter :: turned_share = 0.1_wp, layer_ratio = 1.5_wp
-   !> Exponent of the ratio of the error by the levels to the general error, see contact_patch_traction_errors
-   real(wp), parameter :: stress_trust = 0.65_wp
+   !> Exponent of the ratio of the error by the levels to the general error, see contact_patch_traction_errors; of the same stresses
+   real(wp), parameter :: stress_trust = 0.5_wp
    !> Error of the distribution of tangential tractions: factor of their relative error times their stress; of random contacts in
-   !> transient rolling (seeds 71002 and 71003, and the steps of the test further_errors)
-   real(wp), parameter :: distribution_share = 0.35_wp
+   !> transient rolling (seeds 71002, 71003, 99711 and 99713)
+   real(wp), parameter :: distribution_share = 0.45_wp
    !> Order of stresses due to tangential tractions by the first-order scheme in adhesion, where the median of the error was 0.25 to
    !> 0.35 of the difference of the levels, of which 0.4 is taken; the same with an interfacial layer (median 0.56, quartiles 0.34
    !> and 0.78, seeds 5601 to 5603), of which 0.65; in full sliding, where they are the pressures times the coefficient of friction
@@ -62,8 +63,9 @@ module contact_cases_stress_errors
    real(wp), parameter :: unclean = 0.5_wp
 
    !> Ratio of the error to the root of the sum of squares of its parts by the first-order scheme, as parts of opposite signs
-   !> cancel: median of 908 stresses of contacts of all kinds (seeds 99301 and 99302)
-   real(wp), parameter :: cancelling = 0.85_wp
+   !> cancel: the median of 5060 stresses of contacts of all kinds is 0.77; with this ratio as many estimates are too small as too
+   !> large (seeds 99711 and 99713)
+   real(wp), parameter :: cancelling = 0.65_wp
 
    !> Stresses at a point, and their errors: xx, xy, xz, yy, yz, zz [N/mm2]
    type :: stress_change
@@ -171,7 +173,7 @@ contains
       !> Result with errors
       type(patch_result), intent(in) :: result
       logical, intent(in) :: has_layer, by_tresca
-      real(wp) :: largest, friction, smooth, smooth_normal, usual, floor, unknown, excess, known(6)
+      real(wp) :: largest, friction, smooth, smooth_normal, usual, floor, unknown, excess, uniform, known(6)
 
       largest = equivalent(change%total, by_tresca)
       friction = equivalent(change%friction, by_tresca)
@@ -185,8 +187,12 @@ contains
       known = change%smeared + level_share*(change%by_normal - change%smeared_normal) + change%by_friction
       e = hypot(equivalent(change%total + known, by_tresca) - largest, unknown)
       e = trusted(e, usual_difference*usual + floor, stress_trust)
-      e = hypot(e, max(distribution_share*result%errors%traction*friction, &
-         & abs(equivalent(change%total + result%errors%traction*change%friction, by_tresca) - largest)))
+      ! in transient rolling errors are those of the strip that was not in contact before, and vary across the contact; the
+      ! coefficient of friction changes all tractions
+      uniform = 0.0_wp
+      if (result%motion /= motion%transient_rolling) &
+         & uniform = abs(equivalent(change%total + result%errors%traction*change%friction, by_tresca) - largest)
+      e = hypot(e, max(distribution_share*result%errors%traction*friction, uniform))
       if (order_of_errors(result%tangential) /= 2) e = cancelling*e
    end function error_of_largest
 
