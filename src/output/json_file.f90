@@ -5,6 +5,7 @@
 !> finished.
 module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
@@ -23,6 +24,8 @@ module contact_output_json_file
 
    !> Maximum length of a number: sign, 17 digits, decimal point, exponent
    integer, parameter :: longest_number = 32
+   !> Most digits of a number
+   integer, parameter :: most_digits = 17
    integer, parameter :: first_length = 4096
 
    !> A file of JSON lines, or standard output
@@ -55,6 +58,19 @@ module contact_output_json_file
       procedure, private :: add_quoted
       procedure, private :: end_line
    end type json_file
+
+   interface
+      !> Decimal digits of a number, the fewest of 15, 16 and 17 that are read back as the same number
+      pure subroutine number_digits(value, digits, exponent) bind(c, name="contact_number_digits")
+         import :: c_char, c_double, c_int, most_digits
+         !> Finite and positive
+         real(c_double), value :: value
+         !> most_digits digits, the last ones may be zeros
+         character(kind=c_char), intent(out) :: digits(most_digits)
+         !> Exponent of the first digit
+         integer(c_int), intent(out) :: exponent
+      end subroutine number_digits
+   end interface
 
 contains
 
@@ -279,13 +295,9 @@ contains
       !> Value to be written
       real(wp), intent(in) :: value
       character(len=longest_number) :: text
-      !> 15, 16 and 17 digits
-      character(len=*), parameter :: form(3) = ["(ES32.14E3)", "(ES32.15E3)", "(ES32.16E3)"]
-      character(len=longest_number) :: buffer
+      character(len=most_digits) :: digits
       character(len=12) :: exponent_text
-      character(len=:), allocatable :: figures
-      real(wp) :: back
-      integer :: exponent, e, k
+      integer :: exponent, last
 
       if (.not. ieee_is_finite(value)) then
          text = "null"
@@ -294,28 +306,20 @@ contains
          text = "0"
          return
       end if
-      do k = 1, size(form)
-         write(buffer, form(k)) abs(value)
-         read(buffer, *) back
-         if (back == abs(value)) exit
-      end do
-      buffer = adjustl(buffer)
-      e = index(buffer, "E")
-      read(buffer(e + 1:), *) exponent
-      figures = buffer(1:1) // buffer(3:e - 1)
-      figures = figures(:max(1, verify(figures, "0", back=.true.)))
+      call number_digits(abs(value), digits, exponent)
+      last = max(1, verify(digits, "0", back=.true.))
       if (exponent >= 0 .and. exponent <= 15) then
-         if (len(figures) <= exponent + 1) then
-            text = figures // repeat("0", exponent + 1 - len(figures))
+         if (last <= exponent + 1) then
+            text = digits(:last) // repeat("0", exponent + 1 - last)
          else
-            text = figures(:exponent + 1) // "." // figures(exponent + 2:)
+            text = digits(:exponent + 1) // "." // digits(exponent + 2:last)
          end if
       else if (exponent < 0 .and. exponent >= -4) then
-         text = "0." // repeat("0", -exponent - 1) // figures
+         text = "0." // repeat("0", -exponent - 1) // digits(:last)
       else
          write(exponent_text, "(I0)") exponent
-         text = figures(1:1) // "e" // exponent_text
-         if (len(figures) > 1) text = figures(1:1) // "." // figures(2:) // "e" // exponent_text
+         text = digits(1:1) // "e" // exponent_text
+         if (last > 1) text = digits(1:1) // "." // digits(2:last) // "e" // exponent_text
       end if
       if (value < 0.0_wp) text = "-" // text(:longest_number - 1)
    end function number_text

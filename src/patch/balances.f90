@@ -8,6 +8,7 @@ module contact_patch_balances
    use contact_base_choices, only : motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule
    use contact_base_kinds, only : wp
+   use contact_numeric_vectors, only : largest_of
    use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -43,15 +44,15 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Solved
       type(patch_result), intent(in) :: result
-      real(wp) :: slip(2)
+      real(wp) :: slip(2), across
       integer :: ix, iy
 
       power = 0.0_wp
       do iy = 1, result%grid%my
+         across = result%cksi - problem%spin_weight(1)*problem%spin*(result%grid%y(iy) - problem%spin_centre(2))
          do ix = 1, result%grid%mx
             if (.not. result%pn(ix, iy) > 0.0_wp) cycle
-            slip = [result%cksi - problem%spin_weight(1)*problem%spin*(result%grid%y(iy) - problem%spin_centre(2)), &
-               & result%ceta + problem%spin_weight(2)*problem%spin*(result%grid%x(ix) - problem%spin_centre(1))]
+            slip = [across, result%ceta + problem%spin_weight(2)*problem%spin*(result%grid%x(ix) - problem%spin_centre(1))]
             if (allocated(problem%extra_slip)) slip = slip + problem%extra_slip(ix, iy, :)
             power = power + result%px(ix, iy)*slip(1) + result%py(ix, iy)*slip(2)
          end do
@@ -75,7 +76,7 @@ contains
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
             if (.not. result%pn(ix, iy) > 0.0_wp) cycle
-            change = slope(result%h(:, iy), ix)
+            change = slope(result%grid%mx, ix, 1, result%h(1, iy))
             if (abs(change) > excluded_threshold) then
                pressure_times_slope = huge(pressure_times_slope)
                return
@@ -105,7 +106,7 @@ contains
       real(wp), intent(out) :: e
       !> Is the error known?
       logical, intent(out) :: is_known
-      real(wp) :: virial, distances, potential, ratio
+      real(wp) :: virial, distances, potential, ratio, energy, change
 
       e = 0.0_wp
       is_known = problem%solves_for_pressure() .and. .not. (problem%model%coupled() .or. allocated(problem%model%memory) &
@@ -114,11 +115,13 @@ contains
       if (.not. is_known) return
       ratio = virial/max(distances, tiny(ratio))
       is_known = abs(ratio - 2.0_wp) < quadratic
+      energy = normal_energy(result)
+      change = normal_energy(coarse) - energy
       ! with prescribed approach, the elastic energy equals the potential energy with opposite sign
-      e = (normal_energy(coarse) - normal_energy(result))/potential_ratio
+      e = change/potential_ratio
       if (.not. problem%force_prescribed) return
-      potential = (coarse%pen - result%pen)*result%fn/nmm_per_joule - (normal_energy(coarse) - normal_energy(result))
-      e = (ratio*potential/potential_ratio + normal_energy(result) - virial)/(1.0_wp + ratio)
+      potential = (coarse%pen - result%pen)*result%fn/nmm_per_joule - change
+      e = (ratio*potential/potential_ratio + energy - virial)/(1.0_wp + ratio)
    end subroutine error_of_normal_energy
 
    !> Sum of pressure times slope of the surface times position relative to the centre of pressure, and sum of pressure times
@@ -130,7 +133,10 @@ contains
       real(wp), intent(out) :: virial, distances
       !> Are the slopes known in all elements with pressure?
       logical, intent(out) :: is_known
-      real(wp) :: centre(2), slopes(2), lowest, load
+      !> Slopes of a row along x and y [mm per element]
+      real(wp) :: slopes(result%grid%mx, 2)
+      real(wp) :: centre(2), lowest, load, y
+      logical :: covers
       integer :: ix, iy
 
       virial = 0.0_wp
@@ -140,20 +146,26 @@ contains
       if (.not. is_known) return
       centre = 0.0_wp
       do iy = 1, result%grid%my
+         y = result%grid%y(iy)
          do ix = 1, result%grid%mx
-            centre = centre + result%pn(ix, iy)*[result%grid%x(ix), result%grid%y(iy)]
+            if (.not. result%pn(ix, iy) > 0.0_wp) cycle
+            centre = centre + result%pn(ix, iy)*[result%grid%x(ix), y]
          end do
       end do
       centre = centre/load
       lowest = minval(result%h)
+      ! most surfaces cover the grid: without values that are missing, slopes of whole rows are quick
+      covers = largest_of(size(result%h), result%h) <= excluded_threshold
       do iy = 1, result%grid%my
+         y = result%grid%y(iy) - centre(2)
+         if (largest_of(result%grid%mx, result%pn(:, iy)) <= 0.0_wp) cycle
+         call slopes_of_row(result, iy, covers, slopes)
          do ix = 1, result%grid%mx
             if (.not. result%pn(ix, iy) > 0.0_wp) cycle
-            slopes = [slope(result%h(:, iy), ix), slope(result%h(ix, :), iy)]
-            is_known = all(abs(slopes) < excluded_threshold)
+            is_known = max(abs(slopes(ix, 1)), abs(slopes(ix, 2))) < excluded_threshold
             if (.not. is_known) return
-            virial = virial + result%pn(ix, iy)*((result%grid%x(ix) - centre(1))*slopes(1)/result%grid%dx &
-               & + (result%grid%y(iy) - centre(2))*slopes(2)/result%grid%dy)
+            virial = virial + result%pn(ix, iy)*((result%grid%x(ix) - centre(1))*slopes(ix, 1)/result%grid%dx &
+               & + y*slopes(ix, 2)/result%grid%dy)
             distances = distances + result%pn(ix, iy)*(result%h(ix, iy) - lowest)
          end do
       end do
@@ -161,27 +173,69 @@ contains
       distances = distances*result%grid%dx*result%grid%dy/nmm_per_joule
    end subroutine distance_sums
 
+   !> Slopes of the surface in the elements of a row, see slope
+   pure subroutine slopes_of_row(result, iy, covers, slopes)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Row
+      integer, intent(in) :: iy
+      !> Has every element of the grid a distance?
+      logical, intent(in) :: covers
+      !> Differences along x and y [mm per element]; huge where they are not known
+      real(wp), intent(out) :: slopes(:, :)
+      integer :: ix, first, last
+
+      associate (h => result%h, mx => result%grid%mx, my => result%grid%my)
+         first = 1
+         last = 0
+         if (covers) then
+            ! as slope does with five values
+            first = 3
+            last = mx - 2
+            do ix = first, last
+               slopes(ix, 1) = (8.0_wp*(0.5_wp*(h(ix + 1, iy) - h(ix - 1, iy))) - 0.5_wp*(h(ix + 2, iy) - h(ix - 2, iy)))/6.0_wp
+            end do
+         end if
+         do ix = 1, mx
+            if (ix < first .or. ix > last) slopes(ix, 1) = slope(mx, ix, 1, h(1, iy))
+         end do
+         if (covers .and. iy > 2 .and. iy < my - 1) then
+            do ix = 1, mx
+               slopes(ix, 2) = (8.0_wp*(0.5_wp*(h(ix, iy + 1) - h(ix, iy - 1))) - 0.5_wp*(h(ix, iy + 2) - h(ix, iy - 2)))/6.0_wp
+            end do
+         else
+            do ix = 1, mx
+               slopes(ix, 2) = slope(my, iy, mx, h(ix, 1))
+            end do
+         end if
+      end associate
+   end subroutine slopes_of_row
+
    !> Difference per element at an element of a line: exact for polynomials of degree four, of degree two next to the ends; huge if
    !> it is not known
-   pure real(wp) function slope(line, i)
-      !> Values along the line, huge if there are none
-      real(wp), intent(in) :: line(:)
-      integer, intent(in) :: i
-      integer :: n
+   pure real(wp) function slope(n, i, step, h)
+      !> Number of elements of the line, and the one whose slope is computed
+      integer, intent(in) :: n, i
+      !> Distance of neighbours of the line in the field
+      integer, intent(in) :: step
+      !> Field from the first element of the line on, huge where there is no value
+      real(wp), intent(in) :: h(1 + (n - 1)*step)
+      integer :: at
 
-      n = size(line)
       slope = huge(slope)
       if (n < 3) return
-      if (maxval(line(max(1, min(i, n - 1) - 1):min(n, max(i, 2) + 1))) > excluded_threshold) return
+      ! of the middle one of the three elements that are nearest
+      at = 1 + (min(max(i, 2), n - 1) - 1)*step
+      if (max(h(at - step), h(at), h(at + step)) > excluded_threshold) return
       if (i == 1) then
-         slope = 2.0_wp*(line(2) - line(1)) - 0.5_wp*(line(3) - line(1))
+         slope = 2.0_wp*(h(at) - h(at - step)) - 0.5_wp*(h(at + step) - h(at - step))
       else if (i == n) then
-         slope = 2.0_wp*(line(n) - line(n - 1)) - 0.5_wp*(line(n) - line(n - 2))
+         slope = 2.0_wp*(h(at + step) - h(at)) - 0.5_wp*(h(at + step) - h(at - step))
       else
-         slope = 0.5_wp*(line(i + 1) - line(i - 1))
+         slope = 0.5_wp*(h(at + step) - h(at - step))
          if (i == 2 .or. i == n - 1) return
-         if (max(line(i - 2), line(i + 2)) > excluded_threshold) return
-         slope = (8.0_wp*slope - 0.5_wp*(line(i + 2) - line(i - 2)))/6.0_wp
+         if (max(h(at - 2*step), h(at + 2*step)) > excluded_threshold) return
+         slope = (8.0_wp*slope - 0.5_wp*(h(at + 2*step) - h(at - 2*step)))/6.0_wp
       end if
    end function slope
 end module contact_patch_balances

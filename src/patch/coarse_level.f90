@@ -255,20 +255,32 @@ contains
       !> Undeformed distance [mm], shape (x%count, y%count)
       real(wp), allocatable, intent(inout) :: h(:, :)
       real(wp), allocatable :: lines(:, :)
+      !> Are all coarse rows at rows of the fine grid? Beyond it they are extrapolated from its three outermost ones
+      logical :: inside
       integer :: i, k
 
-      allocate(lines(x%count, fine%grid%my))
-      do i = 1, x%count
-         do k = 1, fine%grid%my
-            lines(i, k) = value_at(fine%h(:, k), x%centre(i))
-         end do
-      end do
       if (allocated(h)) deallocate(h)
       allocate(h(x%count, y%count))
-      do k = 1, y%count
-         do i = 1, x%count
-            h(i, k) = value_at(lines(i, :), y%centre(k))
+      inside = y%first >= 1 .and. y%centre(y%count) <= fine%grid%my
+      if (.not. inside) then
+         allocate(lines(x%count, fine%grid%my))
+         do k = 1, fine%grid%my
+            if (k > 3 .and. k < fine%grid%my - 2) cycle
+            do i = 1, x%count
+               lines(i, k) = value_at(fine%h(:, k), x%centre(i))
+            end do
          end do
+      end if
+      do k = 1, y%count
+         if (y%centre(k) >= 1 .and. y%centre(k) <= fine%grid%my) then
+            do i = 1, x%count
+               h(i, k) = value_at(fine%h(:, y%centre(k)), x%centre(i))
+            end do
+         else
+            do i = 1, x%count
+               h(i, k) = value_at(lines(i, :), y%centre(k))
+            end do
+         end if
       end do
    end subroutine coarsen_distance
 
@@ -304,8 +316,9 @@ contains
       type(coarse_axis), intent(in) :: x, y
       type(patch_problem), intent(in) :: coarse
       type(traction_fields), intent(inout) :: mean
-      integer :: i, k, kind, i0, i1, k0, k1
-      real(wp) :: share
+      integer :: i, k, kind, i0, i1, k0, k1, ix, iy
+      !> Part of a coarse element that a fine one covers; sums of the tractions
+      real(wp) :: share, pn, px, py
       real(wp) :: fresh(coarse%grid%my)
 
       mean%grid = coarse%grid
@@ -327,10 +340,22 @@ contains
          do i = 1, x%count
             i0 = max(1, x%centre(i) - x%factor/2)
             i1 = min(fine%grid%mx, x%centre(i) + x%factor/2)
-            mean%pn(i, k) = share*sum(step%pn(i0:i1, k0:k1))
-            mean%px(i, k) = share*sum(step%px(i0:i1, k0:k1))
-            mean%py(i, k) = share*sum(step%py(i0:i1, k0:k1))
-            if (mean%pn(i, k) > 0.0_wp) mean%division(i, k) = maxval(step%division(i0:i1, k0:k1))
+            pn = 0.0_wp
+            px = 0.0_wp
+            py = 0.0_wp
+            kind = element%exterior
+            do iy = k0, k1
+               do ix = i0, i1
+                  pn = pn + step%pn(ix, iy)
+                  px = px + step%px(ix, iy)
+                  py = py + step%py(ix, iy)
+                  kind = max(kind, step%division(ix, iy))
+               end do
+            end do
+            mean%pn(i, k) = share*pn
+            mean%px(i, k) = share*px
+            mean%py(i, k) = share*py
+            if (mean%pn(i, k) > 0.0_wp) mean%division(i, k) = kind
          end do
       end do
       do kind = 1, carried%count

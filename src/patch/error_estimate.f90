@@ -136,7 +136,7 @@ contains
       type(section_details), intent(in), optional :: details
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
-      real(wp) :: load, difference
+      real(wp) :: load, difference, coarse_energy
       integer :: k
 
       if (result%errors%reason /= "") return
@@ -158,9 +158,9 @@ contains
       scale%coarse_sticking = real(level%result%nadh, wp)/level%result%ncon
       scale%energy(1) = normal_energy(result)
       scale%energy(2) = result%elastic_energy - scale%energy(1)
-      scale%energy_change(1) = scale%energy(1) - load**(5.0_wp/3.0_wp)*normal_energy(level%result)
-      scale%energy_change(2) = scale%energy(2) &
-         & - load**(5.0_wp/3.0_wp)*(level%result%elastic_energy - normal_energy(level%result))
+      coarse_energy = normal_energy(level%result)
+      scale%energy_change(1) = scale%energy(1) - load**(5.0_wp/3.0_wp)*coarse_energy
+      scale%energy_change(2) = scale%energy(2) - load**(5.0_wp/3.0_wp)*(level%result%elastic_energy - coarse_energy)
       if (.not. present(approach_change)) &
          & call error_of_normal_energy(problem, result, level%result, scale%normal_energy, scale%has_normal_energy)
       call compare_powers(problem, result, level, load, scale)

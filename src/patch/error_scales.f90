@@ -182,8 +182,13 @@ contains
          scale%coupling = abs(problem%model%material%ak)
          scale%driven = scale%coupling/max(mean_friction(result), scale%coupling)
       end if
-      scale%roughness = max(roughness(problem%h, result%division, across(2), abs(result%pen)), &
-         & roughness(transpose(problem%h), transpose(result%division), across(1), abs(result%pen)))
+      ! third differences that begin up to three elements ahead of the contact have a part in it
+      associate (mx => result%grid%mx, my => result%grid%my)
+         scale%roughness = max(roughness(mx*my, [box%ix0, box%ix1], [max(1, box%iy0 - 3), min(my - 3, box%iy1)], [1, mx], &
+            & problem%h, result%division, across(2), abs(result%pen)), &
+            & roughness(mx*my, [box%iy0, box%iy1], [max(1, box%ix0 - 3), min(mx - 3, box%ix1)], [mx, 1], &
+            & problem%h, result%division, across(1), abs(result%pen)))
+      end associate
       if (scale%force > 0.0_wp) then
          scale%used = result%grid%dx*result%grid%dy*sum(hypot(result%px, result%py))/scale%force
          scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
@@ -223,33 +228,42 @@ contains
       end if
    end function scales
 
-   !> Standard deviation of the heights of a rough surface along the second direction of a grid, relative to the approach [-]
+   !> Standard deviation of the heights of a rough surface along one direction of a grid, relative to the approach [-]
    !>
    !> From third differences in and beside the contact, which vanish for parabolas. The largest contribution of a curvature that
    !> varies across the contact is subtracted, so that the result is 0 for surfaces that the elements resolve.
-   pure real(wp) function roughness(h, division, across, pen)
-      !> Undeformed distance [mm] and element states, shape (mx, my)
-      real(wp), intent(in) :: h(:, :)
-      integer, intent(in) :: division(:, :)
+   pure real(wp) function roughness(npot, lines, n, step, h, division, across, pen)
+      !> Number of elements
+      integer, intent(in) :: npot
+      !> First and last line along the direction that is in contact; first and last element of a line at which third differences
+      !> begin
+      integer, intent(in) :: lines(2), n(2)
+      !> Distance of neighbours in the fields, from line to line and along a line
+      integer, intent(in) :: step(2)
+      !> Undeformed distance [mm] and element states
+      real(wp), intent(in) :: h(0:npot - 1)
+      integer, intent(in) :: division(0:npot - 1)
       !> Number of elements across contact in this direction
       integer, intent(in) :: across
       !> Approach [mm], positive
       real(wp), intent(in) :: pen
       real(wp) :: squares
-      integer :: ix, iy, n
+      integer :: i, k, at, count
 
-      n = 0
+      count = 0
       squares = 0.0_wp
-      do iy = 1, size(h, 2) - 3
-         do ix = 1, size(h, 1)
-            if (all(division(ix, iy:iy + 3) < element%adhesion)) cycle
-            if (any(h(ix, iy:iy + 3) > excluded_threshold)) cycle
-            squares = squares + (h(ix, iy + 3) - 3.0_wp*(h(ix, iy + 2) - h(ix, iy + 1)) - h(ix, iy))**2
-            n = n + 1
+      do k = n(1), n(2)
+         do i = lines(1), lines(2)
+            at = (i - 1)*step(1) + (k - 1)*step(2)
+            if (max(division(at), division(at + step(2)), division(at + 2*step(2)), division(at + 3*step(2))) &
+               & < element%adhesion) cycle
+            if (max(h(at), h(at + step(2)), h(at + 2*step(2)), h(at + 3*step(2))) > excluded_threshold) cycle
+            squares = squares + (h(at + 3*step(2)) - 3.0_wp*(h(at + 2*step(2)) - h(at + step(2))) - h(at))**2
+            count = count + 1
          end do
       end do
       roughness = 0.0_wp
-      if (n > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*n))/max(pen, tiny(pen)) &
+      if (count > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*count))/max(pen, tiny(pen)) &
          & - of_curvature*real(across, wp)**curvature_power)
    end function roughness
 end module contact_patch_error_scales

@@ -8,7 +8,7 @@ module contact_patch_peak
    implicit none (type, external)
    private
 
-   public :: largest_pressure, peak_of
+   public :: largest_pressure, peak_of, place_of
 
 contains
 
@@ -37,9 +37,28 @@ contains
 
       peak = largest_of(size(field), field)
       if (.not. peak > 0.0_wp) return
-      at = maxloc(field)
+      at = place_of(field, peak)
       peak = peak*sqrt(1.0_wp + rise(field(:, at(2)), at(1)) + rise(field(at(1), :), at(2)))
    end function peak_of
+
+   !> First element with at least a value, column and row; zero if there is none
+   pure function place_of(field, value) result(at)
+      !> Field, shape (mx, my)
+      real(wp), contiguous, intent(in) :: field(:, :)
+      !> Value
+      real(wp), intent(in) :: value
+      integer :: at(2), ix, iy
+
+      do iy = 1, size(field, 2)
+         do ix = 1, size(field, 1)
+            if (field(ix, iy) >= value) then
+               at = [ix, iy]
+               return
+            end if
+         end do
+      end do
+      at = 0
+   end function place_of
 
    !> Relative rise above the middle one of the parabola through the squares of three values [-]
    pure real(wp) function rise(line, i)

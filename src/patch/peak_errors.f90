@@ -4,10 +4,11 @@
 module contact_patch_peak_errors
    use contact_base_constants, only : excluded_threshold, pi
    use contact_base_kinds, only : wp
+   use contact_numeric_vectors, only : largest_of
    use contact_patch_between_rows, only : section_details
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_error_scales, only : normal_order, resolved, scale_type, unresolved_floor
-   use contact_patch_peak, only : peak_of
+   use contact_patch_peak, only : peak_of, place_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_traction_errors, only : trusted
@@ -72,7 +73,7 @@ contains
       real(wp) :: peak, floor, across, bend, cusp
       integer :: at(2), k
 
-      at = maxloc(result%pn)
+      at = place_of(result%pn, largest_of(size(result%pn), result%pn))
       shape = [shape_of(result%pn(:, at(2)), at(1)), shape_of(result%pn(at(1), :), at(2))]
       ! the peak may belong to a part of the contact, and be narrower than the contact
       across = min(scale%across, real(minval(shape%n, mask=shape%n > 0), wp))
@@ -129,7 +130,7 @@ contains
       integer :: ix, iy, x0, x1, y0, y1
 
       associate (pn => result%pn, modulus => problem%model%material%gg/(1.0_wp - problem%model%material%nu))
-         highest = maxval(pn)
+         highest = largest_of(size(pn), pn)
          peak = highest
          ! the load of a single element gives a peak that is higher by the inverse of this ratio
          least = highest*(1.0_wp - narrower)*pi/4.0_wp
@@ -140,6 +141,8 @@ contains
                if (pn(ix, iy) < least) cycle
                x0 = max(1, ix - 1)
                x1 = min(size(pn, 1), ix + 1)
+               ! most elements are lower than one of their row
+               if (max(pn(x0, iy), pn(x1, iy)) > pn(ix, iy)) cycle
                if (any(pn(x0:x1, y0:y1) > pn(ix, iy))) cycle
                shape = [shape_of(pn(:, iy), ix), shape_of(pn(ix, :), iy)]
                if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)))

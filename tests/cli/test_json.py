@@ -72,6 +72,20 @@ def faults(value, schema, place="line"):
 
 
 class Json(unittest.TestCase):
+    def test_numbers_have_the_fewest_digits(self):
+        text = self.run_program("--quiet", "--errors", "--json=-", "--output-dir", ".", "2",
+                                os.path.join(SOURCE, "examples", "manchester")).stdout
+        numbers = []
+        for line in text.splitlines():
+            json.loads(line, parse_float=numbers.append)
+        lengths = set()
+        for number in numbers:
+            # both are the shortest text that is read back as the same number; the digits are compared
+            digits, shortest = (word.lower().split("e")[0].replace(".", "").strip("-0") for word in (number, repr(float(number))))
+            self.assertEqual(digits, shortest, number)
+            lengths.add(len(digits))
+        self.assertTrue({15, 16, 17} <= lengths, lengths)
+
     def test_lines_are_as_the_schema_says(self):
         with open(os.path.join(SOURCE, "doc/user/results.schema.json"), encoding="utf-8") as file:
             schema = json.load(file)

@@ -1,0 +1,93 @@
+"""What estimated errors cost: python3 estimate_cost.py [--count N] [--wheels N] [--seed S] [--orders 1,2] [--across 20,40,64]
+
+Random contacts of all kinds, each on grids with the given numbers of elements across it, and wheels on rails with the elements of
+their cases, are run without and with --errors. Counted are the instructions of the whole process by callgrind, which do not depend
+on other processes. The output is, by order and number of elements, the part that the estimates add: median, 90 % and largest, as
+part of the whole run and of the run without the start of a process that solves nothing; then the contacts that exceed the limit.
+--stresses has points below the surface in the contacts. --check fails if one exceeds the limit. CONTACT_PROGRAM names the program.
+"""
+import argparse
+import os
+import random
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from error_cases import CHANGES, FURTHER, contact, text_of, wheel, wheel_text
+
+#: Largest part that estimates may add to the instructions of a run
+LIMIT = 0.15
+
+
+def instructions(program, folder, name, options=()):
+    """Instructions of a run of an existing file."""
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, *options, "--quiet", "--json", "2", name]
+    done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
+    return int(re.search(r"refs: +([0-9,]+)", done.stderr).group(1).replace(",", ""))
+
+
+def texts_of(asked):
+    """Group (elements across, or wheels), name and text of each run."""
+    source, kinds = random.Random(asked.seed), asked.kinds.split(",")
+    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
+    for k in range(asked.count):
+        c = dict(contact(source, kinds[k % len(kinds)]), stresses=asked.stresses)
+        offset = (source.random(), source.random())
+        for n in map(int, asked.across.split(",")):
+            yield n, f"{k} {c['kind']}", text_of(c, round(n * c["margin"]), offset)
+    for k in range(asked.wheels):
+        yield "wheels", f"{k} wheel", wheel_text(wheel(source), 1.0, profiles)
+
+
+def compare(program, folder, number, text, order):
+    """Instructions without and with estimates."""
+    name = f"x{number}o{order}"
+    (folder / f"{name}.toml").write_text(text)
+    return [instructions(program, folder, name, ("--order", order, *more)) for more in ((), ("--errors",))]
+
+
+def main():
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=24, help="number of contacts")
+    parser.add_argument("--wheels", type=int, default=8, help="number of wheels on rails")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kinds", default=",".join(CHANGES), help=f"of {', '.join(CHANGES | FURTHER)}")
+    parser.add_argument("--orders", default="1,2", help="orders of the scheme")
+    parser.add_argument("--across", default="20,40,64", help="elements across the contact")
+    parser.add_argument("--stresses", action="store_true", help="with points below the surface")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
+    parser.add_argument("--check", action="store_true", help="fail if a contact exceeds the limit")
+    asked = parser.parse_args()
+    program, rows = os.environ["CONTACT_PROGRAM"], {}
+    with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(asked.jobs) as pool:
+        folder = Path(name)
+        (folder / "empty.inp").write_text(" 0 MODULE\n")
+        start = instructions(program, folder, "empty")
+        runs = [(order, group, label, pool.submit(compare, program, folder, number, text, order))
+                for order in asked.orders.split(",") for number, (group, label, text) in enumerate(texts_of(asked))]
+        for order, group, label, run in runs:
+            without, with_them = run.result()
+            rows.setdefault((order, group), []).append((with_them / without - 1, (with_them - without) / (without - start),
+                                                        label, without / 1e6))
+    print(f"Start: {start / 1e6:.1f} million instructions\n")
+    print("| order | across | runs | added: median [%] | 90 % | largest | without the start: median [%] | 90 % | largest | above |")
+    print("|---" * 10 + "|")
+    for (order, group), found in rows.items():
+        parts = [sorted(100 * row[k] for row in found) for k in (0, 1)]
+        print(f"| {order} | {group} | {len(found)} | " + " | ".join(
+            f"{statistics.median(p):.1f} | {p[-1 - len(p) // 10]:.1f} | {p[-1]:.1f}" for p in parts)
+            + f" | {sum(row[0] > LIMIT for row in found)} |")
+    above = [(part, bare, order, group, label, size) for (order, group), found in rows.items()
+             for part, bare, label, size in found if part > LIMIT]
+    for part, bare, order, group, label, size in sorted(above, reverse=True):
+        print(f"order {order}, {group}, {label}: {100 * part:.1f} %, without the start {100 * bare:.1f} % of {size:.1f} million")
+    sys.exit(asked.check and bool(above))
+
+
+if __name__ == "__main__":
+    main()
