@@ -11,7 +11,7 @@ module contact_elastic_halfspace
    private
 
    public :: kernel_table, fill_normal, complete_table, own_tangential, fill_table, fill_shifted_table
-   public :: shape_table, set_mirrored, set_entry, corner_functions, combine_corners
+   public :: shape_table, set_mirrored, set_entry, corner_functions, combine_corners, middle_of_table
 
    !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
    !>
@@ -111,6 +111,42 @@ contains
       end do
       if (l > 0) table%nn(:, -l) = table%nn(:, l)
    end subroutine set_normal_rows
+
+   !> The coefficients of smaller offsets of a table
+   pure subroutine middle_of_table(from, n, to)
+      !> Table with all coefficients
+      type(kernel_table), intent(in) :: from
+      !> Maximum offsets along x and y, at most those of the table
+      integer, intent(in) :: n(2)
+      !> Table of these offsets
+      type(kernel_table), intent(out) :: to
+
+      to%nx = n(1)
+      to%ny = n(2)
+      to%dx = from%dx
+      to%dy = from%dy
+      to%shift_x = from%shift_x
+      to%shift_y = from%shift_y
+      to%material = from%material
+      call copy_middle(from%nn, to%nn)
+      call copy_middle(from%xx, to%xx)
+      call copy_middle(from%yy, to%yy)
+      call copy_middle(from%xy, to%xy)
+      if (.not. allocated(from%xn)) return
+      call copy_middle(from%xn, to%xn)
+      call copy_middle(from%yn, to%yn)
+
+   contains
+
+      !> One of the coefficients
+      pure subroutine copy_middle(larger, smaller)
+         real(wp), allocatable, intent(in) :: larger(:, :)
+         real(wp), allocatable, intent(inout) :: smaller(:, :)
+
+         allocate(smaller(-n(1):n(1), -n(2):n(2)))
+         smaller = larger(-n(1):n(1), -n(2):n(2))
+      end subroutine copy_middle
+   end subroutine middle_of_table
 
    !> The coefficients that `fill_normal` leaves out; nothing where they are there
    subroutine complete_table(table)

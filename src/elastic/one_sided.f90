@@ -4,13 +4,15 @@
 !> table: the real parts of the spectra.
 module contact_elastic_one_sided
    use contact_base_kinds, only : wp
+   use contact_elastic_halfspace, only : middle_of_table
    use contact_elastic_model, only : elastic_model
    use contact_elastic_moving, only : moving_operator
+   use contact_elastic_operator, only : padded_size
    use contact_fft_plan, only : kernel_spectrum
    implicit none (type, external)
    private
 
-   public :: one_sided_operator
+   public :: one_sided_operator, share_table
 
    !> Compliance of viscoelastic bodies
    type, extends(moving_operator) :: one_sided_operator
@@ -26,6 +28,25 @@ module contact_elastic_one_sided
    end type one_sided_operator
 
 contains
+
+   !> Take the coefficients of a window that is prepared next from an operator of the same bodies and elements
+   !>
+   !> Quadratures of the memory take longer than all products on small windows. They begin at the end of the table, so the
+   !> coefficients of both differ by round-off.
+   pure subroutine share_table(from, mx, my, to)
+      !> Operator that is prepared, of a larger window; nothing is done if its table is too small
+      class(one_sided_operator), intent(in) :: from
+      !> Size of the window to be prepared
+      integer, intent(in) :: mx, my
+      !> Its operator; `prepare` must follow for the same bodies and elements
+      class(one_sided_operator), intent(inout) :: to
+      integer :: n(2)
+
+      n = padded_size(mx, my)/2
+      if (to%is_for(from%model, from%dx, from%dy, mx, my) .or. n(1) > from%table%nx .or. n(2) > from%table%ny) return
+      call middle_of_table(from%table, n, to%table)
+      to%is_filled = .true.
+   end subroutine share_table
 
    subroutine prepare(self, model, dx, dy, mx, my, direction, y_first)
       class(one_sided_operator), intent(inout) :: self

@@ -19,7 +19,7 @@ module contact_elastic_operator
    implicit none (type, external)
    private
 
-   public :: elastic_operator, normal_inverse_of_two, normal_of_two
+   public :: elastic_operator, normal_inverse_of_two, normal_of_two, padded_size
 
    !> Contains plans, spectra and workspace; its table extends to offsets of half the padded window
    type, extends(compliance) :: elastic_operator
@@ -28,6 +28,8 @@ module contact_elastic_operator
       type(fft_plan), private :: normal_inverse_plan, inverse_plan
       !> Both fields at once on small windows, for products and for inverses
       type(paired_plan), private :: pair, inverse_pair, normal_inverse_pair
+      !> Has the table of the window that is prepared next been set already?
+      logical :: is_filled = .false.
       !> Is the window small? False for children that use the spectra xx and yy by themselves
       logical :: small = .false.
       !> Spectra divided by the padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
@@ -67,16 +69,17 @@ contains
       integer, intent(in) :: direction
       !> Lateral position of the centres of the first row [mm]; default 0
       real(wp), intent(in), optional :: y_first
-      integer :: px, py, k
+      integer :: px, py, period(2), k
       complex(wp) :: turn
       logical :: same
 
       same = self%is_for(model, dx, dy, mx, my)
       if (.not. same) then
-         ! one more element than for a plain product, for the shifted kernel of steady rolling
-         px = merge(fast_line_size(2*mx + 1), fast_size(2*mx + 1), my == 1)
-         py = merge(1, fast_size(2*my), my == 1)
-         call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
+         period = padded_size(mx, my)
+         px = period(1)
+         py = period(2)
+         if (.not. self%is_filled) call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
+         self%is_filled = .false.
          self%diagonal = own_coefficients(self%table, model)
          call self%plan%prepare(mx, my, px, py)
          self%small = my > 1 .and. max(px, py) <= largest_fast_size
@@ -106,6 +109,16 @@ contains
          end do
       end if
    end subroutine prepare
+
+   !> Size of the padded window: one more element along x than for a plain product, for the shifted kernel of steady rolling
+   pure function padded_size(mx, my) result(period)
+      !> Size of the window
+      integer, intent(in) :: mx, my
+      integer :: period(2)
+
+      period(1) = merge(fast_line_size(2*mx + 1), fast_size(2*mx + 1), my == 1)
+      period(2) = merge(1, fast_size(2*my), my == 1)
+   end function padded_size
 
    !> Compute the spectra for the normal problem, on first use
    subroutine need_normal(self)

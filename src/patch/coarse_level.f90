@@ -238,6 +238,7 @@ contains
       coarse%sensitivity = sensitivity_choice%none
       coarse%want_exterior = .false.
       coarse%pressure_eps = 1.0_wp
+      coarse%shares_table = .true.
       coarse%settings%eps = max(fine%settings%eps, coarse_eps)
       if (.not. fine%general_step) coarse%solver = solver_choice%default
       ! in steady rolling the step is one element; a time step is not changed

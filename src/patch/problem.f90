@@ -107,6 +107,8 @@ module contact_patch_problem
       type(damping_law), allocatable :: damping
       !> Are displacements of exterior elements requested?
       logical :: want_exterior = .false.
+      !> Take influence coefficients of viscoelastic bodies for the contact area from those for the grid? They differ by round-off
+      logical :: shares_table = .false.
    contains
       !> Do the pressures satisfy the contact conditions? Otherwise they are given or approximate
       procedure :: solves_for_pressure

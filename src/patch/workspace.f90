@@ -4,6 +4,7 @@ module contact_patch_workspace
    use contact_elastic_compliance, only : compliance
    use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_new_compliance, only : new_compliance
+   use contact_elastic_one_sided, only : one_sided_operator, share_table
    use contact_elastic_pressure_sums, only : pressure_sums
    use contact_elastic_previous, only : previous_operator
    use contact_elastic_shelf, only : operator_shelf
@@ -165,9 +166,31 @@ contains
       call workspace%boxes%fetch(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
          & box%iy1 - box%iy0 + 1, workspace%box)
       call new_compliance(problem%model, workspace%box)
+      if (problem%shares_table) call share_with_box(problem, workspace, box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1)
       call workspace%box%prepare(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
          & box%iy1 - box%iy0 + 1, rolling_direction(problem), problem%grid%y(box%iy0))
    end subroutine prepare_box
+
+   !> Take the influence coefficients of viscoelastic bodies on the box from those of the grid
+   subroutine share_with_box(problem, workspace, mx, my)
+      !> Elasticity and grid
+      type(patch_problem), intent(in) :: problem
+      !> Compliances of grid and box, the latter not yet prepared
+      type(patch_workspace), intent(inout) :: workspace
+      !> Size of the box in elements
+      integer, intent(in) :: mx, my
+
+      if (.not. allocated(workspace%window)) return
+      ! it may be that of an earlier case
+      if (.not. workspace%window%is_for(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my)) return
+      select type (window => workspace%window)
+      class is (one_sided_operator)
+         select type (part => workspace%box)
+         class is (one_sided_operator)
+            call share_table(window, mx, my, part)
+         end select
+      end select
+   end subroutine share_with_box
 
    !> Free the memory that the workspace holds outside Fortran: plans of transforms
    subroutine release_workspace(workspace)
