@@ -6,6 +6,7 @@ module contact_output_element_table
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
+   use contact_numeric_pieces, only : pieces_of
    use contact_output_formats, only : fixed, general, generals, whole
    use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
@@ -15,8 +16,10 @@ module contact_output_element_table
 
    public :: write_element_table
 
-   !> Width of a column
-   integer, parameter :: width = 11
+   !> Width of a column, of all columns before those of other fields, and of a line with ten of those at most
+   integer, parameter :: width = 11, first_columns = 102, longest_line = first_columns + 10*width
+   !> Lines that are made together; chosen
+   integer, parameter :: lines_of_block = 4096
 
 contains
 
@@ -26,27 +29,60 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), target, intent(in) :: result
       type(element_field), allocatable :: fields(:)
-      logical :: all_elements, new_row
-      integer :: ix, iy
+      !> Lines of a block, and their elements
+      character(len=longest_line), allocatable :: lines(:)
+      integer, allocatable :: at(:, :)
+      logical :: all_elements
+      integer :: ix, iy, last_row, n
 
       all_elements = spec%output_level >= 6
       call result%fields(fields)
       fields = pack(fields, has_column(fields))
       call write_table_head(log, spec%motion, fields)
+      n = min(lines_of_block, result%grid%npot())
+      allocate(lines(n), at(2, n))
+      n = 0
+      last_row = 0
       do iy = 1, result%grid%my
-         new_row = .true.
          do ix = 1, result%grid%mx
             if (result%division(ix, iy) == element%exterior .and. .not. all_elements) cycle
-            if (new_row) then
-               call log%result("")
-               call log%result(" Y = " // general(result%grid%y(iy), 12, 4) // " ROW" // whole(iy, 3) &
-                  & // " OF THE POTENTIAL CONTACT")
-               call log%result("")
-               new_row = .false.
-            end if
-            call write_element(log, spec%motion, result, fields, ix, iy)
+            n = n + 1
+            at(:, n) = [ix, iy]
+            if (n < size(lines)) cycle
+            call write_block()
          end do
       end do
+      call write_block()
+
+   contains
+
+      !> Write the elements that were gathered, with the title of each row; threads share the lines of large grids
+      subroutine write_block()
+         integer :: k
+
+         if (pieces_of(result%grid%npot()) == 1) then
+            do k = 1, n
+               call set_line(spec%motion, result, fields, at(1, k), at(2, k), lines(k))
+            end do
+         else
+            !$omp parallel do
+            do k = 1, n
+               call set_line(spec%motion, result, fields, at(1, k), at(2, k), lines(k))
+            end do
+            !$omp end parallel do
+         end if
+         do k = 1, n
+            if (at(2, k) /= last_row) then
+               call log%result("")
+               call log%result(" Y = " // general(result%grid%y(at(2, k)), 12, 4) // " ROW" // whole(at(2, k), 3) &
+                  & // " OF THE POTENTIAL CONTACT")
+               call log%result("")
+               last_row = at(2, k)
+            end if
+            call log%result(trim(lines(k)))
+         end do
+         n = 0
+      end subroutine write_block
    end subroutine write_element_table
 
    !> Title, explanation and column heading
@@ -93,16 +129,15 @@ contains
       has_column = associated(field%values) .and. field%figures > 0
    end function has_column
 
-   !> Write the line of one element; slip per step is converted to relative slip
-   subroutine write_element(log, motion_kind, result, fields, ix, iy)
-      type(log_type), intent(inout) :: log
+   !> The line of an element; slip per step is converted to relative slip
+   pure subroutine set_line(motion_kind, result, fields, ix, iy, line)
       !> Member of `motion`
       integer, intent(in) :: motion_kind
       type(patch_result), intent(in) :: result
       !> Fields with a separate column
       type(element_field), intent(in) :: fields(:)
       integer, intent(in) :: ix, iy
-      character(len=:), allocatable :: line
+      character(len=longest_line), intent(inout) :: line
       real(wp) :: px, py, traction, angle, gap, bound
       integer :: k
 
@@ -116,15 +151,15 @@ contains
       if (allocated(result%tau_c)) bound = min(bound, result%tau_c(ix, iy))
       if (motion_kind == motion%none) then
          line = " " // generals([result%grid%x(ix), gap, result%pn(ix, iy), traction]) // fixed(angle, 10, 1)
-      else
-         line = " " // general(result%grid%x(ix), 12, 4) // general(gap, 11, 3) // general(result%pn(ix, iy), 11, 3) &
-            & // general(bound, 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
-            & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
-            & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
-         do k = 1, size(fields)
-            line = line // general(fields(k)%values(ix, iy)/fields(k)%divisor, width, fields(k)%figures)
-         end do
+         return
       end if
-      call log%result(line)
-   end subroutine write_element
+      line = " " // general(result%grid%x(ix), 12, 4) // general(gap, 11, 3) // general(result%pn(ix, iy), 11, 3) &
+         & // general(bound, 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
+         & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
+         & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
+      do k = 1, size(fields)
+         line(first_columns + width*(k - 1) + 1:first_columns + width*k) = general(fields(k)%values(ix, iy)/fields(k)%divisor, &
+            & width, fields(k)%figures)
+      end do
+   end subroutine set_line
 end module contact_output_element_table

@@ -12,6 +12,7 @@ module contact_output_mat_file
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
    use contact_grid_element_division, only : element
+   use contact_numeric_pieces, only : pieces_of
    use contact_output_finished_file, only : finished_file
    use contact_output_formats, only : general, whole
    use contact_patch_quantities, only : element_field
@@ -26,6 +27,9 @@ module contact_output_mat_file
    integer, parameter :: layout = 2410
    !> Minimum value of A for which all elements are written
    integer, parameter :: all_elements = 2
+
+   !> Lines that are made together; chosen
+   integer, parameter :: lines_of_block = 4096
 
    !> Name of an unused column, of the length of all names: gfortran 12 pads shorter ones in array constructors with implied loops
    !> with the memory that follows them
@@ -144,31 +148,73 @@ contains
       has_column = associated(field%values) .and. field%in_files .and. field%name /= "sy"
    end function has_column
 
-   !> Write one line per element, in increasing index
+   !> Write one line per element, in increasing index; threads share the lines of large grids, a block of them at a time
    subroutine write_elements(file, spec, result, fields)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       !> Fields with a column
       type(element_field), intent(in) :: fields(:)
-      character(len=14*(size(fields) + 2)) :: line
-      real(wp) :: values(size(fields))
-      integer :: ix, iy, k, number
+      character(len=14*(size(fields) + 2)), allocatable :: lines(:)
+      integer, allocatable :: at(:, :)
+      integer :: ix, iy, n
 
-      number = 0
+      n = min(lines_of_block, result%grid%npot())
+      allocate(lines(n), at(2, n))
+      n = 0
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
-            number = number + 1
             if (result%division(ix, iy) == element%exterior .and. spec%mat_file < all_elements) cycle
-            do k = 1, size(fields)
-               values(k) = fields(k)%values(ix, iy)
-               if (fields(k)%name == "sx") values(k) = hypot(values(k), result%sy(ix, iy))
-            end do
-            line = two_integers(number, result%division(ix, iy)) // reals(values/fields%divisor)
-            call file%line(trim(line))
+            n = n + 1
+            at(:, n) = [ix, iy]
+            if (n < size(lines)) cycle
+            call write_block()
          end do
       end do
+      call write_block()
+
+   contains
+
+      !> Write the elements that were gathered
+      subroutine write_block()
+         integer :: k
+
+         if (pieces_of(result%grid%npot()) == 1) then
+            do k = 1, n
+               call set_line(result, fields, at(1, k), at(2, k), lines(k))
+            end do
+         else
+            !$omp parallel do
+            do k = 1, n
+               call set_line(result, fields, at(1, k), at(2, k), lines(k))
+            end do
+            !$omp end parallel do
+         end if
+         do k = 1, n
+            call file%line(trim(lines(k)))
+         end do
+         n = 0
+      end subroutine write_block
    end subroutine write_elements
+
+   !> The line of an element
+   pure subroutine set_line(result, fields, ix, iy, line)
+      type(patch_result), intent(in) :: result
+      !> Fields with a column
+      type(element_field), intent(in) :: fields(:)
+      !> The element
+      integer, intent(in) :: ix, iy
+      character(len=14*(size(fields) + 2)), intent(inout) :: line
+      real(wp) :: value
+      integer :: k
+
+      line = two_integers(ix + result%grid%mx*(iy - 1), result%division(ix, iy))
+      do k = 1, size(fields)
+         value = fields(k)%values(ix, iy)
+         if (fields(k)%name == "sx") value = hypot(value, result%sy(ix, iy))
+         line(14*k + 1:14*k + 14) = general(value/fields(k)%divisor, 14, 6)
+      end do
+   end subroutine set_line
 
    !> Names of the material constants of the model
    pure function material_names(model) result(names)

@@ -79,6 +79,8 @@ measure_others() {
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
   title "Inputs as users write them"
   python3 "$here/asked_inputs.py" "$programs/bin/contact" "$top"
+  title "Threads"
+  python3 "$here/threads.py" "$programs/bin/contact"
   title "Files for other programs"
   python3 "$here/exports.py" "$programs/bin/contact"
   title "Requests to the heap in repeated cases, 11 x 11"
