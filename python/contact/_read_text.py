@@ -53,6 +53,8 @@ class OutCase:
     patches: dict[int, dict[str, float]] = field(default_factory=dict)
     # Name of the moment MN of each patch whose kinematic constants are printed
     moments: dict[int, str] = field(default_factory=dict)
+    # Relative forces of each patch that are prescribed, printed with the input only
+    prescribed: dict[int, dict[str, float]] = field(default_factory=dict)
 
 
 @dataclass
@@ -151,7 +153,10 @@ def _take(case: OutCase, patch: int, values: dict[str, float], in_module1: bool)
         values["bar_mn"] = moment
     elif moment is not None and patch in case.moments:
         values[case.moments[patch]] = moment
-    totals.update({total: values[name] for name, total in _TOTALS.items() if name in values})
+    found = {total: values[name] for name, total in _TOTALS.items() if name in values}
+    if "chi" in values or "dt" in values:
+        case.prescribed[max(1, patch)] = {name: found.pop(name) for name in ("fx_rel", "fy_rel") if name in found}
+    totals.update(found)
 
 
 def read_out(path: str) -> OutFile:
@@ -186,6 +191,10 @@ def read_out(path: str) -> OutFile:
             cases[-1].status, cases[-1].reason = "refused", "its input cannot be used: " + line[15:].strip()
         if _HEADINGS.match(line):
             _take(cases[-1], patch, _below(line, following), in_module1)
+    for case in cases:
+        if case.status == "solved":  # prescribed forces are reached
+            for number, values in case.prescribed.items():
+                case.patches[number] = {**values, **case.patches[number]}
     ours = any("open source" in line for line in lines[:6])
     ended = any(line.startswith(" CONTACT ended") for line in lines)
     short = any(line.startswith(" Not complete: ") for line in lines)

@@ -3,6 +3,7 @@
 
 Usage: results_shown.py PROGRAM
 """
+import json
 import importlib
 import os
 import re
@@ -313,6 +314,33 @@ def places_of_wheels(program):
                     close(getattr(matrix.patch, axis), getattr(whole.case(matrix.number).patch, axis), 1e-5, f"{axis} of elements")
 
 
+def forces_not_reached(program):
+    """Relative forces of the .out file are those found, also where the input prescribes others that cannot be reached"""
+    case = """3 MODULE
+ 203110
+ 0022020 0
+ 0002201
+ 200 100 30 1 1e-6
+ 1000 {fx} 0 {spin}
+ 0.3 0.3
+ 0 1 1
+ 0.28 0.28 82000 82000
+ -3
+ 16 16 2 2 1.2
+"""
+    with open("missed.inp", "w", encoding="utf-8") as file:
+        file.write(case.format(fx=0.5, spin=0) + case.format(fx=0.999999, spin=3) + "0\n")
+    subprocess.run([program, "--json", "2", "missed"], check=True, stdout=subprocess.DEVNULL)
+    with open("missed.jsonl", encoding="utf-8") as file:
+        stored = [json.loads(line) for line in file][:2]
+    same([item["status"] for item in stored], ["solved", "not converged"], "the second force is beyond friction")
+    for case, item in zip(contact.load("missed.out"), stored):
+        totals, right = case.patch.totals(), item["patches"][0]["totals"]
+        for name in {"fx", "fy", "fx_rel", "fy_rel"} & set(totals):
+            close(totals[name], right[name]["value"], 1e-3 * abs(right[name]["value"]) + 1e-5, f"{name} of case {case.number}")
+        same("fx_rel" in totals, case.status == "solved", "a prescribed force that was reached")
+
+
 def problems_of_elements(program):
     """Result elements and contact problems have files of their own, and cases that can be told apart"""
     with open(os.path.join(SOURCE, "examples/cattaneo.inp"), encoding="utf-8") as file:
@@ -408,6 +436,7 @@ if __name__ == "__main__":
     displaced_without_motion()
     loaded(sys.argv[1])
     places_of_wheels(sys.argv[1])
+    forces_not_reached(sys.argv[1])
     problems_of_elements(sys.argv[1])
     cases_without_result(sys.argv[1])
     layer()
