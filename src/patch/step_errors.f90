@@ -18,6 +18,8 @@ module contact_patch_step_errors
    !> Lower bound of the difference of levels, relative to the typical error, and exponent of it: differences are hardly correlated
    !> with errors (same contacts)
    real(wp), parameter :: least_ratio = 0.4_wp, difference_power = 0.3_wp
+   !> The same exponent for creepages; chosen with the test hard_friction, where a creepage is a hundredth of its error
+   real(wp), parameter :: creepage_power = 0.6_wp
    !> Power relative to that of full sliding: factor of n^-1, lower bound of the power and its exponent; factor of the difference of
    !> levels, a lower bound of the error
    real(wp), parameter :: power_floor = 0.4_wp, least_power = 0.01_wp, power_exponent = 0.7_wp, power_share = 0.2_wp
@@ -29,15 +31,20 @@ module contact_patch_step_errors
 contains
 
    !> Relative error of tangential forces: weighted geometric mean of the difference of levels and the typical error
-   pure real(wp) function force_error(estimate, adhesion, across) result(e)
+   pure real(wp) function force_error(estimate, adhesion, across, is_creepage) result(e)
       !> Difference of the levels relative to the maximum frictional force [-]
       real(wp), intent(in) :: estimate
       !> Fraction of the elements in contact that are in adhesion [-]
       real(wp), intent(in) :: adhesion
       !> Number of elements across the contact
       real(wp), intent(in) :: across
+      !> Is it for a creepage, which may be much smaller than its error? Default: no
+      logical, intent(in), optional :: is_creepage
+      real(wp) :: power
 
-      e = usual_error(adhesion, across)*max(estimate/usual_error(adhesion, across), least_ratio)**difference_power
+      power = difference_power
+      if (present(is_creepage)) power = merge(creepage_power, difference_power, is_creepage)
+      e = usual_error(adhesion, across)*max(estimate/usual_error(adhesion, across), least_ratio)**power
    end function force_error
 
    !> Typical relative error of tangential forces with this number of elements

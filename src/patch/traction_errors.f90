@@ -121,7 +121,8 @@ contains
       part = part_of(scale, merge(force_order, order_of(scale), scale%order > first_order .and. order_of(scale) < normal_order))
       if (is_unseen(scale)) part = 0.0_wp
       e = part*difference
-      if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across)*unit
+      if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across, &
+         & .not. is_force)*unit
       heat = by_heat(scale, part, difference, unit)
       if (.not. is_first(scale)) e = e + heat
       ! in full sliding the moment has the error of the centre of pressures, which forces do not have
