@@ -18,7 +18,7 @@ module contact_cases_accuracy
       & most_elements, most_levels, not_converged, observed_order, prepare_level, refuse_case, &
       & smaller_tolerance, solver_tolerance, stopping_share
    use contact_cases_accuracy_series, only : has_history
-   use contact_cases_accuracy_time, only : time_is_left
+   use contact_cases_accuracy_time, only : has_outer_iterations, time_is_left
    use contact_cases_approximate_methods, only : approximate_method, choose_method, use_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
@@ -281,7 +281,8 @@ contains
       reason = ""
       if (size(trail, 2) > 1 .and. is_cut_off(result, report%required, most_elements(spec%limits), fixed)) then
          reason = "the potential contact cuts off a part of the contact"
-      else if (has_stalled(trail, fixed)) then
+      else if (has_stalled(trail, fixed) .and. .not. has_outer_iterations(spec)) then
+         ! unlike bodies may slip in an area narrower than elements, with the same error until elements are as narrow
          reason = no_progress
       else if (.not. (tightened .or. is_worth([result%grid%mx, result%grid%my], counts))) then
          reason = "more than " // integer_text(int(most_elements(spec%limits))) // " elements are not allowed"

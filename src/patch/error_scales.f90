@@ -5,6 +5,7 @@ module contact_patch_error_scales
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_patch_edge_slip, only : edge_slip_error
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_turning, only : turned_round, turns
@@ -103,6 +104,9 @@ module contact_patch_error_scales
       real(wp) :: driven = 0.0_wp
       !> Geometric mean of the number of elements across the contact in both directions
       real(wp) :: mean_across = 1.0_wp
+      !> Error of the forces by slip at the leading edge of unlike bodies, by the second order [-]; is it known?
+      real(wp) :: edge_slip = 0.0_wp
+      logical :: has_edge_slip = .false.
       !> Is it a line contact, with elements along x only?
       logical :: is_line = .false.
       !> Root mean square deviation of the coefficient of friction, relative to its mean, if it depends on slip velocity [-]
@@ -205,6 +209,8 @@ contains
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2 .and. scale%force > 0.0_wp) &
          & scale%turning = min(pi, scale%mean_across*sqrt(result%grid%dx*result%grid%dy*turns(result)/scale%force))
+      scale%has_edge_slip = problem%motion == motion%steady_rolling .and. order == 2 .and. scale%coupling > 0.0_wp
+      if (scale%has_edge_slip) scale%edge_slip = edge_slip_error(problem, result)
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx

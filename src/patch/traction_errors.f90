@@ -291,8 +291,13 @@ contains
       real(wp), intent(in) :: adhesion
 
       floor = friction_floor(scale, adhesion, .false.)
-      if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling*scale%driven/scale%across, &
-         & hidden_slip*scale%driven**3*sqrt(scale%sticking)/scale%mean_across)
+      if (scale%order >= normal_order) return
+      floor = max(floor, coupled_friction_floor*scale%coupling*scale%driven/scale%across)
+      if (scale%has_edge_slip) then
+         floor = max(floor, scale%edge_slip)
+      else
+         floor = max(floor, hidden_slip*scale%driven**3*sqrt(scale%sticking)/scale%mean_across)
+      end if
    end function driven_floor
 
    !> Is it a step of transient rolling for which the second-order scheme is not suited?

@@ -67,6 +67,9 @@ MARGIN_BOUNDS = {"forces": (0.3, 12.0, 0.85), "friction_power": (0.3, 7.0, 0.9),
                  "max_mises": (0.25, 6.0, 0.9), "max_tresca": (0.25, 7.0, 0.8)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
+#: Dissimilar bodies that slip at the leading edge in an area narrower than elements, or turn there, by the second order: seed,
+#: count, numbers of the contacts of this kind, and bounds
+EDGE_SEED, EDGE_COUNT, EDGE_NUMBERS, EDGE_BOUNDS = 5551, 30, (6, 13, 20), {"forces": (0.45, 5.0, 1.0)}
 #: Goals: fraction of the estimates within 0.3 to 5 of the error, and smallest effectivity; number of contacts and wheels for them
 WANTED, ACCEPTANCE = (0.95, 0.1), (400, 100)
 #: Contacts or wheels of one batch with --log
@@ -354,11 +357,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
-    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "wheels", "peaks", "first",
-                                                                               "signed", "sliding", "margins"),
-                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, wheels, their largest "
-                        "pressures, sliding wheels, moments and sliding by the first order, energy and stresses by the first "
-                        "order, or contacts and wheels that missed the goals by both; fail if bounds are missed")
+    parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "edge", "wheels", "peaks",
+                                                                               "first", "signed", "sliding", "margins"),
+                        help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, their leading edge, wheels, "
+                        "their largest pressures, sliding wheels, moments and sliding by the first order, energy and stresses "
+                        "by the first order, or contacts and wheels that missed the goals by both; fail if bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
                         help="order of the discretisation, 1 or 2")
@@ -384,6 +387,9 @@ def main():
         asked.kinds = ",".join(FIRST)
     elif asked.check == "signed":
         asked.count, asked.seed, asked.sizes, asked.places = SIGNED_COUNT, SIGNED_SEED, "16,30", 4
+    elif asked.check == "edge":
+        asked.count, asked.seed, asked.sizes, asked.places = EDGE_COUNT, EDGE_SEED, "26,34", 2
+        asked.kinds, asked.order = "dissimilar", ("--order", "2")
     elif asked.check:
         asked.count, asked.seed, asked.sizes, asked.places = 60, COUPLED_SEED, "16,30", 2
         asked.kinds, asked.order = ",".join(COUPLED), ("--order", "2")
@@ -401,7 +407,7 @@ def main():
         return
     with tempfile.TemporaryDirectory() as name:
         program = os.environ["CONTACT_PROGRAM"]
-        only = {"coupled": THOSE_THAT_LIED, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS,
+        only = {"coupled": THOSE_THAT_LIED, "edge": EDGE_NUMBERS, "first": FIRST_NUMBERS, "signed": SIGNED_NUMBERS,
                 "peaks": PEAK_CONTACTS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
@@ -423,6 +429,8 @@ def main():
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), BOUNDS) or 0)
     elif asked.check == "coupled":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), COUPLED_BOUNDS) or 0)
+    elif asked.check == "edge":
+        sys.exit(misses(by_total, sum(not places for _, _, places in rows), EDGE_BOUNDS, against=3) or 0)
     elif asked.check == "first":
         sys.exit(misses(by_total, sum(not places for _, _, places in rows), FIRST_BOUNDS, against=3) or 0)
     elif asked.check == "signed":

@@ -61,6 +61,7 @@ def main():
     parser.add_argument("--across", default="20,40,64", help="elements across the contact")
     parser.add_argument("--stresses", action="store_true", help="with points below the surface")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
+    parser.add_argument("--list", action="store_true", help="print each run when it ends")
     parser.add_argument("--check", action="store_true", help="fail if a contact exceeds the limit")
     asked = parser.parse_args()
     program, rows = os.environ["CONTACT_PROGRAM"], {}
@@ -74,6 +75,8 @@ def main():
             without, with_them = run.result()
             rows.setdefault((order, group), []).append((with_them / without - 1, (with_them - without) / (without - start),
                                                         label, without / 1e6))
+            if asked.list:
+                print(order, group, label, *(f"{value:.4g}" for value in (without / 1e6, with_them / 1e6)), flush=True)
     print(f"Start: {start / 1e6:.1f} million instructions\n")
     print("| order | across | runs | added: median [%] | 90 % | largest | without the start: median [%] | 90 % | largest | above |")
     print("|---" * 10 + "|")

@@ -1,0 +1,116 @@
+!> Errors at the leading edge of unlike bodies: slip in an area narrower than elements, and tractions that turn within elements
+!>
+!> Pressures of unlike bodies drive tractions at the leading edge. Without slip these go as the root of the distance s from the
+!> edge times beta/pi log(1/s), with Dundurs' constant beta, so their ratio to the pressures grows towards the edge, and reaches
+!> the coefficient of friction at a distance w. Slip between the edge and w displaces the beginning of the tractions in adhesion by
+!> a part of w, and so changes them by beta/(pi mu) w/L of the bound, L the length of the row. Elements longer than w miss this, and
+!> elements of that length have as large an error. Where the edge slides, the direction of slip turns with log(1/s): tractions of
+!> the first element have an error of the change of direction to the next one. No coarser level shows either. See
+!> doc/theory/errors.md.
+module contact_patch_edge_slip
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_patch_problem, only : patch_problem, rolling_direction
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: edge_slip_error
+
+   !> Ratio of the error of the forces to the sum over the rows; distance of the centre of the leading element from the edge
+   !> [elements]; exponent of the number of slipping elements by which the error decreases; ratio of beta to the coefficient of
+   !> friction below which levels show most of it, and exponent of smaller ones; ratio of the error to the change of the tractions
+   !> of leading elements that slide. Of 66 contacts on 20 to 56 elements along the potential contact (kind dissimilar, seeds 70001
+   !> and 5551)
+   real(wp), parameter :: share = 2.0_wp, usual_place = 0.5_wp, resolved_power = 2.0_wp, strong = 0.5_wp, weak_power = 2.0_wp, &
+      & turning_share = 1.5_wp
+
+   !> A row of elements along the rolling direction
+   type :: row_type
+      !> Elements in contact; those that slip ahead of adhesion
+      integer :: n = 0, ahead = 0
+      !> Sums of the pressures, and of those in adhesion [N/mm2]
+      real(wp) :: load = 0.0_wp, sticking = 0.0_wp
+      !> Coefficient of friction where adhesion begins [-]
+      real(wp) :: mu = 0.0_wp
+      !> Traction over its bound in the leading element [-]
+      real(wp) :: used = 0.0_wp
+      !> Tractions over their bound ahead of adhesion, or in the leading element that sticks, and behind it [-]
+      real(wp) :: before(2) = 0.0_wp, behind(2) = 0.0_wp
+      !> Pressure of the leading element times the change of direction to the next one, if both slip [N/mm2]
+      real(wp) :: turning = 0.0_wp
+   end type row_type
+
+contains
+
+   !> Error of the forces due to slip at the leading edge, and to its direction, relative to the friction bound [-]
+   pure real(wp) function edge_slip_error(problem, result) result(e)
+      !> The problem that was solved: steady rolling along x of bodies with different materials
+      type(patch_problem), intent(in) :: problem
+      !> Solved, with contact
+      type(patch_result), intent(in) :: result
+      type(row_type) :: row
+      real(wp) :: beta, width, turned
+      integer :: iy
+
+      e = 0.0_wp
+      beta = abs(problem%model%material%ak)/(1.0_wp - problem%model%material%nu)
+      do iy = 1, result%grid%my
+         row = row_of(result, iy, rolling_direction(problem))
+         e = e + turning_share*row%turning
+         if (.not. (row%sticking > 0.0_wp .and. row%mu > 0.0_wp)) cycle
+         ! in elements; of a width that elements resolve the error decreases
+         if (row%ahead == 0) then
+            width = usual_place*exp(min(0.0_wp, (row%used - 1.0_wp)*pi*row%mu/beta))
+         else
+            width = real(row%ahead, wp)**(-resolved_power)
+         end if
+         ! where tractions turn between both slip areas, those behind adhesion change with its place
+         turned = 0.5_wp*norm2(row%before - row%behind)
+         e = e + share*beta/(pi*row%mu)*min(1.0_wp, beta/(strong*row%mu))**weak_power*width/row%n &
+            & *(row%sticking + turned*(row%load - row%sticking))
+      end do
+      e = e/max(sum(result%pn), tiny(e))
+   end function edge_slip_error
+
+   !> What the estimate needs of a row
+   pure type(row_type) function row_of(result, iy, direction) result(row)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Row; rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: iy, direction
+      real(wp) :: traction(2), first(2), pressure
+      integer :: ix, k
+      logical :: was_sticking
+
+      was_sticking = .false.
+      do k = 1, result%grid%mx
+         ix = merge(result%grid%mx + 1 - k, k, direction > 0)
+         if (.not. result%pn(ix, iy) > 0.0_wp) cycle
+         row%n = row%n + 1
+         row%load = row%load + result%pn(ix, iy)
+         traction = [result%px(ix, iy), result%py(ix, iy)]/max(result%mu(ix, iy)*result%pn(ix, iy), tiny(traction))
+         if (row%n == 1) then
+            first = traction
+            pressure = result%pn(ix, iy)
+            row%used = norm2(traction)
+            row%before = traction
+         end if
+         if (result%division(ix, iy) == element%slip) then
+            if (.not. row%sticking > 0.0_wp) then
+               row%ahead = row%ahead + 1
+               row%before = traction
+            end if
+            if (row%n == 2 .and. row%ahead == 2) row%turning = pressure*norm2(traction - first)
+            if (was_sticking) row%behind = traction
+            was_sticking = .false.
+         else
+            if (.not. row%sticking > 0.0_wp) row%mu = result%mu(ix, iy)
+            row%sticking = row%sticking + result%pn(ix, iy)
+            row%behind = traction
+            was_sticking = .true.
+         end if
+      end do
+   end function row_of
+end module contact_patch_edge_slip
