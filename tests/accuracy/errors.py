@@ -425,26 +425,16 @@ def main():
         for seed, count, numbers in wheels:
             rows += judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers) if count else []
     by_total, by_kind = tables(rows, asked)
-    if asked.check == "usual":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), BOUNDS) or 0)
-    elif asked.check == "coupled":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), COUPLED_BOUNDS) or 0)
-    elif asked.check == "edge":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), EDGE_BOUNDS, against=3) or 0)
-    elif asked.check == "first":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), FIRST_BOUNDS, against=3) or 0)
-    elif asked.check == "signed":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), SIGNED_BOUNDS, against=3) or 0)
-    elif asked.check == "peaks":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), PEAK_BOUNDS, against=3) or 0)
-    elif asked.check in ("sliding", "margins"):
-        bounds = MARGIN_BOUNDS if asked.check == "margins" else SLIDING_BOUNDS
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), bounds, against=3) or 0)
-    elif asked.check == "wheels":
-        sys.exit(misses(by_total, sum(not places for _, _, places in rows), WHEEL_BOUNDS) or 0)
+    bounds = {"usual": BOUNDS, "coupled": COUPLED_BOUNDS, "wheels": WHEEL_BOUNDS}.get(asked.check)
+    against = {"edge": EDGE_BOUNDS, "first": FIRST_BOUNDS, "signed": SIGNED_BOUNDS, "peaks": PEAK_BOUNDS,
+               "sliding": SLIDING_BOUNDS, "margins": MARGIN_BOUNDS}.get(asked.check)
+    unsolved = sum(not places for _, _, places in rows)
+    if against:
+        sys.exit(misses(by_total, unsolved, against, against=3) or 0)
+    elif bounds:
+        sys.exit(misses(by_total, unsolved, bounds) or 0)
     elif asked.check:
         most_unsolved = 2 * asked.count // 3
-        unsolved = sum(not places for _, _, places in rows)
         sys.exit(misses(by_total, unsolved if unsolved > most_unsolved else 0, FURTHER_BOUNDS) or 0)
     print_kinds(by_kind, asked.places)
 
