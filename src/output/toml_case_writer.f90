@@ -252,26 +252,27 @@ contains
       end function differs
    end function changes_load
 
-   !> Write what ends: damping and temperatures of the previous case; and how temperatures are computed
+   !> Write what ends: damping, temperatures and wear of the previous case; and temperatures that return with kept numbers
    subroutine put_ends(a, old, spec, is_first)
       type(toml_writer), intent(inout) :: a
       type(case_spec), intent(in) :: old, spec
       logical, intent(in) :: is_first
 
       if (is_first) return
-      if (old%has_damping .and. .not. spec%has_damping) call end_group("damping")
-      if (old%has_heat .and. .not. spec%has_heat) call end_group("heat")
-      if (old%has_wear .and. .not. spec%has_wear) call end_group("wear")
+      if (old%has_damping .and. .not. spec%has_damping) call put_model("damping", "none")
+      if (old%has_heat .and. .not. spec%has_heat) call put_model("heat", "none")
+      if (old%has_wear .and. .not. spec%has_wear) call put_model("wear", "none")
+      if (spec%has_heat .and. .not. old%has_heat .and. spec%parts%heat /= part_source%given) call put_model("heat", "flash")
 
    contains
 
-      !> Write a group whose model is "none"
-      subroutine end_group(group)
-         character(len=*), intent(in) :: group
+      !> Write a group with its model only
+      subroutine put_model(group, word)
+         character(len=*), intent(in) :: group, word
 
-         a%case_text = a%case_text // line_feed // "[case." // group // "]" // line_feed // 'model = "none"' // line_feed
-         call a%memory%keep(group // ".model", '"none"')
-      end subroutine end_group
+         a%case_text = a%case_text // line_feed // "[case." // group // "]" // line_feed // 'model = "' // word // '"' // line_feed
+         call a%memory%keep(group // ".model", '"' // word // '"')
+      end subroutine put_model
    end subroutine put_ends
 
    !> Select the stored texts of a result element

@@ -121,6 +121,42 @@ class Readable(unittest.TestCase):
         errors = self.complaints(text + '[[case]]\n[case.heat]\nmodel = "none"\nbktemp = [20, 20]\n')
         self.assertIn('unknown key "bktemp", or one without meaning in this case; accepted: ', errors)
 
+    def test_what_returns(self):
+        """Choices that end and return with the numbers in store: E, H and S digits of both modules, all ways through 0 and 1"""
+        first3 = ("203103\n0022029 2\n3002201\n200 100 30 1 1e-6\n1000 0.01 0 0\n0.3 0.3\n0 1 20000\n0.28 0.28 82000 82000\n"
+                  "1e-4 1e-4 1e9 1e9\n20 450 0.05 7.85e-6\n40 450 0.05 7.85e-6\n-3\n4 4 2 2 1.2\n" + 16*"1e-3 0\n"
+                  + "2 1\n1\n2 0.5 0.5\n0\n")
+        first1 = ("1203103\n0022035 2\n3002201\n200 100 30 1 1e-6\n0.3 0.3\n0.28 0.28 82000 82000\n1e-4 1e-4 1e9 1e9\n"
+                  "20 450 0.05 7.85e-6\n40 450 0.05 7.85e-6\n1 1 1 90d 8 4\n14 0 1435 0\n'60E1.prr' 0 1 0\n0 0 0 0 0 0\n"
+                  "1360 -70 460\n'S1002.prw' 0 1 0\n0 0 50e3 0 0 0\n2000 0 0 0 0 -4.3\n0 0.1 0 0 0 0\n0 0 0 0 0 0\n"
+                  "2 1\n1\n2 0.5 0.5\n0\n")
+        for name in ("60E1.prr", "S1002.prw"):
+            shutil.copy(EXAMPLES / "profiles" / name, self.folder)
+        for module, first in ((3, first3), (1, first1)):
+            text = f"{module} MODULE\n" + first
+            for e, m2, h, s in ((0, 1, 1, 1), (0, 0, 0, 0), (1, 1, 1, 1), (0, 1, 1, 0), (1, 1, 0, 1), (0, 0, 1, 1), (0, 1, 0, 0)):
+                text += f"{module} MODULE\n"
+                text += f"{'1' if module == 1 else ''}20310{s}\n010000{e if module == 3 else 0} {m2}\n{h}102201\n"
+                text += "1000 0.01 0 0\n" if module == 3 else ""
+            (self.folder / "a.inp").write_text(text + "0\n")
+            found = []
+            for name in ("a.inp", "a.toml", "a.inp"):
+                status, _, errors = self.run_program("--quiet", "--json", "2", name)
+                self.assertEqual(status, 0, errors)
+                cases = [json.loads(line) for line in (self.folder / "a.jsonl").read_text().splitlines()][:-1]
+                found.append([[(patch["effects"], patch["totals"]) for patch in case["patches"]] for case in cases])
+                self.assertEqual(len(cases), 8)
+                files = sorted(path.name for path in self.folder.glob("a.*.subs"))
+                self.assertGreater(len(files), 4)
+                found[-1].append(files)
+                for path in self.folder.glob("a.*.subs"):
+                    path.unlink()
+                self.assertEqual(self.run_program("convert", "--force", name)[0], 0)
+            heat = ["surface temperatures" in case[0][0] for case in found[0][:-1]]
+            self.assertEqual(heat, [True, True, False, True, True, False, True, False])
+            self.assertEqual(found[0], found[1], f"module {module}, readable")
+            self.assertEqual(found[0], found[2], f"module {module}, and back")
+
     def test_names_with_all_letters(self):
         """A name of a file survives both conversions, with quotes, marks of comments and separators in it"""
         folder = "driver's wheels, 50% \"a=b\" ''"
