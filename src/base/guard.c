@@ -39,6 +39,7 @@ int contact_guard_new_owner(void);
 void contact_guard_set_owner(int owner);
 void contact_guard_expect(int refusals);
 void contact_guard_use_blocks(struct kept_blocks *blocks);
+void contact_guard_use_blocks_again(struct kept_blocks *blocks);
 void contact_guard_whole_process(void);
 _Noreturn void contact_guard_without_memory(void);
 int contact_guard_is_watched(void);
@@ -60,6 +61,7 @@ void contact_guard_free(int owner) { (void)owner; }
 void contact_guard_set_owner(int owner) { (void)owner; }
 void contact_guard_expect(int refusals) { (void)refusals; }
 void contact_guard_use_blocks(struct kept_blocks *blocks) { (void)blocks; }
+void contact_guard_use_blocks_again(struct kept_blocks *blocks) { (void)blocks; }
 void contact_guard_whole_process(void) {}
 _Noreturn void contact_guard_without_memory(void) { abort(); }
 int contact_guard_is_watched(void) { return 0; }
@@ -206,6 +208,18 @@ static void give_to_reserve(void *p) {
   reserve_pieces--;
 }
 
+/* Usable size of a block from malloc or from a store */
+static size_t room_of(void *p) {
+  const size_t n = contact_kept_room(p);
+  return n > 0 ? n : real.usable_size(p);
+}
+
+/* Free a block that is not of the reserve */
+static void free_block(void *p) {
+  if (p == NULL || contact_kept_return(p)) return;
+  real.free(p);
+}
+
 /* ---- blocks with owners ---- */
 
 /* Larger blocks [bytes] are recorded. A block whose table entry is taken is not recorded, and leaks if its work is abandoned */
@@ -243,7 +257,7 @@ void contact_guard_free(int owner) {
     void *p = table[k].block;
     if (p == NULL || table[k].owner != owner) continue;
     forget(p);
-    real.free(p);
+    free_block(p);
   }
 }
 
@@ -257,6 +271,11 @@ void contact_guard_expect(int refusals) { me.expects = refusals; }
 void contact_guard_use_blocks(struct kept_blocks *blocks) {
   if (blocks != NULL) contact_kept_begin(blocks);
   me.blocks = blocks;
+}
+
+/* The same between calculations, unless the blocks of the first one are not there yet */
+void contact_guard_use_blocks_again(struct kept_blocks *blocks) {
+  if (blocks != NULL && contact_kept_goes_on(blocks)) me.blocks = blocks;
 }
 
 /* ---- guards ---- */
@@ -303,25 +322,10 @@ static void *serve(size_t n, size_t align, int own) {
   return p;
 }
 
-/* A new block of at least n bytes for the blocks that are in use, with a stock of such blocks for later requests */
-static void *new_kept_block(size_t n) {
-  const size_t size = contact_kept_size(n);
-  void *p = real.malloc(size);
-  for (int k = p != NULL ? contact_kept_stock(me.blocks, size) : 0; k > 0; k--) {
-    void *q = real.malloc(size);
-    if (q == NULL) break;
-    if (contact_kept_put(me.blocks, q, real.usable_size(q))) continue;
-    real.free(q);
-    break;
-  }
-  return p;
-}
-
 static void *request(size_t n, int own) {
   void *p = NULL;
-  const int keeps = own && me.blocks != NULL;
-  if (keeps) p = contact_kept_take(me.blocks, n);
-  if (p == NULL) p = keeps ? new_kept_block(n) : real.malloc(n);
+  if (me.blocks != NULL) p = contact_kept_take(me.blocks, n);
+  if (p == NULL) p = real.malloc(me.blocks != NULL ? contact_kept_size(n) : n);
   if (p == NULL) return serve(n, 16, own);
   if (own && n >= recorded) note(p, me.owner);
   return p;
@@ -330,7 +334,7 @@ static void *request(size_t n, int own) {
 static void *cleared(size_t count, size_t size, int own) {
   void *p = NULL;
   size_t n;
-  const int keeps = own && me.blocks != NULL && !__builtin_mul_overflow(count, size, &n);
+  const int keeps = me.blocks != NULL && !__builtin_mul_overflow(count, size, &n);
   if (keeps) p = contact_kept_take(me.blocks, n);
   if (p != NULL) memset(p, 0, n);
   if (p == NULL) p = keeps ? real.calloc(1, contact_kept_size(n)) : real.calloc(count, size);
@@ -350,15 +354,15 @@ static void release(void *p) {
     return;
   }
   forget(p);
-  if (me.blocks != NULL && p != NULL && contact_kept_put(me.blocks, p, real.usable_size(p))) return;
-  real.free(p);
+  if (me.blocks != NULL && p != NULL && contact_kept_put(me.blocks, p, room_of(p))) return;
+  free_block(p);
 }
 
 static void *resized(void *p, size_t n, int own) {
   if (p == NULL) return request(n, own);
   size_t old;
-  if (own && me.blocks != NULL && n > 0 && !in_reserve(p)) {
-    old = real.usable_size(p);
+  if (n > 0 && !in_reserve(p) && (me.blocks != NULL || contact_kept_room(p) > 0)) {
+    old = room_of(p);
     if (n <= old && old/2 <= n) return p;
     void *q = request(n, own);
     if (q == NULL) return NULL;
@@ -369,15 +373,16 @@ static void *resized(void *p, size_t n, int own) {
   if (in_reserve(p)) {
     old = piece_of(p)->size - unit;
     if (n <= old && n > 0) return p;
-    if (n == 0) {
-      release(p);
-      return NULL;
-    }
-  } else {
+  }
+  if (n == 0) {
+    release(p);
+    return NULL;
+  }
+  if (!in_reserve(p)) {
     const int owner = forget(p);
     void *q = real.realloc(p, n);
-    if (q != NULL || n == 0) {
-      if (q != NULL && own && n >= recorded) note(q, owner != 0 ? owner : me.owner);
+    if (q != NULL) {
+      if (own && n >= recorded) note(q, owner != 0 ? owner : me.owner);
       return q;
     }
     note(p, owner);
@@ -398,17 +403,28 @@ static void *other_malloc(size_t n) { return request(n, 0); }
 static void *other_calloc(size_t count, size_t size) { return cleared(count, size, 0); }
 static void *other_realloc(void *p, size_t n) { return resized(p, n, 0); }
 
+static void *kept_aligned(size_t align, size_t n) {
+  return me.blocks != NULL && (align & (align - 1)) == 0 ? contact_kept_take_aligned(me.blocks, n, align) : NULL;
+}
+
 static void *other_memalign(size_t align, size_t n) {
-  void *p = real.memalign(align, n);
+  void *p = kept_aligned(align, n);
+  if (p == NULL) p = real.memalign(align, n);
   return p != NULL ? p : serve(n, align, 0);
 }
 
 static void *other_aligned_alloc(size_t align, size_t n) {
-  void *p = real.aligned_alloc(align, n);
+  void *p = kept_aligned(align, n);
+  if (p == NULL) p = real.aligned_alloc(align, n);
   return p != NULL ? p : serve(n, align, 0);
 }
 
 static int other_posix_memalign(void **p, size_t align, size_t n) {
+  void *kept = kept_aligned(align, n);
+  if (kept != NULL) {
+    *p = kept;
+    return 0;
+  }
   const int error = real.posix_memalign(p, align, n);
   if (error != ENOMEM) return error;
   void *q = serve(n, align, 0);
@@ -426,8 +442,24 @@ static char *copied(char *copy, const char *text, size_t n) {
   return copy;
 }
 
-static char *other_strdup(const char *text) { return copied(real.strdup(text), text, strlen(text)); }
-static char *other_strndup(const char *text, size_t n) { return copied(real.strndup(text, n), text, strnlen(text, n)); }
+/* A copy in a kept block, NULL if there is none */
+static char *kept_copy(const char *text, size_t n) {
+  char *const copy = me.blocks != NULL ? contact_kept_take(me.blocks, n + 1) : NULL;
+  if (copy == NULL) return NULL;
+  memcpy(copy, text, n);
+  copy[n] = 0;
+  return copy;
+}
+
+static char *other_strdup(const char *text) {
+  char *const copy = kept_copy(text, strlen(text));
+  return copied(copy != NULL ? copy : real.strdup(text), text, strlen(text));
+}
+
+static char *other_strndup(const char *text, size_t n) {
+  char *const copy = kept_copy(text, strnlen(text, n));
+  return copied(copy != NULL ? copy : real.strndup(text, n), text, strnlen(text, n));
+}
 
 /* ---- calls that end the process ---- */
 
@@ -666,8 +698,11 @@ void contact_guard_whole_process(void) {
   watch();
 }
 
-/* A forked child has a single thread; the reserve must not be locked by another thread of the parent */
-static void free_lock(void) { atomic_flag_clear(&reserve_lock); }
+/* A forked child has a single thread; the reserve and the areas of blocks must not be locked by another thread of the parent */
+static void free_lock(void) {
+  atomic_flag_clear(&reserve_lock);
+  contact_kept_after_fork();
+}
 
 __attribute__((constructor)) static void begin(void) {
   watch();

@@ -6,7 +6,7 @@ module contact_base_kept_blocks
 
    public :: kept_blocks
 
-   !> The kept blocks of an owner, 16 MB at most; not to be copied
+   !> The kept blocks of an owner; not to be copied
    type :: kept_blocks
       type(c_ptr), private :: place = c_null_ptr
    contains
@@ -14,6 +14,8 @@ module contact_base_kept_blocks
       procedure :: use_them
       !> This thread uses the heap again
       procedure, nopass :: stop_using
+      !> The same as `use_them` between calculations; nothing before the second one
+      procedure :: use_again
       !> Release all blocks to the heap
       procedure :: release
    end type kept_blocks
@@ -33,6 +35,11 @@ module contact_base_kept_blocks
          import :: c_ptr
          type(c_ptr), value :: place
       end subroutine contact_guard_use_blocks
+
+      subroutine contact_guard_use_blocks_again(place) bind(c, name="contact_guard_use_blocks_again")
+         import :: c_ptr
+         type(c_ptr), value :: place
+      end subroutine contact_guard_use_blocks_again
    end interface
 
 contains
@@ -43,6 +50,12 @@ contains
       if (.not. c_associated(self%place)) self%place = contact_kept_new()
       call contact_guard_use_blocks(self%place)
    end subroutine use_them
+
+   subroutine use_again(self)
+      class(kept_blocks), intent(in) :: self
+
+      call contact_guard_use_blocks_again(self%place)
+   end subroutine use_again
 
    subroutine stop_using()
       call contact_guard_use_blocks(c_null_ptr)

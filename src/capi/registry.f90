@@ -169,6 +169,7 @@ contains
       if (associated(problem)) then
          call omp_set_lock(problem%lock)
          call come_in(problem)
+         call problem%kept%use_again()
          call check_patch(call_of, problem, found)
          if (found /= library_code%success) then
             call leave(problem)
@@ -303,6 +304,7 @@ contains
       type(library_problem), pointer, intent(inout) :: problem
 
       call end_setting(problem)
+      call problem%kept%stop_using()
       call give_floats_back()
       call note_call(c_loc(problem), call_stage%user)
       call omp_unset_lock(problem%lock)

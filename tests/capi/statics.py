@@ -33,6 +33,8 @@ KNOWN = {
     "reserve_pieces": "counted atomically",
     "reserve_uses": "counted atomically",
     "table": "blocks of memory and their owners; atomic",
+    "area_at": "addresses of the areas of kept blocks; atomic",
+    "lock_of_areas": "lock of what other threads change in an area",
     "__contact_fft_kept_plans_MOD_kept": "plans of all windows of a size; every access is inside `contact_fft_planner`",
     "__contact_fft_kept_plans_MOD_n_kept": "their number, the same",
     ".gomp_critical_user_contact_registry": "lock of the registry",

@@ -1,8 +1,9 @@
-/* Counts requests to the heap, and records their callers; linked into the benchmark only.
+/* Counts requests for memory, to the heap and to the system (mmap), and records their callers; linked into the benchmark only.
  *
  * The benchmark defines the functions of the C library and calls the originals by their internal
  * names, which only glibc has. With other libraries, and with sanitizers, which replace the same
  * functions, the count is -1, "unknown". */
+#define _GNU_SOURCE
 #include <stddef.h>
 #include <stdio.h>
 
@@ -10,6 +11,9 @@
 #include <errno.h>
 #include <execinfo.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 extern void *__libc_malloc(size_t);
 extern void *__libc_calloc(size_t, size_t);
@@ -53,6 +57,11 @@ int posix_memalign(void **p, size_t a, size_t n)
   return *p ? 0 : ENOMEM;
 }
 void free(void *p) { __libc_free(p); }
+void *mmap(void *p, size_t n, int access, int flags, int file, off_t offset)
+{
+  note();
+  return (void *)syscall(SYS_mmap, p, n, access, flags, file, offset);
+}
 
 long bench_allocations(void) { return count; }
 

@@ -1,10 +1,14 @@
-/* Blocks kept by an owner: each is reused by requests of its size, and no more are kept than allowed */
+/* Blocks kept by an owner: each is reused by requests of its size, no more are kept than allowed; areas from which they are cut */
 #include "kept_blocks.h"
 #include <malloc.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <pthread.h>
+#endif
 
 static int failures = 0;
 
@@ -14,8 +18,138 @@ static void check(int condition, const char *what, size_t n) {
   printf("FAILED %s: %zu bytes\n", what, n);
 }
 
+/* A store in its second calculation; it has an area, unless address space is limited */
+static struct kept_blocks *later_store(void) {
+  struct kept_blocks *kept = contact_kept_new();
+  if (kept == NULL) exit(1);
+  contact_kept_begin(kept);
+  check(contact_kept_take(kept, 1000) == NULL, "the first calculation uses the heap", 1000);
+  check(!contact_kept_goes_on(kept), "it has no area", 0);
+  contact_kept_begin(kept);
+  return kept;
+}
+
+/* Blocks cut from an area: sizes, no overlap, alignment, return by their owner or by others, use after the owner is gone */
+static void test_areas(void) {
+  enum { many = 500 };
+  struct kept_blocks *kept = later_store(), *other = later_store();
+  unsigned char *block[many];
+  size_t n, size[many];
+  int k, i, wrong = 0;
+  if (!contact_kept_goes_on(kept)) {
+    printf("no areas: address space is limited\n");
+    contact_kept_free(kept);
+    contact_kept_free(other);
+    return;
+  }
+  for (k = 0, n = 1; k < many; k++, n = n*13/11 + 1) {
+    if (n > 50000) n = 1;
+    size[k] = n;
+    block[k] = contact_kept_take(kept, n);
+    check(block[k] != NULL, "a later calculation gets a block without the heap", n);
+    check(contact_kept_room(block[k]) >= n, "it has room", n);
+    check((uintptr_t)block[k]%64 == 0, "it begins at a cache line", n);
+    memset(block[k], k%251, contact_kept_room(block[k]));
+  }
+  for (k = 0; k < many; k++)
+    for (n = 0; n < contact_kept_room(block[k]); n++) wrong += block[k][n] != k%251;
+  check(wrong == 0, "blocks do not overlap", (size_t)wrong);
+  check(!contact_kept_put(other, block[0], 64), "another store does not keep it", 0);
+  check(contact_kept_return(block[0]), "it is returned", 0);
+  contact_kept_begin(kept);
+  check(contact_kept_take(kept, size[0]) == block[0], "and serves its owner again", size[0]);
+  void *odd = malloc(200), *ordinary = malloc(300);
+  check(contact_kept_room(ordinary) == 0 && !contact_kept_return(ordinary), "a block of the heap is told apart", 300);
+  if ((uintptr_t)odd%64 != 0) {
+    check(contact_kept_put(kept, odd, 128), "a block of the heap is kept", 128);
+    void *even = contact_kept_take_aligned(kept, 128, 64);
+    check(even != NULL && even != odd && (uintptr_t)even%64 == 0, "a request with an alignment gets another one", 128);
+    contact_kept_put(kept, even, 128);
+    check(contact_kept_take_aligned(kept, 128, 64) == even, "which serves it again", 128);
+    contact_kept_return(even);
+  } else {
+    free(odd);
+  }
+  check(contact_kept_take_aligned(kept, 128, 4096) == NULL, "an alignment beyond a cache line is left to the system", 4096);
+  free(ordinary);
+  for (k = 0; k < many/2; k++) contact_kept_put(kept, block[k], size[k]);
+  contact_kept_free(kept);
+  for (k = many/2, wrong = 0; k < many; k++)
+    for (n = 0; n < contact_kept_room(block[k]); n++) wrong += block[k][n] != k%251;
+  check(wrong == 0, "blocks in use remain when their owner is gone", (size_t)wrong);
+  for (k = many/2; k < many; k++) {
+    i = contact_kept_return(block[k]);
+    check(i, "they are freed one by one", size[k]);
+  }
+  check(contact_kept_room(block[many - 1]) == 0, "the area is gone with the last one", 0);
+  contact_kept_free(other);
+}
+
+/* Areas follow one another up to a limit, then larger kept blocks are used, then the heap */
+static void test_large(void) {
+  enum { most = 100 };
+  const size_t n = (size_t)1 << 20;
+  struct kept_blocks *kept = later_store();
+  void *block[most], *next;
+  int k = 0, cuts;
+  if (contact_kept_goes_on(kept)) {
+    void *large = contact_kept_take(kept, 4*n);
+    while (k < most && (block[k] = contact_kept_take(kept, n)) != NULL) k++;
+    cuts = k;
+    check(cuts > 40 && cuts <= 64, "the address space of an owner has a limit", (size_t)cuts);
+    contact_kept_put(kept, large, 0);
+    next = contact_kept_take(kept, n);
+    check(next == large, "a larger block serves at last", n);
+    check(contact_kept_take(kept, n) == NULL, "then the heap has to", n);
+    contact_kept_put(kept, next, 0);
+    while (k > 0) contact_kept_put(kept, block[--k], 0);
+    for (k = 0; k < cuts && contact_kept_take(kept, n) != NULL;) k++;
+    check(k == cuts, "freed blocks serve again", (size_t)k);
+  }
+  contact_kept_free(kept);
+}
+
+#ifdef __linux__
+/* Blocks of one store are returned by another thread while it goes on; none is lost or given twice */
+static void *blocks_to_return[2000];
+static atomic_int ready = 0;
+
+static void *return_blocks(void *data) {
+  int k = 0;
+  while (k < 2000) {
+    if (k >= ready) continue;
+    if (!contact_kept_return(blocks_to_return[k])) *(int *)data = 1;
+    k++;
+  }
+  return NULL;
+}
+
+static void test_threads(void) {
+  struct kept_blocks *kept = later_store();
+  pthread_t thread;
+  int lost = 0, wrong = 0, k;
+  if (contact_kept_goes_on(kept) && pthread_create(&thread, NULL, return_blocks, &lost) == 0) {
+    for (k = 0; k < 2000; k++) {
+      int *block = contact_kept_take(kept, 4000);
+      if (block == NULL) break;
+      *block = k;
+      blocks_to_return[k] = block;
+      ready = k + 1;
+      if (k%10 == 0) contact_kept_begin(kept);
+    }
+    wrong = k < 2000;
+    ready = 2000;
+    pthread_join(thread, NULL);
+    check(!lost && !wrong, "blocks are returned by another thread", (size_t)k);
+  }
+  contact_kept_free(kept);
+}
+#else
+static void test_threads(void) {}
+#endif
+
 int main(void) {
-  const size_t limit = (size_t)16 << 20, largest = (size_t)1 << 20;
+  const size_t limit = (size_t)16 << 20, largest = (size_t)4 << 20;
   struct kept_blocks *kept = contact_kept_new();
   size_t n, total = 0;
   int blocks = 0;
@@ -48,12 +182,6 @@ int main(void) {
   check(contact_kept_size(3*largest) == 3*largest, "requests that are not kept are not rounded up", 3*largest);
   free(large);
   free(tiny);
-  contact_kept_begin(kept);
-  check(contact_kept_stock(kept, 64) == 0, "the first calculation makes no stock", 64);
-  contact_kept_begin(kept);
-  check(contact_kept_stock(kept, 64) == 128, "a stock consists of a limited number of blocks", 64);
-  check(contact_kept_stock(kept, 32768) == 64, "and of a limited number of bytes", 32768);
-  check(contact_kept_stock(kept, 3*largest) == 0, "none of blocks that are not kept", 3*largest);
   for (n = 1000; blocks < 100000; blocks++) {
     void *block = malloc(contact_kept_size(n));
     if (!contact_kept_put(kept, block, malloc_usable_size(block))) {
@@ -63,9 +191,11 @@ int main(void) {
     total += contact_kept_size(n);
   }
   check(total <= limit && total > limit - 2000, "blocks are kept up to the limit", total);
-  check(contact_kept_stock(kept, 1024) == 0, "and no stock is made beyond it", 1024);
   contact_kept_free(kept);
   contact_kept_free(NULL);
+  test_areas();
+  test_large();
+  test_threads();
   printf("%d blocks of %zu bytes were kept\n", blocks, contact_kept_size(1000));
   return failures > 0;
 }
