@@ -4,6 +4,7 @@ module contact_capi_batch
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
+   use contact_base_kept_blocks, only : kept_blocks
    use contact_capi_arguments, only : copy_text, first_failure, set_message, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_batch, only : batch_field, batch_room, case_batch, close_batch, find_field, open_batch, &
@@ -19,6 +20,8 @@ module contact_capi_batch
       type(case_batch), pointer :: batch => null()
       !> Number of threads of a calculation, and owner of the memory
       integer :: threads = 1, owner = 0
+      !> Blocks of memory released by a call, for the next one
+      type(kept_blocks) :: kept
       !> Was a call abandoned for lack of memory, so that the batch must not be read any more?
       logical :: is_lost = .false.
    end type open_type
@@ -105,6 +108,7 @@ contains
          call close_batch(open%batch)
          deallocate(open%batch)
       end if
+      call open%kept%release()
       deallocate(open)
    end subroutine contact_batch_close
 
@@ -148,7 +152,9 @@ contains
       call hold_floats()
       threads = omp_get_max_threads()
       call omp_set_num_threads(request%open%threads)
+      call request%open%kept%use_them()
       call do_guarded(solve_inside, c_loc(request), request%open%owner, cause)
+      call request%open%kept%stop_using()
       call omp_set_num_threads(threads)
       status = 0
       if (cause /= guard_end%done) then

@@ -301,6 +301,51 @@ static void judge_requests(const kind *this) {
   if (this->combine < 1.0) check(most > 1, "patches of a walk with two of them", most);
 }
 
+/* The same for the cases of an example that are solved again and again as a batch */
+static void judge_batch(const char *example) {
+  enum { first_calls = 5, calls_in_all = 15, rows = 200, columns = 100, cases = 30, letters = 20000, reason_length = 100 };
+  static char text[letters], reasons[cases][reason_length];
+  static double values[rows][columns];
+  static int places[rows][2], states[cases][2];
+  char path[1000], message[200];
+  contact_batch_job job = {0};
+  contact_batch *batch = contact_batch_open(1, 0.0);
+  FILE *file;
+  int k, late = 0, failed = batch == NULL;
+  long before, requests = 0;
+  size_t n;
+  if (bench_allocations() < 0) return;
+  snprintf(path, sizeof path, "%s/../%s", folder, example);
+  file = fopen(path, "r");
+  check(file != NULL, example, 0.0);
+  if (file == NULL || batch == NULL) return;
+  n = fread(text, 1, letters - 1, file);
+  text[n] = 0;
+  fclose(file);
+  snprintf(path, sizeof path, "%s/..", folder);
+  job.text = text;
+  job.folder = path;
+  job.room_rows = rows;
+  job.room_columns = columns;
+  job.room_cases = cases;
+  job.values = values[0];
+  job.places = places[0];
+  job.states = states[0];
+  job.reasons = reasons[0];
+  job.reason_length = reason_length;
+  for (k = 0; k < calls_in_all; k++) {
+    before = bench_allocations();
+    failed += contact_batch_solve(batch, &job, message, sizeof message) != 0 || job.rows < 1;
+    if (k < first_calls || bench_allocations() == before) continue;
+    late++;
+    requests += bench_allocations() - before;
+  }
+  contact_batch_close(batch);
+  printf("%s as a batch: %d calls with requests to the system, %ld requests\n", example, late, requests);
+  check(late == 0, "calls with requests to the system", late);
+  check(failed == 0, "calls that fail", failed);
+}
+
 /* Residual of a least-squares cubic through the values of a sweep, root of the mean square */
 static double noise(const double *f) {
   double a[4][5] = {{0}}, p[4] = {1.0, 0.0, 0.0, 0.0}, sum = 0.0, t, v, factor;
@@ -410,6 +455,8 @@ int main(int count, char **word) {
   cntc_setglobalflags((const int[]){2}, (const int[]){CNTC_if_idebug, CNTC_if_openmp}, (const int[]){0, 1});
   if (judges) {
     for (i = 0; i < (int)(sizeof kinds / sizeof kinds[0]); i++) judge_requests(&kinds[i]);
+    judge_batch("carter2d.toml");
+    judge_batch("single_wheel.toml");
     compare_with_fresh(0, 1.0, 0, 60, 2);
     compare_with_fresh(0, 1.0, 100, 24, 0);
     compare_with_fresh(0, 0.5, 150, 16, 2);
