@@ -85,7 +85,7 @@ module contact_patch_traction_errors
    !> FX and FY of steady rolling with the second order. Where a part of the contact adheres their error hardly depends on its size:
    !> 0.08 to 0.3 n^-2, in the median 0.13, from 1 to 90 % in adhesion. The lower bound of half of it, as the fraction in adhesion
    !> for which the general error is that; fraction in adhesion from which on this holds. In full sliding only the direction of slip
-   !> has errors: 0.02 to 0.13 t n^-2 in 38 contacts with a turn t from 0.05 to pi, in the median 0.05; ratio of the bound to that
+   !> has errors: 0.01 to 0.16 t n^-2 in 32 contacts with a turn t from 0.05 to pi, in the median 0.05; ratio of the bound to that
    !> with adhesion. Patches of wheels also move with the elements: factor of n^-2 of 46 wheels. Of seed 99712, and of contacts only
    !> the forces themselves
    real(wp), parameter :: usual_adhesion = 1.0_wp/3.0_wp, small_adhesion = 0.02_wp, turning_slide = 0.4_wp, moved_patch = 0.008_wp
