@@ -594,6 +594,8 @@ class Element:
     def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:
         """Points below the surface: all combinations of x, y and depths z [L].
 
+        Blocks are numbered by ``block``, from 1; a block replaces that of the same number.
+
         Tractions are constant on each element. At depths of less than a quarter of dx the stresses are therefore meaningful
         at the centres of elements only: use None for both x and y, which means all centres, or the ``x`` and ``y`` of a
         result. Elsewhere use depths of dx/4 and more; points closer to the surface give a warning.

@@ -857,9 +857,8 @@ def variant(scene, run, fields, tools, findings):
         second.code = run.code
         same_totals("threads", run, second, scene, findings)
         return
-    other, view = {"mirror_y": mirrored_y, "mirror_x": mirrored_x, "scaled": scaled, "moved": moved}.get(
-        name, lambda s: (None, None)
-    )(copy.deepcopy(scene))
+    views = {"mirror_y": mirrored_y, "mirror_x": mirrored_x, "scaled": scaled, "moved": moved, "interchanged": interchanged}
+    other, view = views.get(name, lambda s: (None, None))(copy.deepcopy(scene))
     if other is None:
         return
     second = tools.run("other", text_of(other), other_files(other))
@@ -984,6 +983,27 @@ def mirrored_x(s):
             extra = np.array(case["extra"]).reshape(my, mx, 2)[:, ::-1]*[-1, 1]
             case["extra"] = extra.reshape(-1, 2).tolist()
     return s, _flip(1, {"px": -1})
+
+
+def interchanged(s):
+    """Body 1 in place of body 2: the image in the plane of contact, in which tractions on body 1 have the opposite direction"""
+    if s["digits"]["C"] == 9:
+        return None, None
+    s["g"].reverse()
+    s["nu"].reverse()
+    if s["digits"]["M"] == 1:
+        fg1, fg2, tc1, tc2 = s["material"]
+        s["material"] = [fg2, fg1, tc2, tc1]
+    if "heat" in s:
+        s["heat"].reverse()
+    if "angles" in s:
+        s["angles"][2] = [[y, -angle] for y, angle in s["angles"][2]]
+    for case in s["cases"]:
+        for name in ("x", "y", "phi"):
+            case[name] = -case[name]
+        if "extra" in case:
+            case["extra"] = [[-x, -y] for x, y in case["extra"]]
+    return s, lambda name, value: -value if name in ("px", "py") else value
 
 
 def scaled(s, length=1000.0, modulus=0.001):

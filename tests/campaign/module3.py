@@ -6,7 +6,7 @@ import judge3
 
 # Digits whose values are rows of the table
 SHOWN = ("B", "T", "V", "L", "C", "M", "H", "G", "S", "E")
-VARIANTS = ("mirror_y", "mirror_x", "scaled", "moved", "refined", "library", "interleaved", "threads", "checked")
+VARIANTS = ("mirror_y", "mirror_x", "scaled", "moved", "interchanged", "refined", "library", "interleaved", "threads", "checked")
 
 
 def logarithmic(rng, low, high):
