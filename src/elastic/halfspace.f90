@@ -302,28 +302,6 @@ contains
          end do
       end subroutine mirror_in_row
 
-      !> The first three functions, or all five
-      pure function some_functions(number, x, y) result(f)
-         integer, intent(in) :: number
-         real(wp), intent(in) :: x, y
-         real(wp) :: f(number), all_five(5)
-
-         all_five = corner_functions(x, y, number == 5)
-         f = all_five(:number)
-      end function some_functions
-
-      !> The functions with x and y exchanged
-      pure function mirrored(number, f) result(g)
-         integer, intent(in) :: number
-         real(wp), intent(in) :: f(number)
-         real(wp) :: g(number)
-
-         g(1) = f(2)
-         g(2) = f(1)
-         g(3) = f(3)
-         if (number == 5) g(4:5) = [f(5), f(4)]
-      end function mirrored
-
       !> Are the functions those of the corner with x and y exchanged, which square elements have?
       pure logical function is_mirrored(k, l)
          integer, intent(in) :: k, l
@@ -331,6 +309,28 @@ contains
          is_mirrored = is_square .and. l > k .and. l <= wanted(1) .and. k <= wanted(2)
       end function is_mirrored
    end subroutine find_corners
+
+   !> The first three functions, or all five
+   pure function some_functions(number, x, y) result(f)
+      integer, intent(in) :: number
+      real(wp), intent(in) :: x, y
+      real(wp) :: f(number), all_five(5)
+
+      all_five = corner_functions(x, y, number == 5)
+      f = all_five(:number)
+   end function some_functions
+
+   !> The functions with x and y exchanged
+   pure function mirrored(number, f) result(g)
+      integer, intent(in) :: number
+      real(wp), intent(in) :: f(number)
+      real(wp) :: g(number)
+
+      g(1) = f(2)
+      g(2) = f(1)
+      g(3) = f(3)
+      if (number == 5) g(4:5) = [f(5), f(4)]
+   end function mirrored
 
    !> Set a row of a kernel that is even (+1) or odd (-1) in each offset for negative offsets, and the row on the other side
    pure subroutine mirror_row(nx, ny, l, sign_x, sign_y, kernel)

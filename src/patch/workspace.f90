@@ -115,9 +115,9 @@ contains
       !> `window` or `rounded` is used
       type(patch_workspace), intent(inout) :: workspace
       !> Pressures [N/mm2], shape (mx, my)
-      real(wp), intent(in) :: pn(:, :)
+      real(wp), contiguous, intent(in) :: pn(:, :)
       !> Displacement difference [mm], positive where the surfaces move apart, shape (mx, my)
-      real(wp), intent(inout) :: un(:, :)
+      real(wp), contiguous, intent(inout) :: un(:, :)
       integer :: n(2)
       logical :: at_hand
 

@@ -293,44 +293,49 @@ contains
       if (pieces_of(problem%mx*problem%my) > 1) then
          !$omp parallel do
          do iy = 1, problem%my
-            call differentiate_row(iy)
+            call differentiate_row(problem, workspace, iy, z, out, bound)
          end do
          !$omp end parallel do
       else
          do iy = 1, problem%my
-            call differentiate_row(iy)
+            call differentiate_row(problem, workspace, iy, z, out, bound)
          end do
       end if
-
-   contains
-
-      !> Changes of the tractions of a row
-      subroutine differentiate_row(iy)
-         integer, intent(in) :: iy
-         integer :: ix, k
-         real(wp) :: c, g, limit, n(2)
-
-         limit = 0.0_wp
-         do k = 1, problem%mx
-            ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
-            n = workspace%direction(ix, iy, :)
-            c = sum(n*z(ix, iy, :))
-            associate (point => workspace%point(ix, iy))
-               g = 0.0_wp
-               if (present(bound)) then
-                  if (point%state == element%slip) g = bound(ix, iy)
-               end if
-               out(ix, iy, :) = workspace%weight(ix, iy)*(z(ix, iy, :) - c*n) &
-                  & + (point%radius_by_length*c + point%radius_by_limit*limit + g)*n
-               if (problem%steady) then
-                  limit = point%limit_by_length*c + point%limit_by_limit*limit
-                  ! the limit has increased to the bound
-                  if (point%plastic > 0.0_wp) limit = limit + g
-               end if
-            end associate
-         end do
-      end subroutine differentiate_row
    end subroutine differentiate_return_map
+
+   !> Changes of the returned tractions of a row
+   pure subroutine differentiate_row(problem, workspace, iy, z, out, bound)
+      !> See `differentiate_return_map`
+      type(tangential_problem), intent(in) :: problem
+      type(newton_workspace), intent(in) :: workspace
+      !> The row
+      integer, intent(in) :: iy
+      real(wp), contiguous, intent(in) :: z(:, :, :)
+      real(wp), contiguous, intent(inout) :: out(:, :, :)
+      real(wp), contiguous, intent(in), optional :: bound(:, :)
+      integer :: ix, k
+      real(wp) :: c, g, limit, n(2)
+
+      limit = 0.0_wp
+      do k = 1, problem%mx
+         ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
+         n = workspace%direction(ix, iy, :)
+         c = sum(n*z(ix, iy, :))
+         associate (point => workspace%point(ix, iy))
+            g = 0.0_wp
+            if (present(bound)) then
+               if (point%state == element%slip) g = bound(ix, iy)
+            end if
+            out(ix, iy, :) = workspace%weight(ix, iy)*(z(ix, iy, :) - c*n) &
+               & + (point%radius_by_length*c + point%radius_by_limit*limit + g)*n
+            if (problem%steady) then
+               limit = point%limit_by_length*c + point%limit_by_limit*limit
+               ! the limit has increased to the bound
+               if (point%plastic > 0.0_wp) limit = limit + g
+            end if
+         end associate
+      end do
+   end subroutine differentiate_row
 
    !> v := D v
    subroutine apply_d(workspace, v)
