@@ -53,7 +53,9 @@ contains
 
    subroutine transform_row(self, field, spectrum)
       class(one_row), intent(inout) :: self
+      !> Row, and its spectrum
       real(wp), intent(in) :: field(self%mx)
+      !> Shape (kx)
       complex(wp), intent(inout) :: spectrum(self%kx)
 
       self%line(:self%mx, 1) = field
@@ -65,6 +67,7 @@ contains
       class(one_row), intent(inout) :: self
       !> Of real values
       complex(wp), intent(in) :: spectrum(self%kx)
+      !> Row
       real(wp), intent(inout) :: field(self%mx)
       integer :: k
 
@@ -79,7 +82,9 @@ contains
    !> Their transform need not be separated
    subroutine multiply_rows(self, fields, products, xx, yy, xy, factor)
       class(one_row), intent(inout) :: self
+      !> Two rows
       real(wp), intent(in) :: fields(self%mx, 2)
+      !> Products of the rows and the block
       real(wp), intent(inout) :: products(self%mx, 2)
       !> Spectra of the block, scaled for the back transform, shape (1, kx)
       real(wp), contiguous, intent(in) :: xx(:, :), yy(:, :), xy(:, :)

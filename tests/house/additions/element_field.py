@@ -12,7 +12,7 @@ EDITS = [
     ("src/patch/result.f90", "before", 'call add(11, "taucrt"', """
       call add(24, "fricpow", "W/mm2", "density of frictional power", self%fricpow, label="frictional power", figures=4)
 """),
-    ("src/patch/derived.f90", "behind", "call set_states(mx*my, element%exterior, result%division)", """
+    ("src/patch/derived.f90", "behind", "call fill_whole(mx*my, element%exterior, result%division)", """
       result%fricpow = 0.0_wp*result%h
 """),
     ("src/patch/derived.f90", "before", "if (.not. allocated(problem%given_pressure)) then", """
