@@ -8,7 +8,8 @@
 module contact_elastic_bilinear
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_elastic_halfspace, only : combine_corners, corner_functions, kernel_table, set_entry, set_mirrored, shape_table
+   use contact_elastic_corners, only : combine_corners, corner_functions
+   use contact_elastic_halfspace, only : kernel_table, set_entry, set_mirrored, shape_table
    use contact_elastic_material, only : combined_material
    implicit none (type, external)
    private

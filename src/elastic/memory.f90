@@ -11,7 +11,8 @@
 !> computed once per corner, with the number of Gauss points required by its distance from the load.
 module contact_elastic_memory
    use contact_base_kinds, only : wp
-   use contact_elastic_halfspace, only : combine_corners, corner_functions, fill_table, kernel_table
+   use contact_elastic_corners, only : combine_corners, corner_functions
+   use contact_elastic_halfspace, only : fill_table, kernel_table
    use contact_elastic_material, only : combined_material
    use contact_elastic_model, only : fading_memory
    use contact_numeric_quadrature, only : gauss_legendre

@@ -4,7 +4,8 @@ program test_surfaces
    use contact_base_kinds, only : wp
    use contact_elastic_bilinear, only : fill_bilinear, fill_shifted_bilinear
    use contact_elastic_compliance, only : compliance
-   use contact_elastic_halfspace, only : combine_corners, corner_functions, fill_shifted_table, fill_table, kernel_table
+   use contact_elastic_corners, only : combine_corners, corner_functions
+   use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
    use contact_elastic_memory, only : fill_with_memory
    use contact_elastic_model, only : elastic_model, fading_memory
