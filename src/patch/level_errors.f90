@@ -236,9 +236,8 @@ contains
       if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
          & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
       floor = max(floor, sqrt(scale%adhesion)*unrelaxed(scale))*full_power
-      e = e + heat
       if (scale%jumps) e = trusted(e, floor, trust_in(scale))
-      e = max(e, floor)
+      e = max(e + heat, floor)
       ! for unlike bodies the balance includes errors of pressures that hardly affect power with the second-order scheme
       if (scale%balances) e = sqrt(e*(heat + error_by_balance(scale, unit)))
    end function error_of_power

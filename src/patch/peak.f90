@@ -45,7 +45,7 @@ contains
    pure function place_of(field, value) result(at)
       !> Field, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
-      !> Value
+      !> Value in the unit of the field
       real(wp), intent(in) :: value
       integer :: at(2), ix, iy
 

@@ -124,7 +124,6 @@ contains
       if (is_long_step(scale)) e = force_error(difference/max(unit, tiny(unit)), scale%adhesion, scale%mean_across, &
          & .not. is_force)*unit
       heat = by_heat(scale, part, difference, unit)
-      if (.not. is_first(scale)) e = e + heat
       ! in full sliding the moment has the error of the centre of pressures, which forces do not have
       largest = merge(scale%forces, scale%friction, is_turning(scale) .and. .not. is_moment)
       if (is_force) e = max(e, other_component*part*largest*unit)
@@ -150,7 +149,8 @@ contains
       else if (is_force .and. is_first(scale)) then
          e = unit*trusted(e/max(unit, tiny(unit)), usual_ratio*floor, trust_in_first(scale))
       end if
-      if (is_first(scale)) e = e + heat
+      ! not with the exponent: it does not jump with the offset of the grid
+      e = e + heat
       if (is_force) floor = max(floor, scale%reversal*share_of_reversal(scale))
       floor = max(floor, rough_floor(2)*scale%roughness)
       if (scale%is_line .and. scale%order < normal_order) floor = max(floor, &

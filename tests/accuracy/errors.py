@@ -63,7 +63,8 @@ ADDED = {"first": (99511, (51,), "1"), "coupled": (99513, (141,), "2")}
 #: order; energy of dissimilar bodies, and sliding wheels, by the second: order, seed, numbers among those of a campaign
 MARGINS = (("1", 99711, (10, 19, 22, 32, 43, 94, 200, 262, 394)), ("2", 99712, (112, 184)))
 MARGIN_WHEELS = ("2", 99712, (14, 51, 60, 69))
-MARGIN_BOUNDS = {"forces": (0.3, 12.0, 0.85), "friction_power": (0.3, 7.0, 0.9), "elastic_energy": (0.4, 9.0, 0.8),
+# forces: one of dissimilar bodies has the bound of the leading edge, 5 to 8 times its error
+MARGIN_BOUNDS = {"forces": (0.3, 12.0, 0.8), "friction_power": (0.3, 7.0, 0.9), "elastic_energy": (0.4, 9.0, 0.8),
                  "max_mises": (0.25, 6.0, 0.9), "max_tresca": (0.25, 7.0, 0.8)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
 OTHER_OFFSETS = 3
