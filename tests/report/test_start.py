@@ -6,7 +6,7 @@ import shutil
 import threading
 import unittest
 
-from browser import COLOURS, DESKTOP, EXAMPLES, PATIENCE, PHONE, SETTLED, Page, many_cases
+from browser import COLOURS, DESKTOP, EXAMPLES, PATIENCE, PHONE, SETTLED, NotInTime, Page, many_cases
 from contact.report.server import Server
 
 # Number of cases of the long run
@@ -37,6 +37,13 @@ class Start(Page):
         page.wait_for_selector("#files tr")
         return page
 
+    def wait_for_state(self, page, text):
+        try:
+            page.wait_for_function(STATE, arg=text)
+        except NotInTime:
+            self.fail("no state %r: %r, %r, %r" % (text, page.inner_text("#what"), page.inner_text("#state"),
+                                                   page.inner_text("#messages")[-500:]))
+
     def no_troubles(self):
         self.assertEqual([text for text in self.troubles if "favicon" not in text and "404" not in text], [])
 
@@ -59,9 +66,9 @@ class Start(Page):
     def test_a_run_survives_reloading(self):
         page = self.start(viewport=DESKTOP)
         page.click("tr[data-name=long] button:has-text('run')")
-        page.wait_for_function(STATE, arg=f"of {LONG}")
+        self.wait_for_state(page, f"of {LONG}")
         page.reload()
-        page.wait_for_function(STATE, arg=f"of {LONG}")
+        self.wait_for_state(page, f"of {LONG}")
         self.assertEqual(page.inner_text("#what"), "Run of long")
         self.assertIn("Case     1", page.inner_text("#messages"))
         # the first case may not have ended yet
@@ -70,13 +77,13 @@ class Start(Page):
         page.click("tr[data-name=cattaneo] button:has-text('run')", force=True)
         self.assertEqual(page.inner_text("#what"), "Run of long", "one experiment runs at a time")
         page.click("#stop")
-        page.wait_for_function(STATE, arg="stopped")
+        self.wait_for_state(page, "stopped")
         page.wait_for_selector("tr[data-name=long] .warn")
         self.assertRegex(page.inner_text("tr[data-name=long] .warn"), r"not complete: \d+ of %d cases" % LONG)
         self.assertTrue(page.is_disabled("#stop"))
         # the messages of a finished run remain, too
         page.reload()
-        page.wait_for_function(STATE, arg="stopped")
+        self.wait_for_state(page, "stopped")
         self.assertIn("Case     1", page.inner_text("#messages"))
         self.no_troubles()
 

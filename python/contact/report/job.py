@@ -14,7 +14,7 @@ from .read import MissingResults
 #: Maximum number of stored messages of a run
 MAX_MESSAGES = 20000
 #: Time limits: of the current case of a run that is to end [s], and of counting the cases of an input [s]
-LAST_CASE, COUNT_TIME = 2.0, 60.0
+LAST_CASE, COUNT_TIME = 2.0, 600.0
 #: Patterns of the first line of a case, and of the line with the number of cases of an input
 CASE, COUNT = re.compile(rb" Case +\d+"), re.compile(r": (\d+) cases? checked")
 
