@@ -4,20 +4,21 @@
 !> grid is a typical value, later it follows from the estimate of the previous grid. See doc/theory/accuracy.md.
 module contact_cases_accuracy_plan
    use contact_base_choices, only : estimate_choice, force_control, grid_form, heat_source, is_simplified, kernel_model, &
-      & material_model, motion, normal_control, planform_choice, pressure_model, slip_source, time_link, variation
-   use contact_base_constants, only : pi
+      & material_model, motion, planform_choice, pressure_model, slip_source, time_link, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
    use contact_base_memory, only : bytes_per_element
    use contact_cases_distance, only : distance_form
+   use contact_cases_edge_guess, only : guess_edge
    use contact_cases_geometry, only : solve_hertz
    use contact_cases_grid_inputs, only : largest_grid
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_elastic_material, only : combine, combined_material
    use contact_friction_new_law, only : friction_model, is_varying_law
+   use contact_patch_edge_slip, only : expected_edge, expected_edge_error
    use contact_patch_result, only : hertz_result
-   use contact_patch_traction_errors, only : coupled_friction_floor, hidden_slip
+   use contact_patch_traction_errors, only : coupled_friction_floor
    use contact_subsurface_points, only : point_selection
    implicit none (type, external)
    private
@@ -39,11 +40,11 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: without_estimate = 2.5_wp
 
    !> Typical estimate for n elements across the contact: factor times n^-order; order by which estimates of one contact decrease
-   !> from grid to grid; lower bound of estimates, bound/n; another one, which depends on an adhesion area that is guessed, for the
-   !> expected cost only; part of the accuracy that estimates must meet, below 1 where they are often smaller than the error, above
-   !> 1 where they rarely are
+   !> from grid to grid; lower bound of estimates, bound/n; part of the accuracy that estimates must meet, below 1 where they are
+   !> often smaller than the error, above 1 where they rarely are; errors at the leading edge, guessed, for the expected cost only
    type :: accuracy_law
-      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, guessed_bound = 0.0_wp, share = 1.0_wp
+      real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, share = 1.0_wp
+      type(expected_edge) :: edge
    end type accuracy_law
    !> Forces in steady rolling by the first and by the second order, and all other results; from tests/accuracy: upper quartiles of
    !> estimates, and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order
@@ -92,9 +93,6 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
    !> Maximum fraction of the accuracy for the error of stopped iterations; above it the tolerance is reduced. Chosen
    real(wp), parameter :: stopping_share = 0.25_wp
-   !> Creepage of full sliding relative to mu p0/G for a circle, 2 pi/C11 with Kalker's coefficient of 4.1; creepage that slides as
-   !> much as a spin of one over the half side, chosen
-   real(wp), parameter :: sliding_creepage = 1.5_wp, slip_by_spin = 0.5_wp
    !> Coefficient of friction in the expected error of unlike bodies if it is not constant
    real(wp), parameter :: usual_friction = 0.3_wp
    !> Maximum ratio of the sides of elements
@@ -186,7 +184,7 @@ contains
    type(accuracy_law) function expected_law(spec) result(law)
       type(case_spec), intent(in) :: spec
       type(combined_material) :: material
-      real(wp) :: driven
+      real(wp) :: driven, sides(2)
 
       law = normal_order
       if (spec%motion == motion%transient_rolling) law = in_steps
@@ -216,32 +214,10 @@ contains
       end if
       if (.not. material%coupled()) return
       law%bound = coupled_friction_floor*abs(material%ak)*driven
-      law%guessed_bound = hidden_slip*driven**3*sqrt(expected_adhesion(spec))
+      if (law%order <= first_order%order .or. spec%grid%is_line_contact()) return
+      call contact_sides(spec, sides)
+      law%edge = guess_edge(spec, sides, expected_friction(spec))
    end function expected_law
-
-   !> Fraction of the contact in adhesion in steady rolling, by the theory of Vermeulen and Johnson: creepages relative to those of
-   !> full sliding, or forces relative to the friction bound; 0 if unknown
-   real(wp) function expected_adhesion(spec) result(adhesion)
-      type(case_spec), intent(in) :: spec
-      type(combined_material) :: material
-      real(wp) :: side, pressure, creepage, left
-
-      adhesion = 0.0_wp
-      side = mean_half_side(spec)
-      if (.not. side > 0.0_wp .or. spec%normal /= normal_control%force .or. allocated(spec%wheel_rail)) return
-      material = combine(spec%material%poiss, spec%material%gg)
-      associate (motion => spec%kinematics, mu => expected_friction(spec))
-         if (spec%force == force_control%fx_and_fy) then
-            left = max(0.0_wp, 1.0_wp - hypot(motion%fx, motion%fy))**(1.0_wp/3.0_wp)
-         else
-            ! Hertz's largest pressure
-            pressure = 1.5_wp*motion%fn/(pi*side**2)
-            creepage = hypot(motion%cksi, motion%ceta) + slip_by_spin*abs(motion%cphi)*side
-            left = max(0.0_wp, 1.0_wp - creepage*material%gg/max(sliding_creepage*mu*pressure, tiny(side)))
-         end if
-      end associate
-      adhesion = left**2
-   end function expected_adhesion
 
    !> Coefficient of friction of a case with a single constant one, the usual one for others [-]
    pure real(wp) function expected_friction(spec) result(mu)
@@ -356,10 +332,24 @@ contains
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: required
-      real(wp) :: goal
+      real(wp) :: goal, usual, e, before, expected, finer
+      integer :: level
 
-      goal = aim*law%share*required
-      across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), max(law%bound, law%guessed_bound)/goal)
+      goal = law%share*required
+      across = first_across(law, required)
+      usual = max(across, (law%factor/(aim*goal))**(1.0_wp/law%order), law%bound/(aim*goal))
+      ! grids of a search, whose errors are those at the leading edge
+      before = 0.0_wp
+      expected = 0.0_wp
+      do level = 1, most_levels
+         e = max(law%bound/across, expected_edge_error(law%edge, across))
+         if (is_near_enough(e, expected, required, law%share)) exit
+         finer = finer_across(across, e, goal, observed_order(law, e, before, expected))
+         expected = e*(across/finer)**law%falls
+         before = e
+         across = finer
+      end do
+      across = max(across, usual)
    end function expected_across
 
    !> Is an estimate small enough? None above the accuracy is, whatever the share

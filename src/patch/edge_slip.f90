@@ -16,7 +16,7 @@ module contact_patch_edge_slip
    implicit none (type, external)
    private
 
-   public :: edge_slip_error
+   public :: edge_slip_error, expected_edge, expected_edge_error
 
    !> Ratio of the error of the forces to the sum over the rows; distance of the centre of the leading element from the edge
    !> [elements]; exponent of the number of slipping elements by which the error decreases; ratio of beta to the coefficient of
@@ -25,6 +25,22 @@ module contact_patch_edge_slip
    !> and 5551)
    real(wp), parameter :: share = 2.0_wp, usual_place = 0.5_wp, resolved_power = 2.0_wp, strong = 0.5_wp, weak_power = 2.0_wp, &
       & turning_share = 1.5_wp
+
+   !> Sum of the pressures of the leading elements of an ellipse, relative to that of all n elements along each row: this factor
+   !> times n^-3/2, 3/pi sqrt(2) times the integral of (1 - y^2)^1/4 from -1 to 1
+   real(wp), parameter :: leading_part = 2.36_wp
+
+   !> The same of a contact that is not solved yet, as if all rows were equal. Without adhesion and turning the error is 0
+   type :: expected_edge
+      !> Ratio of beta to the coefficient of friction [-]
+      real(wp) :: ratio = 0.0_wp
+      !> Part of the load in adhesion, and part of the rest that changes with the place of the adhesion area [-]
+      real(wp) :: sticking = 0.0_wp, turned = 0.0_wp
+      !> Width of the slip area ahead of adhesion over the length of a row [-]
+      real(wp) :: width = 0.0_wp
+      !> Change of the traction over its bound between the first two elements, if they slip [-]
+      real(wp) :: turning = 0.0_wp
+   end type expected_edge
 
    !> A row of elements along the rolling direction
    type :: row_type
@@ -64,15 +80,44 @@ contains
          if (row%ahead == 0) then
             width = usual_place*exp(min(0.0_wp, (row%used - 1.0_wp)*pi*row%mu/beta))
          else
-            width = real(row%ahead, wp)**(-resolved_power)
+            width = part_of_wide(real(row%ahead, wp))
          end if
          ! where tractions turn between both slip areas, those behind adhesion change with its place
          turned = 0.5_wp*norm2(row%before - row%behind)
-         e = e + share*beta/(pi*row%mu)*min(1.0_wp, beta/(strong*row%mu))**weak_power*width/row%n &
-            & *(row%sticking + turned*(row%load - row%sticking))
+         e = e + factor_of(beta, row%mu)*width/row%n*(row%sticking + turned*(row%load - row%sticking))
       end do
       e = e/max(sum(result%pn), tiny(e))
    end function edge_slip_error
+
+   !> The same before the solution, with elements of a given number
+   pure real(wp) function expected_edge_error(edge, across) result(e)
+      !> Slip area and tractions as expected
+      type(expected_edge), intent(in) :: edge
+      !> Number of elements in a row
+      real(wp), intent(in) :: across
+      real(wp) :: width
+
+      width = edge%width*across
+      if (width > 1.0_wp) width = part_of_wide(width)
+      e = factor_of(edge%ratio, 1.0_wp)*width/across*(edge%sticking + edge%turned*(1.0_wp - edge%sticking)) &
+         & + turning_share*leading_part*across**(-1.5_wp)*edge%turning
+   end function expected_edge_error
+
+   !> Error of a row, times its number of elements, if the slip area is one element wide, over the load that it changes [-]
+   pure real(wp) function factor_of(beta, mu) result(factor)
+      !> Dundurs' constant, and coefficient of friction [-]
+      real(wp), intent(in) :: beta, mu
+
+      factor = share*beta/(pi*mu)*min(1.0_wp, beta/(strong*mu))**weak_power
+   end function factor_of
+
+   !> Ratio of the error to that of a slip area of one element, of which elements resolve a part [-]
+   pure real(wp) function part_of_wide(elements) result(part)
+      !> Width of the slip area [elements], at least 1
+      real(wp), intent(in) :: elements
+
+      part = elements**(-resolved_power)
+   end function part_of_wide
 
    !> What the estimate needs of a row
    pure type(row_type) function row_of(result, iy, direction) result(row)

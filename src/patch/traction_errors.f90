@@ -11,7 +11,7 @@ module contact_patch_traction_errors
    implicit none (type, external)
    private
 
-   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, hidden_slip, is_first, is_long_step, is_sliding, &
+   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, is_first, is_long_step, is_sliding, &
       & is_turning, is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, turned_forces, &
       & unrelaxed
 
