@@ -7,6 +7,7 @@ import fcntl
 import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -262,6 +263,23 @@ class Surroundings(Scratch):
             status, _, err = self.run_program("--json", "2", "a", env=dict(os.environ, **{"GFORTRAN_" + name: value}))
             self.assertEqual((status, err), (0, ""), variable)
             self.assertEqual(outputs(), before, variable)
+
+    def test_threads_wait_briefly(self):
+        """libgomp tells its settings on request; a choice of the user counts, and the list of variables is not made longer"""
+        def tests_before_sleep(**variables):
+            run = subprocess.run([PROGRAM, "--version"], env=dict(variables, OMP_DISPLAY_ENV="verbose"), capture_output=True,
+                                 text=True, timeout=60, check=True)
+            found = re.search(r"GOMP_SPINCOUNT = '(\d+)'", run.stderr)
+            if not found:
+                self.skipTest("this OpenMP library does not tell how threads wait")
+            return int(found[1])
+        default = tests_before_sleep()
+        for name in ("OLDPWD", "_", "SHLVL"):
+            self.assertEqual(tests_before_sleep(**{name: "1"}), 1000, name)
+            self.assertEqual(tests_before_sleep(**{name: "1", "GFORTRAN_CONVERT_UNIT": "big_endian"}), 1000, name)
+        self.assertEqual(tests_before_sleep(MY_OLDPWD="1"), default)
+        self.assertEqual(tests_before_sleep(OLDPWD="1", GOMP_SPINCOUNT="7"), 7)
+        self.assertGreater(tests_before_sleep(OLDPWD="1", OMP_WAIT_POLICY="active"), 1000)
 
     def test_closed_streams(self):
         self.run_program("2", "a")
