@@ -16,8 +16,9 @@ module contact_output_element_table
 
    public :: write_element_table
 
-   !> Width of a column, of all columns before those of other fields, and of a line with ten of those at most
-   integer, parameter :: width = 11, first_columns = 102, longest_line = first_columns + 10*width
+   !> Width of a column, of all columns without motion, of those before other fields, and of a line with ten of these at most. Lines
+   !> keep the blanks at their end, as those of the established program do
+   integer, parameter :: width = 11, still_columns = 59, first_columns = 102, longest_line = first_columns + 10*width
    !> Lines that are made together; chosen
    integer, parameter :: lines_of_block = 4096
 
@@ -33,11 +34,12 @@ contains
       character(len=longest_line), allocatable :: lines(:)
       integer, allocatable :: at(:, :)
       logical :: all_elements
-      integer :: ix, iy, last_row, n
+      integer :: ix, iy, last_row, n, length
 
       all_elements = spec%output_level >= 6
       call result%fields(fields)
       fields = pack(fields, has_column(fields))
+      length = merge(still_columns, first_columns + width*size(fields), spec%motion == motion%none)
       call write_table_head(log, spec%motion, fields)
       n = min(lines_of_block, result%grid%npot())
       allocate(lines(n), at(2, n))
@@ -79,7 +81,7 @@ contains
                call log%result("")
                last_row = at(2, k)
             end if
-            call log%result(trim(lines(k)))
+            call log%result(lines(k)(:length))
          end do
          n = 0
       end subroutine write_block

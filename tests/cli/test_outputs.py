@@ -85,6 +85,8 @@ class Outputs(unittest.TestCase):
                 break
             if len(words) != 9:
                 continue
+            # with the blanks at the end, as in published outputs
+            self.assertEqual(len(line), 102, line)
             x, gap, pn, bound, size, direction, slip, rigid_x, rigid_y = map(float, words)
             ix = round((x + 2.0)/0.25 + 0.5)
             self.assertAlmostEqual(x, -2.0 + 0.25*(ix - 0.5), places=4)
