@@ -33,7 +33,8 @@ module contact_elastic_halfspace
       logical, private :: corner_coupled = .false.
    end type kernel_table
 
-   !> Corner functions of larger tables are not kept: windows of that size do not change from case to case
+   !> Corner functions of larger tables are not kept, as windows of that size do not change from case to case; threads share the
+   !> rows of such tables
    integer, parameter :: largest_kept = 20000
 
 contains
@@ -363,13 +364,13 @@ contains
       table%shift_x = shift_x
       table%shift_y = shift_y
       allocate(corner(5, -nx - 1:nx, -ny - 1:ny))
-      !$omp parallel do private(k) if (nx*ny > 20000)
+      !$omp parallel do private(k) if (nx*ny > largest_kept)
       do l = -ny - 1, ny
          do k = -nx - 1, nx
             corner(:, k, l) = corner_functions((k + 0.5_wp)*dx + shift_x, (l + 0.5_wp)*dy + shift_y, material%coupled())
          end do
       end do
-      !$omp parallel do private(k, v) if (nx*ny > 20000)
+      !$omp parallel do private(k, v) if (nx*ny > largest_kept)
       do l = -ny, ny
          do k = -nx, nx
             v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)

@@ -34,6 +34,9 @@ module contact_elastic_memory
    !> Exponent of the concentration of points near an edge
    integer, parameter :: crowding = 4
 
+   !> Number of coefficients from which on threads share the rows; chosen
+   integer, parameter :: worth_threads = 2000
+
    !> Ends of an interval at which the integrand is not smooth
    type :: edge_list
       integer :: none = 0, first = 1, last = 2
@@ -133,7 +136,7 @@ contains
       do k = -table%nx - 1, table%nx
          rules(k) = rule_of(enough_points(2.0_wp*max(1, abs(k + 1)), min(longest, table%dx/length)))
       end do
-      !$omp parallel do private(k, y) schedule(dynamic) if (table%nx*(table%ny + 1) > 2000)
+      !$omp parallel do private(k, y) schedule(dynamic) if (table%nx*(table%ny + 1) > worth_threads)
       do l = 0, table%ny
          y = (l + 0.5_wp)*table%dy
          behind(:, l) = distant(steps, table%nx*table%dx, y)
@@ -143,7 +146,7 @@ contains
       end do
       corner(:, :table%nx - 1, -1) = spread(mirrored, 2, 2*table%nx + 1)*corner(:, :table%nx - 1, 0)
       behind(:, -1) = mirrored*behind(:, 0)
-      !$omp parallel do if (table%nx*(table%ny + 1) > 2000)
+      !$omp parallel do if (table%nx*(table%ny + 1) > worth_threads)
       do l = 0, table%ny
          call march_along(l)
       end do
