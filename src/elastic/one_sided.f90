@@ -117,17 +117,11 @@ contains
 
       call need_spectra(self)
       call self%plan%forward(p, self%s1)
-      if (self%plan%is_shared()) then
-         !$omp parallel do
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-         !$omp end parallel do
-      else
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-      end if
+      !$omp parallel do if (self%plan%is_shared())
+      do l = 1, self%plan%kx
+         call multiply(l)
+      end do
+      !$omp end parallel do
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
@@ -153,17 +147,11 @@ contains
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      if (self%plan%is_shared()) then
-         !$omp parallel do
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-         !$omp end parallel do
-      else
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-      end if
+      !$omp parallel do if (self%plan%is_shared())
+      do l = 1, self%plan%kx
+         call multiply(l)
+      end do
+      !$omp end parallel do
       call self%plan%backward(self%mixed, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
@@ -194,17 +182,11 @@ contains
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      if (self%plan%is_shared()) then
-         !$omp parallel do
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-         !$omp end parallel do
-      else
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-      end if
+      !$omp parallel do if (self%plan%is_shared())
+      do l = 1, self%plan%kx
+         call multiply(l)
+      end do
+      !$omp end parallel do
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
@@ -229,17 +211,11 @@ contains
 
       call need_spectra(self)
       call self%plan%forward(p, self%sn)
-      if (self%plan%is_shared()) then
-         !$omp parallel do
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-         !$omp end parallel do
-      else
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-      end if
+      !$omp parallel do if (self%plan%is_shared())
+      do l = 1, self%plan%kx
+         call multiply(l)
+      end do
+      !$omp end parallel do
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1

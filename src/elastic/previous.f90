@@ -113,17 +113,11 @@ contains
          call self%plan%forward(pn, self%sn)
          self%transforms = self%transforms + 1
       end if
-      if (self%plan%is_shared()) then
-         !$omp parallel do
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-         !$omp end parallel do
-      else
-         do l = 1, self%plan%kx
-            call multiply(l)
-         end do
-      end if
+      !$omp parallel do if (self%plan%is_shared())
+      do l = 1, self%plan%kx
+         call multiply(l)
+      end do
+      !$omp end parallel do
       call self%plan%backward(self%s, ux)
       call self%plan%backward(self%sy, uy)
 
