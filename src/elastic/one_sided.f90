@@ -117,11 +117,17 @@ contains
 
       call need_spectra(self)
       call self%plan%forward(p, self%s1)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
@@ -147,11 +153,17 @@ contains
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%mixed, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
@@ -182,11 +194,17 @@ contains
       call need_spectra(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
@@ -211,11 +229,17 @@ contains
 
       call need_spectra(self)
       call self%plan%forward(p, self%sn)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1

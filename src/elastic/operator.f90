@@ -349,11 +349,17 @@ contains
       call need_coupling(self)
       call self%plan%forward(p(:, :, 1), self%s1)
       call self%plan%forward(p(:, :, 2), self%s2)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
@@ -379,11 +385,17 @@ contains
 
       call need_coupling(self)
       call self%plan%forward(p, self%s1)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
@@ -409,11 +421,17 @@ contains
 
       call need_coupling(self)
       call self%plan%forward(p, self%s1)
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s1, u(:, :, 1))
       call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1

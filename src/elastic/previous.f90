@@ -113,11 +113,17 @@ contains
          call self%plan%forward(pn, self%sn)
          self%transforms = self%transforms + 1
       end if
-      !$omp parallel do if (self%plan%is_shared())
-      do l = 1, self%plan%kx
-         call multiply(l)
-      end do
-      !$omp end parallel do
+      if (self%plan%is_shared()) then
+         !$omp parallel do
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+         !$omp end parallel do
+      else
+         do l = 1, self%plan%kx
+            call multiply(l)
+         end do
+      end if
       call self%plan%backward(self%s, ux)
       call self%plan%backward(self%sy, uy)
 
