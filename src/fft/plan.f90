@@ -330,6 +330,8 @@ contains
       end do
    end subroutine make_product
 
+   !> Do threads share the lines? Loops over lines have a copy without a directive for one thread: a parallel region, even of one
+   !> thread (a false if clause), asks libgomp for memory
    pure logical function is_shared(self)
       class(fft_plan), intent(in) :: self
 
