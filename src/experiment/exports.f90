@@ -212,7 +212,7 @@ contains
          if (size(pair%patches) > 0) place = [pair%patches(1)%x, pair%patches(1)%x_wheel]
          call get_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
          call get_section(problem%wheel, problem%wheel_surface, &
-            & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch, wheel)
+            & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch_of_wheel(), wheel)
          call self%hdf5%write_wheel_rail(head, given, spec, pair, rail, wheel)
       end associate
    end subroutine write_wheel_rail

@@ -61,7 +61,7 @@ contains
             place = 2.0_wp*(k - 1)/(n - 1) - 1.0_wp
             if (is_wheel) then
                place = pi*place
-               call get_section(profile%profile, profile%surface, place - w%wheelset%pitch, section)
+               call get_section(profile%profile, profile%surface, place - w%wheelset%pitch_of_wheel(), section)
             else if (w%roller) then
                place = roller_angle*place
                call get_section(profile%profile, profile%surface, w%wheelset%s, section)

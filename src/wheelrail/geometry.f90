@@ -149,7 +149,7 @@ contains
          geometry%bodies%wheel = problem%wheel
          geometry%bodies%placement = geometry%placement
          geometry%bodies%angle_below_axle = problem%spec%search%angle_below_axle
-         call place_bodies(geometry%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
+         call place_bodies(geometry%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch_of_wheel(), &
             & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if
       if (geometry%searches_table) then

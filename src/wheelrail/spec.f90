@@ -94,6 +94,8 @@ module contact_wheelrail_spec
       real(wp) :: fx = 0.0_wp
       !> Flexible deviations of the wheel x, y, z [mm], roll, yaw, pitch [rad], and their rates
       real(wp) :: flexible(6) = 0.0_wp, flexible_rate(6) = 0.0_wp
+   contains
+      procedure :: pitch_of_wheel
    end type wheelset_spec
 
    !> One wheel on one rail or roller, but for the files of their profiles
@@ -114,4 +116,12 @@ module contact_wheelrail_spec
       logical :: new_rail_profile = .false., new_wheel_profile = .false.
       type(profile_spec) :: rail_profile, wheel_profile
    end type wheel_rail_spec
+contains
+
+   !> Rotation of the wheel about its axle [rad]: pitch of the wheelset and flexible deviation; selects the slice at the bottom
+   pure real(wp) function pitch_of_wheel(self)
+      class(wheelset_spec), intent(in) :: self
+
+      pitch_of_wheel = self%pitch + self%flexible(6)
+   end function pitch_of_wheel
 end module contact_wheelrail_spec
