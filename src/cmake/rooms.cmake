@@ -65,8 +65,12 @@ function(contact_room room)
 endfunction()
 
 # Give a target access to the modules of the named rooms, and recompile it if one of them has changed
+#
+# A source belongs to its folder: each other target of the folder with the same Fortran source needs these rooms, too, or Make has no
+# rule for them
 function(contact_use_rooms target)
   get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.][fF](90)?$")
   foreach(room IN LISTS ARGN)
     if(NOT TARGET contact_${room})
       message(FATAL_ERROR "${target}: there is no room ${room}")
