@@ -1,6 +1,6 @@
 !> Conversion of the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : has_slope_reduction, is_simplified, material_model, motion, &
+   use contact_base_choices, only : grid_form, has_slope_reduction, is_simplified, material_model, motion, &
       & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
@@ -147,9 +147,16 @@ contains
       if (allocated(error)) return
       problem%has_geometry = .false.
       problem%grid = grid
+      if (allocated(problem%parts)) deallocate(problem%parts)
+      if (spec%grid%form == grid_form%half_ellipses) then
+         ! not computed: that of an earlier grid says nothing about these pressures
+         call fit_field(grid, problem%h)
+         problem%h = 0.0_wp
+         problem%has_geometry = .true.
+         return
+      end if
       call undeformed_distance(spec%geometry, grid, problem%hertz, problem%h, error)
       if (allocated(error)) return
-      if (allocated(problem%parts)) deallocate(problem%parts)
       if (.not. allocated(problem%hertz) .and. allocated(spec%geometry%rectangles)) then
          allocate(problem%parts)
          problem%parts%label = part_labels(spec%geometry, grid)

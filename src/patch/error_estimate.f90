@@ -154,7 +154,7 @@ contains
       end if
       scale = scales(problem, order, result)
       scale%in_pair = present(details)
-      if (present(details)) scale%hidden = abs(details%approach)/max(result%pen, tiny(load))
+      if (present(details)) scale%hidden = abs(details%approach)/max(scale%depth, tiny(load))
       scale%coarse_sticking = real(level%result%nadh, wp)/level%result%ncon
       scale%energy(1) = normal_energy(result)
       scale%energy(2) = result%elastic_energy - scale%energy(1)
@@ -171,7 +171,7 @@ contains
       call compare_directions(problem, result, level, load, scale)
       result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
-         difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
+         if (.not. is_on_both(k)) cycle
          if (fine%rows(k)%law == error_law%normal) scale%irregular = max(scale%irregular, &
             & irregularity(fine%rows(k), difference, scale))
          if (fine%rows(k)%law /= error_law%friction) cycle
@@ -183,8 +183,8 @@ contains
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled
       do k = 1, fine%length
-         if (fine%rows(k)%law == error_law%none .or. is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
-         difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
+         if (is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
+         if (.not. is_on_both(k)) cycle
          if (fine%rows(k)%name == "pmax") then
             result%errors%value(k) = error_of_peak(problem, result, scale, &
                & load**power_of_load(fine%rows(k))*peak_of(level%result%pn), details)
@@ -192,6 +192,21 @@ contains
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if
       end do
+
+   contains
+
+      !> Has a total with errors a value on both levels? Sets their difference; the coarse level has fewer totals, without damping
+      logical function is_on_both(row) result(is_there)
+         !> Index in the list of the finer level
+         integer, intent(in) :: row
+         integer :: place
+
+         is_there = .false.
+         if (fine%rows(row)%law == error_law%none) return
+         place = coarse%place_of(fine%rows(row)%name, row)
+         is_there = coarse%rows(place)%name == fine%rows(row)%name
+         difference = abs(fine%rows(row)%value - coarse%rows(place)%value)
+      end function is_on_both
    end subroutine compare_levels
 
    !> Power of the motion on both levels, compared with frictional power, in steady rolling
@@ -288,7 +303,8 @@ contains
 
       select case (name)
       case ("fn")
-         given = problem%force_prescribed .and. problem%solves_for_pressure()
+         ! pressures by formula are scaled to the force
+         given = allocated(problem%given_pressure) .or. (problem%force_prescribed .and. problem%solves_for_pressure())
       case ("pen")
          given = .not. (in_pair .or. (problem%force_prescribed .and. problem%solves_for_pressure()))
       case ("cksi", "shift_x")

@@ -94,9 +94,11 @@ module contact_patch_error_scales
       real(wp) :: bulk(2) = 0.0_wp
       !> Relative difference of the levels in the mean coefficient of friction, if it depends on temperature [-]
       real(wp) :: warmed = 0.0_wp
-      !> Standard deviation of the heights of a rough surface, relative to the approach [-]
+      !> Largest interpenetration of the undeformed surfaces: the approach from first contact on [mm]
+      real(wp) :: depth = 0.0_wp
+      !> Standard deviation of the heights of a rough surface, relative to the depth [-]
       real(wp) :: roughness = 0.0_wp
-      !> Change of the approach by details between rows of elements, relative to it [-]
+      !> Change of the approach by details between rows of elements, relative to the depth [-]
       real(wp) :: hidden = 0.0_wp
       !> Magnitude of the difference parameter K of the materials [-]
       real(wp) :: coupling = 0.0_wp
@@ -186,13 +188,17 @@ contains
          scale%coupling = abs(problem%model%material%ak)
          scale%driven = scale%coupling/max(mean_friction(result), scale%coupling)
       end if
-      ! third differences that begin up to three elements ahead of the contact have a part in it
-      associate (mx => result%grid%mx, my => result%grid%my)
-         scale%roughness = max(roughness(mx*my, [box%ix0, box%ix1], [max(1, box%iy0 - 3), min(my - 3, box%iy1)], [1, mx], &
-            & problem%h, result%division, across(2), abs(result%pen)), &
-            & roughness(mx*my, [box%iy0, box%iy1], [max(1, box%ix0 - 3), min(mx - 3, box%ix1)], [mx, 1], &
-            & problem%h, result%division, across(1), abs(result%pen)))
-      end associate
+      scale%depth = max(0.0_wp, result%pen - minval(problem%h))
+      ! third differences that begin up to three elements ahead of the contact have a part in it; pressures by formula do not
+      ! follow from the distance
+      if (.not. allocated(problem%given_pressure)) then
+         associate (mx => result%grid%mx, my => result%grid%my)
+            scale%roughness = max(roughness(mx*my, [box%ix0, box%ix1], [max(1, box%iy0 - 3), min(my - 3, box%iy1)], [1, mx], &
+               & problem%h, result%division, across(2), scale%depth), &
+               & roughness(mx*my, [box%iy0, box%iy1], [max(1, box%ix0 - 3), min(mx - 3, box%ix1)], [mx, 1], &
+               & problem%h, result%division, across(1), scale%depth))
+         end associate
+      end if
       if (scale%force > 0.0_wp) then
          scale%used = result%grid%dx*result%grid%dy*sum(hypot(result%px, result%py))/scale%force
          scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
@@ -234,11 +240,11 @@ contains
       end if
    end function scales
 
-   !> Standard deviation of the heights of a rough surface along one direction of a grid, relative to the approach [-]
+   !> Standard deviation of the heights of a rough surface along one direction of a grid, relative to the depth [-]
    !>
    !> From third differences in and beside the contact, which vanish for parabolas. The largest contribution of a curvature that
    !> varies across the contact is subtracted, so that the result is 0 for surfaces that the elements resolve.
-   pure real(wp) function roughness(npot, lines, n, step, h, division, across, pen)
+   pure real(wp) function roughness(npot, lines, n, step, h, division, across, depth)
       !> Number of elements
       integer, intent(in) :: npot
       !> First and last line along the direction that is in contact; first and last element of a line at which third differences
@@ -251,8 +257,8 @@ contains
       integer, intent(in) :: division(0:npot - 1)
       !> Number of elements across contact in this direction
       integer, intent(in) :: across
-      !> Approach [mm], positive
-      real(wp), intent(in) :: pen
+      !> Largest interpenetration of the undeformed surfaces [mm]
+      real(wp), intent(in) :: depth
       real(wp) :: squares
       integer :: i, k, at, count
 
@@ -269,7 +275,7 @@ contains
          end do
       end do
       roughness = 0.0_wp
-      if (count > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*count))/max(pen, tiny(pen)) &
+      if (count > 0) roughness = max(0.0_wp, sqrt(squares/(of_noise*count))/max(depth, tiny(depth)) &
          & - of_curvature*real(across, wp)**curvature_power)
    end function roughness
 end module contact_patch_error_scales

@@ -95,6 +95,8 @@ contains
 
       unit = abs(row%value)
       if (row%law == error_law%creepage) unit = scale%creep
+      ! a constant in the undeformed distance changes the approach only
+      if (row%name == "pen") unit = scale%depth
       select case (row%scale)
       case (error_scale%force)
          unit = scale%force
@@ -201,7 +203,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       ratio = max(1.0_wp, difference/(coarsening**normal_order - 1.0_wp)*scale%across**2 &
-         & /(normal_floor*max(abs(row%value), tiny(ratio))))
+         & /(normal_floor*max(scale_of(row, scale), tiny(ratio))))
    end function irregularity
 
    !> Error of frictional power or work without contributions of solvers and window, in its unit

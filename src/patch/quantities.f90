@@ -226,11 +226,17 @@ contains
    end subroutine count
 
    !> Index of the row with a given name, which must exist
-   pure integer function place_of(self, name) result(k)
+   pure integer function place_of(self, name, guess) result(k)
       class(total_list), intent(in) :: self
       !> Name of a row, see total
       character(len=*), intent(in) :: name
+      !> Probable index: that of the row in the list of a similar case
+      integer, intent(in), optional :: guess
 
+      if (present(guess)) then
+         k = min(guess, self%length)
+         if (self%rows(k)%name == name) return
+      end if
       do k = 1, self%length - 1
          if (self%rows(k)%name == name) return
       end do
