@@ -237,6 +237,8 @@ contains
       coarse%estimate = estimate_choice%unchanged
       coarse%sensitivity = sensitivity_choice%none
       coarse%want_exterior = .false.
+      ! elastic energies of both levels are compared
+      coarse%defers_displacements = .false.
       coarse%pressure_eps = 1.0_wp
       coarse%shares_table = .true.
       coarse%settings%eps = max(fine%settings%eps, coarse_eps)
