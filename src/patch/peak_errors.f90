@@ -145,7 +145,9 @@ contains
                if (max(pn(x0, iy), pn(x1, iy)) > pn(ix, iy)) cycle
                if (any(pn(x0:x1, y0:y1) > pn(ix, iy))) cycle
                shape = [shape_of(pn(:, iy), ix), shape_of(pn(ix, :), iy)]
-               if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)))
+               ! a lower peak has the general error of a peak of that many elements, too, and may be the highest one
+               if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)), &
+                  & maxval(pn(ix, iy)*(1.0_wp + peak_floor/max(1, shape%n)**2), mask=shape%n > 0))
                extent = shape%n*[result%grid%dx, result%grid%dy]
                ! fields that are constant in one direction are strips
                where (shape%n == 0) extent = sqrt(huge(highest))
