@@ -216,7 +216,8 @@ def wheel_values(c, records):
               "height": ratio_of(records, "z_ws", 2, max(p["pen"]["value"] for p in patches))}
     if len(patches) == 1:
         parts = [r["patches"][0] for r in records]
-        values.update({name: ratio_of(parts, name, order, abs(patches[0][name]["value"]))
+        # without slip the power is zero
+        values.update({name: ratio_of(parts, name, order, abs(patches[0][name]["value"]) or 1.0)
                        for name, order in (("pmax", 2), ("contact_area", 1), ("friction_power", 1))})
     return values
 
