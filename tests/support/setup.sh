@@ -7,6 +7,7 @@
 #   install_valgrind   the same for valgrind, for tests of uninitialised values; continues without it
 #   install_linters    the same for fortitude, ruff, shellcheck and ford, for linting and module documentation
 #   install_fuzzer     the same for libFuzzer, used by tests/fuzz/run.sh only
+#   install_packagers  the same for the tools that make packages, used by src/packaging only
 #   build PRESET [-DX] configures and builds into build/PRESET; all targets, or those of the build preset $build_targets
 # shellcheck shell=sh disable=SC2154
 
@@ -225,6 +226,20 @@ install_fuzzer() {
   ls /usr/lib/llvm-*/lib/libFuzzer.a >/dev/null 2>&1 && return 0
   say "Installing libFuzzer"
   quiet_apt libfuzzer-14-dev || fail "libFuzzer is missing; install the package libfuzzer-14-dev or a later version"
+}
+
+# A wheel needs a C++ compiler and environments of Python, a Debian package the tools of its control file
+install_packagers() {
+  command -v apt-get >/dev/null 2>&1 || return 0
+  packages="g++ python3-venv"
+  command -v dpkg-buildpackage >/dev/null 2>&1 && packages="$packages debhelper dh-python"
+  # shellcheck disable=SC2086
+  dpkg -s $packages >/dev/null 2>&1 && return 0
+  say "Installing the tools of packages"
+  as_root apt-get update || say "apt-get update failed; trying with the package lists that are there"
+  # shellcheck disable=SC2086
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $packages ||
+    fail "The tools of packages could not be installed: $packages"
 }
 
 # build PRESET [options of cmake]
