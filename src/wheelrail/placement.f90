@@ -193,8 +193,9 @@ contains
             yaw_rate = -s*placement%roller_radius*wheel_rail%wheelset%rpitch*wheel_rail%track%curvature
             motion%origin = [0.0_wp, placement%rail%origin(2), placement%roller_radius]
             motion%rotation = [s*rail%vroll, wheel_rail%wheelset%rpitch, yaw_rate]
-            ! from the origin of the profile to the axle
-            motion%velocity = [0.0_wp, s*rail%vy - s*rail%vroll*(placement%roller_radius - placement%rail%origin(3)), rail%vz]
+            ! yaw about the centre of the track; roll from the origin of the profile to the axle
+            motion%velocity = [-yaw_rate*placement%rail%origin(2), &
+               & s*rail%vy - s*rail%vroll*(placement%roller_radius - placement%rail%origin(3)), rail%vz]
          else
             yaw_rate = -s*wheel_rail%wheelset%vs*wheel_rail%track%curvature
             motion%origin = placement%rail%origin
