@@ -31,7 +31,7 @@ module contact_cases_wheel_rail_session
    use contact_wheelrail_solve, only : solve_wheel_rail
    use contact_wheelrail_problem, only : wheel_rail_problem, relaxing_bodies
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : profile_spec
+   use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    implicit none (type, external)
    private
 
@@ -180,35 +180,59 @@ contains
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> The profile of a ball ends at its axle, within round-off
-      real(wp), parameter :: at_axle = 0.999_wp
-      real(wp) :: z(2)
 
       associate (problem => session%problem)
          call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, session%wanted(1), &
             & problem%rail, problem%rail_surface, log, error, spec%limits%confined)
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
             & folder, session%wanted(2), problem%wheel, problem%wheel_surface, log, error, spec%limits%confined)
-         if (allocated(error)) return
-         z = 0.0_wp
-         if (spec%wheel_rail%new_rail_profile .or. spec%wheel_rail%roller) z = problem%rail%z%node_range()
-         associate (height => spec%wheel_rail%track%gaught)
-            if (spec%wheel_rail%new_rail_profile .and. height > z(2) - z(1)) call log%warning("GAUGHT = " // &
-               & real_text(height) // " mm, but the profile of the rail is only " // real_text(z(2) - z(1)) // &
-               & " mm high: its gauge end is used as the gauge point")
-         end associate
-         if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*z(2)) then
-            call fatal_error(error, "NOMRADR = " // real_text(spec%wheel_rail%track%nomradr) // " mm is less than the depth of &
-               &the profile, " // real_text(z(2)) // " mm: its sides would lie beyond the axle")
-         end if
-         z = problem%wheel%z%node_range()
-         if (.not. allocated(error) .and. spec%wheel_rail%wheelset%nomradw < -at_axle*z(1)) then
-            call fatal_error(error, "NOMRADW = " // real_text(spec%wheel_rail%wheelset%nomradw) // " mm is less than the height &
-               &of the profile, " // real_text(-z(1)) // " mm: it would reach beyond the axle")
-         end if
+         if (.not. allocated(error)) call check_dimensions(spec%wheel_rail, problem%rail, problem%wheel, log, error)
       end associate
       if (.not. allocated(error)) call update_table(spec, folder, session%coefficients, log, error)
    end subroutine check_files
+
+   !> Do the dimensions of track and wheelset fit the profiles?
+   subroutine check_dimensions(wheel_rail, rail, wheel, log, error)
+      type(wheel_rail_spec), intent(in) :: wheel_rail
+      !> The profiles; of slices the first
+      type(profile_curve), intent(in) :: rail, wheel
+      !> Receives a warning about a gauge point below the profile
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      !> The profile of a ball ends at its axle, within round-off
+      real(wp), parameter :: at_axle = 0.999_wp
+      type(profile_curve) :: canted
+      real(wp) :: low, high, s, range(2)
+
+      associate (track => wheel_rail%track, wheelset => wheel_rail%wheelset)
+         if (track%gaught > 0.0_wp .and. (wheel_rail%new_rail_profile .or. wheel_rail%new_track)) then
+            canted = rail%seen_from([0.0_wp, 0.0_wp], track%cant)
+            call canted%top(s, high)
+            range = canted%s_range()
+            low = canted%z%value(range(1))
+            if (track%gaught > low - high) call log%warning("GAUGHT = " // real_text(track%gaught) // " mm, but the profile &
+               &of the rail ends " // real_text(low - high) // " mm below its top on the gauge side: its gauge end is used as &
+               &the gauge point")
+         end if
+         range = 0.0_wp
+         if (wheel_rail%roller) range = rail%z%node_range()
+         if (wheel_rail%roller .and. track%nomradr < at_axle*range(2)) then
+            call fatal_error(error, "NOMRADR = " // real_text(track%nomradr) // " mm is less than the depth of the profile, " // &
+               & real_text(range(2)) // " mm: its sides would lie beyond the axle")
+            return
+         end if
+         range = wheel%z%node_range()
+         if (wheelset%nomradw < -at_axle*range(1)) then
+            call fatal_error(error, "NOMRADW = " // real_text(wheelset%nomradw) // " mm is less than the height of the &
+               &profile, " // real_text(-range(1)) // " mm: it would reach beyond the axle")
+            return
+         end if
+         range = wheel%y_range()
+         if (wheelset%has_tape() .and. (wheelset%ytape < range(1) .or. wheelset%ytape > range(2))) call fatal_error(error, &
+            & "YTAPE = " // real_text(wheelset%ytape) // " mm is beside the wheel profile, which extends from y = " // &
+            & real_text(range(1)) // " to " // real_text(range(2)) // " mm; 999 or more means the origin of the profile")
+      end associate
+   end subroutine check_dimensions
 
    !> Convert the specification to the problem of the pair
    subroutine set_wheel_rail(session, spec, folder, log, error)

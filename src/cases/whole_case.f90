@@ -318,6 +318,7 @@ contains
          if (a%is_reading) then
             given%roller_radius = given%roller_radius .or. wheel_rail%roller
             given%cant = given%cant .or. .not. wheel_rail%roller
+            wheel_rail%new_track = .true.
          end if
       end if
       if (spec%parts%rail_profile == part_source%given) then

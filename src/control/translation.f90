@@ -81,6 +81,7 @@ contains
       if (digits%d >= 2) spec%wheel_rail%search%location = choice_of("D", digits%d, 1)
       spec%wheel_rail%new_rail_profile = .false.
       spec%wheel_rail%new_wheel_profile = .false.
+      spec%wheel_rail%new_track = .false.
       spec%slip_source = slip_source%none
       associate (parts => spec%parts)
          parts%search = source_of(digits%d)

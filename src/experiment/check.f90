@@ -81,7 +81,7 @@ contains
 
       if (allocated(given%wheel_rail)) then
          if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile &
-            & .or. given%kernel == kernel_model%tabulated)) return
+            & .or. given%wheel_rail%new_track .or. given%kernel == kernel_model%tabulated)) return
          call open_wheel_rail(slot)
          call check_files(slot%wheel_rail, given, state%place%folder, state%log, error)
          call state%log%translate_choices(error)

@@ -31,9 +31,6 @@ module contact_wheelrail_placement
    !> This height relative to the radius: points beside the roller would have none
    real(wp), parameter :: lowest_part = 0.01_wp
 
-   !> Values of YTAPE from this one on mean that there is no tape line [mm]
-   real(wp), parameter :: no_tape = 999.0_wp
-
 contains
 
    !> Vertical distance of a roller's surface below its top at a longitudinal position [mm]; 0 on a track
@@ -170,7 +167,7 @@ contains
 
          placement%wheelset = new_frame([w%x, s*w%y, z_ws - w%nomradw], s*w%roll, s*w%yaw)
          tape = 0.0_wp
-         if (abs(w%ytape) < no_tape) tape = wheel%height(w%ytape)
+         if (w%has_tape()) tape = wheel%height(w%ytape)
          wheel_in_set = new_frame([w%flexible(1), 0.5_wp*w%fbdist - w%fbpos + s*w%flexible(2), &
             & w%nomradw - tape + w%flexible(3)], s*w%flexible(4), s*w%flexible(5))
          placement%wheel = placement%wheelset%of(wheel_in_set)

@@ -77,7 +77,7 @@ module contact_wheelrail_spec
    type :: wheelset_spec
       !> Flange-back distance, position of the flange back in the profile, nominal radius [mm]
       real(wp) :: fbdist = 1360.0_wp, fbpos = -70.0_wp, nomradw = 460.0_wp
-      !> Lateral position of the tape line in the profile, where the nominal radius holds [mm]; at least 999: profile origin
+      !> Lateral position of the tape line in the profile, where the nominal radius holds [mm]; 999 or more: profile origin
       real(wp) :: ytape = 1000.0_wp
       !> Position along the track, or x on rollers [mm]; lateral and vertical position [mm]
       real(wp) :: s = 0.0_wp, x = 0.0_wp, y = 0.0_wp, z = 0.0_wp
@@ -96,6 +96,7 @@ module contact_wheelrail_spec
       real(wp) :: flexible(6) = 0.0_wp, flexible_rate(6) = 0.0_wp
    contains
       procedure :: pitch_of_wheel
+      procedure :: has_tape
    end type wheelset_spec
 
    !> One wheel on one rail or roller, but for the files of their profiles
@@ -112,8 +113,8 @@ module contact_wheelrail_spec
 
    !> The same with the profiles
    type, extends(pair_spec) :: wheel_rail_spec
-      !> Has the case new profiles?
-      logical :: new_rail_profile = .false., new_wheel_profile = .false.
+      !> Has the case new profiles, and new dimensions of the track?
+      logical :: new_rail_profile = .false., new_wheel_profile = .false., new_track = .false.
       type(profile_spec) :: rail_profile, wheel_profile
    end type wheel_rail_spec
 contains
@@ -124,4 +125,13 @@ contains
 
       pitch_of_wheel = self%pitch + self%flexible(6)
    end function pitch_of_wheel
+
+   !> Is the nominal radius given at a tape line?
+   pure logical function has_tape(self)
+      class(wheelset_spec), intent(in) :: self
+      !> Magnitude of YTAPE from which there is none [mm]
+      real(wp), parameter :: no_tape = 999.0_wp
+
+      has_tape = abs(self%ytape) < no_tape
+   end function has_tape
 end module contact_wheelrail_spec

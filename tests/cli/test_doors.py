@@ -344,6 +344,39 @@ class Words(Doors):
         self.assertIn("its gauge end is used as the gauge point",
                       self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1])
 
+    def test_gauge_point_below_one_end(self):
+        """A profile that ends above the gauge point on the gauge side only; the depth in a later case; the cant"""
+        with open(os.path.join(self.folder, "60E1.prr")) as file:
+            profile = file.read()
+        os.unlink(os.path.join(self.folder, "60E1.prr"))
+        with open(os.path.join(self.folder, "60E1.prr"), "w") as file:
+            file.write(profile.replace("  point.begin", "  bound.y.min = -34.\n  bound.y.max = 60.\n  point.begin"))
+        text, kept = NEW1.format(**PLAIN1), KEPT1.replace("0111002", "0111012").replace("\n0 0.5", "\n14 0 1435 0\n0 0.5")
+        points = [tuple(map(float, line.split())) for line in re.findall(r"^ +-?\d+\.\d+ +-?\d+\.\d+$", profile, re.MULTILINE)]
+        depth = next(z for y, z in points if y >= -34.0) - min(z for _, z in points)
+        warning = "ends %.7g mm below its top on the gauge side: its gauge end is used as the gauge point" % depth
+        self.assertIn(warning, self.run_text("1\n" + text + "0\n")[1])
+        text = text.replace("14 0 1435 0\n", "6 0 1435 0\n")
+        self.assertNotIn("gauge end", self.run_text("1\n" + text + "0\n")[1])
+        for mode in ("2", "3"):
+            run, out, _ = self.run_text("1\n" + text + "1\n" + kept + "0\n", mode)
+            self.assertIn(warning, out + run.stdout)
+        # canted by 0.1 rad, the end is 34 mm times 0.1 higher: above the top of a rail that leans inwards
+        self.assertIn("gauge end", self.run_text("1\n" + text.replace("6 0 1435 0\n", "6 0 1435 -0.1\n") + "0\n")[1])
+
+    def test_tape_line_beside_the_wheel(self):
+        """NOMRADW at a point where the wheel has no surface was that of the end of its profile"""
+        for tape in (500, 61, -71, -998):
+            for mode in ("2", "3"):
+                text = "1\n" + NEW1.format(**PLAIN1).replace("1360 -70 460\n", "1360 -70 460 %d\n" % tape) + "0\n"
+                run, out, _ = self.run_text(text, mode)
+                self.assertIn("YTAPE = %d mm is beside the wheel profile, which extends from y = -70 to 60 mm" % tape,
+                              out + run.stdout + run.stderr)
+                self.assertEqual(run.returncode, 1)
+        for tape in (999, 60, -70):
+            text = "1\n" + NEW1.format(**PLAIN1).replace("1360 -70 460\n", "1360 -70 460 %d\n" % tape) + "0\n"
+            self.assertNotIn("YTAPE", self.run_text(text)[0].stderr)
+
     def test_no_results(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
         self.assertNotIn("No results were requested", out)

@@ -73,8 +73,8 @@ def documented():
         text = file.read()
     names = set()
     for title in ("Iteration", "Search and elements", "Track and rail", "Rail on springs", "Wheelset", "Flexible wheelset"):
-        part = re.search(r"\n### %s\n(.*?)(?=\n##)" % title, text, re.S).group(1)
-        for row in re.findall(r"^\| ([A-Z][A-Z0-9_, ]*) \| [^|]+ \|", part, re.M):
+        part = re.search(r"\n### %s\n(.*?)(?=\n##)" % title, text, re.DOTALL).group(1)
+        for row in re.findall(r"^\| ([A-Z][A-Z0-9_, ]*) \| [^|]+ \|", part, re.MULTILINE):
             names.update(row.split(", "))
     return names
 
@@ -82,7 +82,7 @@ def documented():
 def points(profile):
     """Points of a Simpack file of the examples [mm]"""
     with open(os.path.join(SOURCE, "examples", "profiles", profile)) as file:
-        lines = re.search(r"point.begin\n(.*?)\n *point.end", file.read(), re.S).group(1)
+        lines = re.search(r"point.begin\n(.*?)\n *point.end", file.read(), re.DOTALL).group(1)
     return [tuple(map(float, line.split()[:2])) for line in lines.splitlines()]
 
 
