@@ -56,9 +56,7 @@ contains
 
    !> Create a batch; null if there is not enough memory
    function contact_batch_open(threads, seconds) result(handle) bind(c, name="contact_batch_open")
-      !> Number of threads of each calculation, at least 1
       integer(c_int), value :: threads
-      !> Time limit of each case [s]; 0: unlimited
       real(c_double), value :: seconds
       type(c_ptr) :: handle
       type(open_type), pointer :: open
@@ -96,7 +94,6 @@ contains
 
    !> Free a batch; nothing if null
    subroutine contact_batch_close(handle) bind(c, name="contact_batch_close")
-      !> From contact_batch_open
       type(c_ptr), value :: handle
       type(open_type), pointer :: open
 
@@ -114,13 +111,9 @@ contains
 
    !> Solve cases
    function contact_batch_solve(handle, job, message, length) result(status) bind(c, name="contact_batch_solve")
-      !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Cases to be solved, and arrays for the results
       type(job_type), intent(inout), target, optional :: job
-      !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
-      !> Size of the buffer
       integer(c_int), value :: length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -237,13 +230,9 @@ contains
 
    !> Name, unit and meaning of a column of totals
    function contact_batch_column(handle, number, name, unit, meaning, length) result(kind) bind(c, name="contact_batch_column")
-      !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Index of the column, from 1
       integer(c_int), value :: number
-      !> Buffers of the texts
       type(c_ptr), value :: name, unit, meaning
-      !> Size of each buffer
       integer(c_int), value :: length
       !> 0: real number of a patch, 1: integer of a patch, 2, 3: the same for wheel and rail as a whole; -1: no such column
       integer(c_int) :: kind
@@ -266,19 +255,12 @@ contains
    !> Size and position of an element field of the last case
    function contact_batch_field(handle, patch, name, mx, my, frame, unit, length) result(status) &
       & bind(c, name="contact_batch_field")
-      !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Index of the patch, from 1
       integer(c_int), value :: patch
-      !> Name of the field, null-terminated
       type(c_ptr), value :: name
-      !> Number of elements along x and y
       integer(c_int), intent(out), optional :: mx, my
-      !> x, y of the centre of the first element, DX, DY [mm]
       real(c_double), intent(out), optional :: frame(4)
-      !> Buffer of the unit
       type(c_ptr), value :: unit
-      !> Size of the buffer
       integer(c_int), value :: length
       !> 0, or 1 if there is no such field
       integer(c_int) :: status
@@ -302,15 +284,10 @@ contains
    !> Values of an element field, x running fastest
    function contact_batch_field_values(handle, patch, name, room, values) result(status) &
       & bind(c, name="contact_batch_field_values")
-      !> From contact_batch_open
       type(c_ptr), value :: handle
-      !> Index of the patch, from 1
       integer(c_int), value :: patch
-      !> Name of the field, null-terminated
       type(c_ptr), value :: name
-      !> Length of `values`
       integer(c_int), value :: room
-      !> Receives the values
       real(c_double), intent(inout), optional :: values(*)
       !> 0, or 1 if there is no such field or `values` is too short
       integer(c_int) :: status

@@ -166,11 +166,8 @@ contains
    !> Success and an empty text if there was no error since the last call of this routine, or if there is no such problem; success
    !> and a text for a warning.
    function contact_last_error(ire, icp, message, message_length) result(code) bind(c, name="inside_contact_last_error")
-      !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail as a whole
       integer(c_int), value :: ire, icp
-      !> Buffer, null if not requested
       type(c_ptr), value :: message
-      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: code
       character(len=:), allocatable :: text
@@ -184,13 +181,9 @@ contains
    !> Final status of the last calculation of a problem, member of case_state
    function contact_case_status(ire, icp, iteration, message, message_length) result(state) &
       & bind(c, name="inside_contact_case_status")
-      !> Result element; contact patch, -1 for wheel and rail as a whole
       integer(c_int), value :: ire, icp
-      !> Iteration that did not converge, member of missed_iteration; absent (null) if not requested
       integer(c_int), intent(inout), optional :: iteration
-      !> Buffer for the reason, null if not requested
       type(c_ptr), value :: message
-      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: state
       type(case_status) :: status

@@ -54,23 +54,12 @@ contains
    !> Returns 0 for success, 1 for a call with unusable arguments, 10 and above for a failure, by its error_kind.
    function contact_run_limited(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
       & message_length) result(status) bind(c, name="contact_run_limited")
-      !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
-      !> 2: run, 3: check only
       integer(c_int), value :: mode
-      !> Folder of the results, null-terminated; null or empty: folder of the input
       type(c_ptr), value :: output_dir
-      !> Number of threads, 0: default
-      integer(c_int), value :: threads
-      !> Additional files and computing options, a sum of bits as in the header
-      integer(c_int), value :: outputs
-      !> Not 0: a case that does not converge is a failure
-      integer(c_int), value :: strict
-      !> Limits of each case: time [s], memory [MB], number of elements; 0: unlimited
+      integer(c_int), value :: threads, outputs, strict
       real(c_double), value :: seconds, megabytes, elements
-      !> Buffer for the reason of a failure, null if not requested
       type(c_ptr), value :: message
-      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -84,13 +73,9 @@ contains
    !> Convert an experiment to the other format
    function contact_convert_experiment(experiment, output_dir, overwrite, message, message_length) result(status) &
       & bind(c, name="contact_convert_experiment")
-      !> Path of the experiment, folder of the new file, null-terminated; the folder may be null
       type(c_ptr), value :: experiment, output_dir
-      !> Not 0: replace an existing file
       integer(c_int), value :: overwrite
-      !> Buffer for the message, null if not requested
       type(c_ptr), value :: message
-      !> Size of the buffer, including the terminating null [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -104,13 +89,8 @@ contains
    !> Describe an experiment in words
    function contact_explain_experiment(experiment, text, text_length, needed) result(status) &
       & bind(c, name="contact_explain_experiment")
-      !> Path of the experiment, null-terminated
-      type(c_ptr), value :: experiment
-      !> Buffer for the description, null if not requested
-      type(c_ptr), value :: text
-      !> Size of the buffer, including the terminating null [bytes]
+      type(c_ptr), value :: experiment, text
       integer(c_int), value :: text_length
-      !> Size required by the whole description [bytes]
       integer(c_int), intent(out), optional :: needed
       integer(c_int) :: status
 
@@ -119,13 +99,8 @@ contains
 
    !> Write all cases of an experiment with what they keep from earlier cases, in the readable format
    function contact_complete_cases(experiment, text, text_length, needed) result(status) bind(c, name="contact_complete_cases")
-      !> Path of the experiment, null-terminated
-      type(c_ptr), value :: experiment
-      !> Buffer for the cases, null if not requested
-      type(c_ptr), value :: text
-      !> Size of the buffer, including the terminating null [bytes]
+      type(c_ptr), value :: experiment, text
       integer(c_int), value :: text_length
-      !> Size required by the whole text [bytes]
       integer(c_int), intent(out), optional :: needed
       integer(c_int) :: status
 

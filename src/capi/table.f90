@@ -36,11 +36,7 @@ contains
 
    !> Read a table; null if it cannot be used
    function contact_table_open(file, message, length) result(handle) bind(c, name="contact_table_open")
-      !> Path of the file, null-terminated
-      type(c_ptr), value :: file
-      !> Buffer for the reason of a failure, null if not requested
-      type(c_ptr), value :: message
-      !> Size of the buffer
+      type(c_ptr), value :: file, message
       integer(c_int), value :: length
       type(c_ptr) :: handle
       type(request_type), target :: request
@@ -79,7 +75,6 @@ contains
 
    !> Free a table; nothing if null
    subroutine contact_table_close(handle) bind(c, name="contact_table_close")
-      !> From contact_table_open
       type(c_ptr), value :: handle
       type(creep_table), pointer :: table
 
@@ -90,9 +85,7 @@ contains
 
    !> Properties of a table
    function contact_table_about(handle, facts) result(status) bind(c, name="contact_table_about")
-      !> From contact_table_open
       type(c_ptr), value :: handle
-      !> Receives the properties
       type(facts_type), intent(out), optional :: facts
       !> 0, or 1 if there is no table
       integer(c_int) :: status
@@ -119,13 +112,9 @@ contains
 
    !> Forces of a contact
    function contact_table_force(handle, patch, creepage, force) result(status) bind(c, name="contact_table_force")
-      !> From contact_table_open
       type(c_ptr), value :: handle
-      !> The contact
       type(patch_type), intent(in), optional :: patch
-      !> Longitudinal, lateral [-], spin [rad per length]
       real(c_double), intent(in), optional :: creepage(3)
-      !> Fx, Fy, Mz
       real(c_double), intent(out), optional :: force(3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
@@ -144,16 +133,10 @@ contains
    !> Forces of a contact and their derivatives with respect to the creepages
    function contact_table_force_derivatives(handle, patch, creepage, force, derivatives) result(status) &
       & bind(c, name="contact_table_force_derivatives")
-      !> From contact_table_open
       type(c_ptr), value :: handle
-      !> The contact
       type(patch_type), intent(in), optional :: patch
-      !> Longitudinal, lateral [-], spin [rad per length]
       real(c_double), intent(in), optional :: creepage(3)
-      !> Fx, Fy, Mz
-      real(c_double), intent(out), optional :: force(3)
-      !> Derivatives of each force (second index) with respect to each creepage
-      real(c_double), intent(out), optional :: derivatives(3, 3)
+      real(c_double), intent(out), optional :: force(3), derivatives(3, 3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
       type(creep_table), pointer :: table
@@ -175,18 +158,11 @@ contains
    !> Forces of many contacts
    function contact_table_forces(handle, count, patches, creepages, forces, derivatives, answers) result(worst) &
       & bind(c, name="contact_table_forces")
-      !> From contact_table_open
       type(c_ptr), value :: handle
-      !> Number of contacts
       integer(c_int), value :: count
-      !> The contacts
       type(patch_type), intent(in), optional :: patches(*)
-      !> Longitudinal, lateral [-], spin [rad per length] of each contact, shape (3, count)
       real(c_double), intent(in), optional :: creepages(3, *)
-      !> Fx, Fy, Mz of each contact, shape (3, count)
       real(c_double), intent(inout), optional :: forces(3, *)
-      !> Derivatives of each force with respect to each creepage, shape (3, 3, count), and status of each look-up; null if not
-      !> requested
       type(c_ptr), value :: derivatives, answers
       !> The largest of CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: worst

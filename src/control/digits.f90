@@ -252,7 +252,6 @@ contains
       character(len=*), intent(in) :: name
       !> Value as in the input
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=2) :: key
 
@@ -270,7 +269,6 @@ contains
    elemental logical function belongs(row, module_number)
       !> Row of the table
       type(digit_row), intent(in) :: row
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       belongs = row%module_number == both .or. row%module_number == module_number
@@ -282,7 +280,6 @@ contains
       character(len=*), intent(in) :: name
       !> Value as in the input
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       is_known = row_of(name, digit, module_number) > 0
@@ -294,7 +291,6 @@ contains
       character(len=*), intent(in) :: name
       !> Value as in the input
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
       integer :: row
 
@@ -309,7 +305,6 @@ contains
       character(len=*), intent(in) :: name
       !> Value as in the input
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
       integer :: row
 
@@ -324,7 +319,6 @@ contains
       character(len=*), intent(in) :: name
       !> Member of the enumeration in contact_base_choices that belongs to it
       integer, intent(in) :: choice
-      !> 1 or 3
       integer, intent(in) :: module_number
       integer :: row
 
@@ -347,7 +341,6 @@ contains
       character(len=*), intent(in) :: name
       !> Value as in the input
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=text_length) :: text
       integer :: row
@@ -361,7 +354,6 @@ contains
    pure function allowed_text(name, module_number) result(text)
       !> Capital letter of the digit, with a figure for C1 and similar names
       character(len=*), intent(in) :: name
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=list_length) :: text
       integer :: digit
@@ -427,7 +419,6 @@ contains
    pure subroutine decode_words(word1, word2, word3, module_number, digits, second)
       !> C1 P B T N F S; V L D C M Z E; X H G I A O W R
       integer, intent(in) :: word1, word2, word3
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Digits of the case; GAPWGT is kept if there is no second number
       type(case_digits), intent(inout) :: digits

@@ -102,7 +102,6 @@ contains
    pure integer function highest_of(row, module_number) result(highest)
       !> Row of the table of flags
       type(flag_row), intent(in) :: row
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       highest = row%highest
@@ -115,7 +114,6 @@ contains
       type(flag_row), intent(in) :: row
       !> Value given by the caller
       integer, intent(in) :: value
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Value to be stored: the nearest accepted one if this is documented
       integer, intent(out) :: stored

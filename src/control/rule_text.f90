@@ -76,7 +76,6 @@ contains
       integer, intent(in) :: choice
       !> Values of the choice; values without a digit are skipped
       integer, intent(in) :: values(:)
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=28) :: text
       integer :: digit, left, k

@@ -1,6 +1,6 @@
 !> Conversion of control digits to the named choices and parts of a case, and back
 module contact_control_translation
-   use contact_base_choices, only : contact_location, slip_source
+   use contact_base_choices, only : slip_source
    use contact_cases_spec, only : case_spec, part_source
    use contact_control_digits, only : case_digits, choice_of, digit_of
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -14,7 +14,6 @@ contains
    !> Set choices and parts of a case from its digits; groups of unknown digits are treated as not given
    subroutine apply_digits(digits, module_number, spec)
       type(case_digits), intent(in) :: digits
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> On entry the previous case, whose choices remain if a digit keeps them
       type(case_spec), intent(inout) :: spec

@@ -99,7 +99,6 @@ contains
    pure integer function key_of(name, module_number) result(row)
       !> Letter of the digit
       character(len=*), intent(in) :: name
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       do row = 1, size(key_table)
@@ -122,7 +121,6 @@ contains
       character(len=*), intent(in) :: name
       !> Word as in the readable format
       character(len=*), intent(in) :: word
-      !> 1 or 3
       integer, intent(in) :: module_number
       integer :: row
 
@@ -138,7 +136,6 @@ contains
       character(len=*), intent(in) :: name
       !> Digit as in input files
       integer, intent(in) :: digit
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=word_length) :: word
 
@@ -152,7 +149,6 @@ contains
    pure function choice_words(name, module_number) result(words)
       !> Letter of the digit
       character(len=*), intent(in) :: name
-      !> 1 or 3
       integer, intent(in) :: module_number
       character(len=word_length) :: words(size(digit_table))
 
@@ -272,7 +268,6 @@ contains
    subroutine translate_to_words(message, module_number, text)
       !> Message in the terms of input files
       character(len=*), intent(in) :: message
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Message in the terms of the readable format
       character(len=:), allocatable, intent(out) :: text

@@ -62,7 +62,6 @@ contains
    !> Create an empty table
    subroutine create(self, container, name)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of its group
       character(len=*), intent(in) :: name
@@ -76,7 +75,6 @@ contains
    !> Open the columns of an existing table
    subroutine reopen(self, container, name)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of its group
       character(len=*), intent(in) :: name
@@ -124,7 +122,6 @@ contains
    !> Begin a row
    subroutine next_row(self, container)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
 
       if (self%waiting == max_rows) call self%write_rows(container)
@@ -135,7 +132,6 @@ contains
    !> Set a value of the last row; texts and arrays have no columns
    subroutine put(self, container, value)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Value with name, unit and title
       type(named_value), intent(in) :: value
@@ -152,7 +148,6 @@ contains
    !> Add a column; its earlier rows are NaN
    subroutine new_column(self, container, value)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name, unit and description of the column
       type(named_value), intent(in) :: value
@@ -199,7 +194,6 @@ contains
    !> Write the buffered rows
    subroutine write_rows(self, container)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer(hid_t) :: memory, space
       integer(hsize_t) :: first(1), length(1), total(1)
@@ -227,7 +221,6 @@ contains
    !> Read a column
    subroutine read_column(self, container, name, values)
       class(column_table), intent(in) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name as in the file
       character(len=*), intent(in) :: name
@@ -248,7 +241,6 @@ contains
    !> Remove all rows after the first `rows`
    subroutine cut(self, container, rows)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Number of rows that are kept, at most those on disk
       integer, intent(in) :: rows
@@ -267,7 +259,6 @@ contains
    !> Close all columns
    subroutine release(self, container)
       class(column_table), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer :: k
 

@@ -83,7 +83,6 @@ contains
    !> Link the object into a group
    subroutine link(self, container, group, name)
       class(kept_object), intent(in) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -115,7 +114,6 @@ contains
    !> Replace an object by another one on disk
    subroutine replace(self, container, k, id)
       class(kept_list), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Index in `objects`
       integer, intent(in) :: k
@@ -129,7 +127,6 @@ contains
    !> Write an array, or link that of the previous case if it is equal
    subroutine write(self, container, group, place, name, unit, title, values, dims, kind, scales, id)
       class(kept_list), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -167,7 +164,6 @@ contains
    !> Close all objects
    subroutine release(self, container)
       class(kept_list), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer :: k
 

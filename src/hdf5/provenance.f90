@@ -46,7 +46,6 @@ contains
    !> Write name, hash and copy of the input
    subroutine start(self, container, input, folder, below)
       class(provenance), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of the input file, and folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
@@ -64,7 +63,6 @@ contains
 
    !> Write name, hash and copy of the input into a group
    subroutine write_input(container, group, input, below)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -88,7 +86,6 @@ contains
 
    !> Write the time at which the file was created
    subroutine write_time(container, group)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -110,7 +107,6 @@ contains
    !> Continue with an existing group: the input may have been corrected; profiles are those of the cases so far
    subroutine start_again(self, container, input, folder, below)
       class(provenance), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of the input file, and folder to which names in it are relative
       character(len=*), intent(in) :: input, folder
@@ -150,7 +146,6 @@ contains
 
    !> Read a text
    subroutine read_name(container, group, place, text)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -181,7 +176,6 @@ contains
    !> Record name and hash of a profile file at its first use
    subroutine note_profile(self, container, name, confined)
       class(provenance), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name as in the input
       character(len=*), intent(in) :: name
@@ -212,7 +206,6 @@ contains
 
    !> Write name and hash of a file
    subroutine describe(container, group, prefix, name, text)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -236,7 +229,6 @@ contains
 
    !> Write all bytes of the input, as one text of its length
    subroutine write_copy(container, group, text)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -272,7 +264,6 @@ contains
    !> Close the group
    subroutine release(self, container)
       class(provenance), intent(inout) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
 
       if (self%group >= 0) call container%release(self%group)

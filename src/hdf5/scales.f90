@@ -26,7 +26,6 @@ contains
 
    !> Mark an array as the coordinates along a dimension
    subroutine make_scale(container, data)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open dataset of rank 1
       integer(hid_t), intent(in) :: data
@@ -49,7 +48,6 @@ contains
 
    !> Set the scales of an array
    subroutine attach_scales(container, data, scales)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open dataset
       integer(hid_t), intent(in) :: data
@@ -81,7 +79,6 @@ contains
 
    !> Describe the integers of an array: meanings of 0, 1, ... in this order
    subroutine describe_flags(container, data, meanings)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open dataset of small integers
       integer(hid_t), intent(in) :: data

@@ -82,7 +82,6 @@ contains
    !> Write the values as attributes of the file, replacing those of the same names
    subroutine write_attributes(self, container)
       class(value_list), intent(in) :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer :: i
 
@@ -129,7 +128,6 @@ contains
    subroutine write_value(self, container, group, along)
       !> Value to be written
       type(named_value), intent(in), target :: self
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -192,7 +190,6 @@ contains
 
    !> Write an array of any rank as a dataset
    subroutine write_array(container, group, name, unit, title, values, dims, kind, scales, data)
-      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group

@@ -1,6 +1,6 @@
 !> The control words of a case and the checks of its digits
 module contact_input_control
-   use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
+   use contact_base_choices, only : contact_location, slip_source
    use contact_base_error, only : error_type
    use contact_cases_rules, only : choice_kind, choice_rules, is_broken
    use contact_cases_spec, only : case_spec
@@ -35,7 +35,6 @@ contains
       !> Positioned at the first word
       type(input_lexer), intent(inout) :: lexer
       type(control_words), intent(out) :: words
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> On entry the previous case; its effective choices remain if a digit is "keep"
       type(case_spec), intent(inout) :: spec
@@ -74,7 +73,6 @@ contains
    !> Digits without a meaning are corrected with a warning: P to 2 and I to 0 in a first case, C = 0 to 1 in module 1.
    subroutine check_digits(words, module_number, previous, has_previous, spec, problems)
       type(control_words), intent(inout) :: words
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> The previous case of this module and result element
       type(case_spec), intent(in) :: previous
@@ -113,7 +111,6 @@ contains
    !> Check that control words are not negative, that GAPWGT is in its range, and that each digit exists in the module
    subroutine check_ranges(words, module_number, problems)
       type(control_words), intent(in) :: words
-      !> 1 or 3
       integer, intent(in) :: module_number
       type(problem_list), intent(inout) :: problems
       character(len=:), allocatable :: name
@@ -311,7 +308,6 @@ contains
    !> A digit that keeps a choice is treated as the digit of that choice.
    subroutine refuse_unbuilt_digits(words, module_number, spec, problems)
       type(control_words), intent(in) :: words
-      !> 1 or 3
       integer, intent(in) :: module_number
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
@@ -350,7 +346,6 @@ contains
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: name
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       digit = digit_value(digits, name)

@@ -1,10 +1,8 @@
 !> Problems with the values of a case, collected so that reading continues after the first
 module contact_input_problems
    use contact_base_error, only : error_kind, error_type, full_text
-   use contact_base_kinds, only : wp
    use contact_text_bounds, only : describe_breach
    use contact_text_lexer, only : input_value
-   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 

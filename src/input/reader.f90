@@ -28,7 +28,6 @@ contains
       & first_line, digits)
       !> Positioned at the first word of the case
       type(input_lexer), intent(inout), target :: lexer
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> The previous case of this module and result element; a default one before the first
       type(case_spec), intent(in) :: previous

@@ -17,10 +17,8 @@ module contact_input_toml_case
    use contact_input_problems, only : problem_list, severity
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
-   use contact_text_line_words, only : printable
    use contact_text_nearest, only : unknown_word, words_of
-   use contact_text_words, only : integer_text
-   use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
+   use contact_toml_document, only : toml_document, toml_kind
    implicit none (type, external)
    private
 
@@ -51,7 +49,6 @@ contains
       type(toml_memory), intent(inout), target :: memory
       !> Which nodes have been read, shape (nodes)
       logical, intent(inout), target :: used(:)
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Is it the last case in a series of its module and result element?
       logical, intent(in) :: ends_module

@@ -20,7 +20,6 @@ contains
 
    !> Describe one case
    subroutine describe_case(module_number, reid, number, first_line, spec, is_usable, description)
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Result element, 0 for the default one; index in the file, from 1; line on which the case begins
       integer, intent(in) :: reid, number, first_line

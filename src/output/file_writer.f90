@@ -113,7 +113,6 @@ contains
    subroutine put_words(self, digits, module_number)
       class(file_writer), intent(in) :: self
       type(case_digits), intent(in) :: digits
-      !> 1 or 3
       integer, intent(in) :: module_number
 
       if (module_number == 1) then

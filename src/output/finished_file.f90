@@ -73,7 +73,6 @@ contains
       !> Final name
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
-      !> See open_result
       type(case_limits), intent(in), optional :: limits
 
       self%name = name
@@ -124,7 +123,6 @@ contains
       !> Number of bytes that are kept
       integer(c_long), intent(in) :: place
       type(error_type), allocatable, intent(out) :: error
-      !> See open_result
       type(case_limits), intent(in) :: limits
       character(len=:), allocatable :: reason
 

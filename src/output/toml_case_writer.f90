@@ -45,7 +45,6 @@ contains
    !> Append a case
    subroutine add_case(self, module_number, reid, cpid, spec, remarks)
       class(toml_experiment_writer), intent(inout) :: self
-      !> 1 or 3
       integer, intent(in) :: module_number
       !> Result element, 0 for the default one, and contact patch
       integer, intent(in) :: reid, cpid

@@ -6,7 +6,7 @@
 module contact_output_vtk_files
    use, intrinsic :: iso_c_binding, only : c_long
    use contact_base_choices, only : is_rolling, motion
-   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
@@ -63,7 +63,6 @@ contains
       character(len=*), intent(in) :: base
       !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> Limits, as for open_result
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> Continue after this number of bytes; absent: new file

@@ -88,7 +88,6 @@ contains
       real(wp), intent(in) :: points(:)
       !> Allocated if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
-      !> See open_result
       type(case_limits), intent(in) :: limits
       integer :: first, k
 

@@ -5,8 +5,8 @@ Public are the procedures that a module names after `public`, those behind the p
 abstract interfaces of either. Exempt are `self`, which its type describes, and the arguments of a procedure that overrides
 another where the first one describes them. A comment is `!>` above the declaration or `!!` behind it, as FORD reads them; one
 comment serves all names of its declaration. A comment that only repeats the words of the name and the type is none. Described
-elsewhere are the arguments that mean the same everywhere (doc/develop/glossary.md) and those of cntc_* and subs_*
-(src/capi/interface.txt).
+elsewhere are the arguments that mean the same everywhere (doc/develop/glossary.md), those of cntc_* and subs_*
+(src/capi/interface.txt), and those of the functions of include/contact.h.
 """
 import os
 import pathlib
@@ -14,9 +14,10 @@ import re
 import sys
 
 PROCEDURE = re.compile(r"^(?!end\b)(?:[a-z][^'\"!]*\s)?(?:subroutine|function)\s+(\w+)\s*(\([^)]*\))?")
-KIND = re.compile(r"(?:type|class)\(\s*(\w+)")
+KIND = re.compile(r"(?:(?:type|class)\(\s*)?(\w+)")
 HOUSEHOLD = re.compile(r"^\| (`\w+`(?:, `\w+`)*) \| `(\w+)` \| \w", re.MULTILINE)
 ROUTINE = re.compile(r"^((?:cntc|subs)_\w+)\(", re.MULTILINE)
+FUNCTION = re.compile(r"\b(contact_\w+)\(")
 BLOCK = re.compile(r"^(?:abstract )?interface\b\s*(\w*)")
 TYPE = re.compile(r"^type\s*(?:,\s*([^:]*))?::\s*(\w+)|^type\s+(\w+)\s*$")
 DECLARATION = re.compile(r"^(?:integer|real|complex|logical|character|type|class|procedure)\b.*?::\s*(.*)")
@@ -273,7 +274,8 @@ def judge_itself():
     found = [what[2:] for what in offences({"planted": Source(PLANTED.splitlines())})]
     assert found == [("first_of_two", "w"), ("seen", "b"), ("shown", "number"), ("shown", "size_of_it")], found
     routine = ["subroutine cntc_x(log, a)", "type(log_type), intent(in) :: log", "real, intent(in) :: a", "end subroutine"]
-    for household, routines, left in ((), (), ["log", "a"]), ({("log", "log_type")}, (), ["a"]), ((), {"cntc_x"}, []):
+    for household, routines, left in ((), (), ["log", "a"]), ({("log", "log_type")}, (), ["a"]), ({("a", "real")}, (), ["log"]), \
+            ((), {"cntc_x"}, []):
         found = [what[3] for what in offences({"x": Source(routine)}, household, routines)]
         assert found == left, found
 
@@ -286,8 +288,9 @@ def main():
     sources = {file.relative_to(top / "src").as_posix(): Source(file.read_text(encoding="utf-8").splitlines()) for file in files}
     glossary = HOUSEHOLD.findall((top / "doc/develop/glossary.md").read_text(encoding="utf-8"))
     household = {(name, kind) for names, kind in glossary for name in re.findall(r"\w+", names)}
-    known = {kind for source in sources.values() for kind in source.types}
+    known = {kind for source in sources.values() for kind in source.types} | {"integer"}
     routines = set(ROUTINE.findall((top / "src/capi/interface.txt").read_text(encoding="utf-8")))
+    routines |= set(FUNCTION.findall((top / "include/contact.h").read_text(encoding="utf-8")))
     bad = 0
     for kind in sorted({kind for _, kind in household} - known):
         bad += 1
