@@ -7,7 +7,7 @@ module contact_output_element_table
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_numeric_pieces, only : pieces_of
-   use contact_output_formats, only : fixed, general, generals, whole
+   use contact_output_formats, only : fixed, formatted, general, whole
    use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
    use contact_text_words, only : capital
@@ -152,7 +152,7 @@ contains
       bound = result%mu(ix, iy)*result%pn(ix, iy)
       if (allocated(result%tau_c)) bound = min(bound, result%tau_c(ix, iy))
       if (motion_kind == motion%none) then
-         line = " " // generals([result%grid%x(ix), gap, result%pn(ix, iy), traction]) // fixed(angle, 10, 1)
+         line = " " // formatted([result%grid%x(ix), gap, result%pn(ix, iy), traction], "G") // fixed(angle, 10, 1)
          return
       end if
       line = " " // general(result%grid%x(ix), 12, 4) // general(gap, 11, 3) // general(result%pn(ix, iy), 11, 3) &

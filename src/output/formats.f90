@@ -11,7 +11,7 @@ module contact_output_formats
    implicit none (type, external)
    private
 
-   public :: fixed, fixeds, general, generals, heading, scientific, smart, smarts, whole
+   public :: fixed, formatted, general, heading, scientific, smart, whole
 
    !> Smaller magnitudes are written as zero: their exponents would need three digits [-]
    real(wp), parameter :: smallest = 1.0e-99_wp
@@ -158,55 +158,46 @@ contains
       end if
    end function smart
 
-   !> Values side by side in the format of `general` with 12 columns and 4 digits
-   pure function generals(values) result(text)
+   !> Values side by side in 12 columns each
+   pure function formatted(values, forms) result(line)
       !> Values to be written
       real(wp), intent(in) :: values(:)
-      character(len=12*size(values)) :: text
-      integer :: i
-      do i = 1, size(values)
-         text(12*i - 11:12*i) = general(values(i), 12, 4)
+      !> One letter for each value, the last one also for those that follow. G: general, S: smart, L: smart with six digits,
+      !> F: fixed with four decimals, P: with seven
+      character(len=*), intent(in) :: forms
+      character(len=12*size(values)) :: line
+      integer :: k, letter
+
+      do k = 1, size(values)
+         letter = min(k, len(forms))
+         associate (value => values(k), field => line(12*k - 11:12*k))
+            select case (forms(letter:letter))
+            case ("S"); field = smart(value, 12, 4, 4)
+            case ("L"); field = smart(value, 12, 4, 6)
+            case ("F"); field = fixed(value, 12, 4)
+            case ("P"); field = fixed(value, 12, 7)
+            case default; field = general(value, 12, 4)
+            end select
+         end associate
       end do
-   end function generals
+   end function formatted
 
-   !> Values side by side in 12 columns each, with four decimals
-   pure function fixeds(values) result(text)
-      !> Values to be written
-      real(wp), intent(in) :: values(:)
-      character(len=12*size(values)) :: text
-      integer :: i
-      do i = 1, size(values)
-         text(12*i - 11:12*i) = fixed(values(i), 12, 4)
-      end do
-   end function fixeds
-
-   !> Values side by side in the format of `smart` with 12 columns, 4 places and 4 digits
-   pure function smarts(values) result(text)
-      !> Values to be written
-      real(wp), intent(in) :: values(:)
-      character(len=12*size(values)) :: text
-      integer :: i
-      do i = 1, size(values)
-         text(12*i - 11:12*i) = smart(values(i), 12, 4, 4)
-      end do
-   end function smarts
-
-   !> Length of a heading, without blanks after the last name
-   pure integer function heading_length(names) result(length)
-      character(len=*), intent(in) :: names(:)
-      length = 12*size(names) - 7 + len_trim(names(size(names)))
-   end function heading_length
-
-   !> Column names for a line of values: two blanks, then three blanks and a name in every twelve columns
+   !> Column names for a line of values: two blanks, then three blanks and a name in every twelve columns; padded with blanks
    pure function heading(names) result(text)
-      !> Names of at most nine characters
-      character(len=*), intent(in) :: names(:)
-      character(len=heading_length(names)) :: text
-      integer :: i
+      !> Names of at most nine characters, separated by blanks
+      character(len=*), intent(in) :: names
+      character(len=12*(1 + len(names)/2)) :: text
+      integer :: column, first, last
 
       text = ""
-      do i = 1, size(names)
-         text(12*i - 6:) = names(i)
+      column = 6
+      last = 0
+      do
+         first = last + verify(names(last + 1:), " ")
+         if (first == last) exit
+         last = first - 2 + index(names(first:) // " ", " ")
+         text(column:) = names(first:last)
+         column = column + 12
       end do
    end function heading
 

@@ -7,8 +7,8 @@ module contact_output_report
    use contact_output_formats, only : fixed, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_input
-   use contact_output_accuracy_statement, only : write_accuracy
-   use contact_output_report_result, only : write_errors, write_sensitivities, write_solution_line, write_statistics, write_totals
+   use contact_output_report_result, only : write_accuracy, write_errors, write_sensitivities, write_solution_line, &
+      & write_statistics, write_totals
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result

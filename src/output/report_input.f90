@@ -9,8 +9,9 @@ module contact_output_report_input
    use contact_cases_spec, only : case_spec, kinematics_spec, part_source, rolling_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value
    use contact_control_translation, only : digits_of
-   use contact_output_formats, only : fixed, generals, heading, smarts, whole
-   use contact_output_report_materials, only : show, write_constants, write_friction, write_material_model
+   use contact_output_formats, only : fixed, formatted, whole
+   use contact_output_report_lines, only : show, write_row, write_title
+   use contact_output_report_materials, only : write_constants, write_friction, write_material_model
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
    private
@@ -26,7 +27,6 @@ contains
 
    !> Write digits, problem description and all groups of the input that are given by the case
    subroutine write_input(log, spec, result)
-      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> The case as given in the input
       type(case_spec), intent(in) :: spec
@@ -54,7 +54,6 @@ contains
 
    !> Digits with their names in the established program, such as PVTIME, one after the other
    pure function digit_words(digits, first, last, is_wheel_rail) result(text)
-      !> Control digits of the case
       type(case_digits), intent(in) :: digits
       !> First and last position in digit_names
       integer, intent(in) :: first, last
@@ -80,9 +79,7 @@ contains
 
    !> Write the line of the third control word, and of the iteration between both problems
    subroutine write_last_digits(log, digits)
-      !> Receives a line of digits
       type(log_type), intent(inout) :: log
-      !> Control digits of the case
       type(case_digits), intent(in) :: digits
 
       call log%result(" HGIAOWR.  " // trim(digit_words(digits, 17, 23, .false.)))
@@ -90,7 +87,6 @@ contains
 
    !> Is the normal problem solved once, or alternately with the tangential problem?
    subroutine write_outer_iteration(log, maxout)
-      !> Receives the line
       type(log_type), intent(inout) :: log
       !> Maximum number of outer iterations
       integer, intent(in) :: maxout
@@ -152,19 +148,15 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(hertz_result) :: hertz
+      character(len=11) :: kind
       integer :: option
 
       option = spec%grid%form
       if (allocated(result%hertz)) hertz = result%hertz
-      call log%result("")
-      select case (option)
-      case (grid_form%half_ellipses)
-         call log%result(" SDEC GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
-      case (grid_form%hertz_line, grid_form%hertz_line_curvature)
-         call log%result(" 2D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
-      case default
-         call log%result(" 3D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
-      end select
+      kind = "3D HERTZIAN"
+      if (any(option == [grid_form%hertz_line, grid_form%hertz_line_curvature])) kind = "2D HERTZIAN"
+      if (option == grid_form%half_ellipses) kind = "SDEC"
+      call write_title(log, " " // trim(kind) // " GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       select case (option)
       case (grid_form%hertz_curvatures)
          call labelled(" CURVATURE PRESCRIBED, A1,B1:", [spec%grid%a1, spec%grid%b1])
@@ -184,14 +176,14 @@ contains
       if (spec%grid%is_hertzian()) call labelled(" EFFECTIVE RAD.CURV RHO, SEMI-AXIS CP", [hertz%rho, hertz%cp])
       call labelled(" POTENTIAL CONTACT, SCALE:", [result%grid%xl, result%grid%yl, spec%grid%scale])
       call log%result(label_field(" DISCRETISATION MX,MY, DX,DY:") // whole(result%grid%mx, 6) &
-         & // whole(result%grid%my, 6) // generals([result%grid%dx, result%grid%dy]))
+         & // whole(result%grid%my, 6) // formatted([result%grid%dx, result%grid%dy], "G"))
 
    contains
 
       subroutine labelled(label, values)
          character(len=*), intent(in) :: label
          real(wp), intent(in) :: values(:)
-         call log%result(label_field(label) // generals(values))
+         call log%result(label_field(label) // formatted(values, "G"))
       end subroutine labelled
    end subroutine write_hertz
 
@@ -205,7 +197,7 @@ contains
    subroutine write_gd_steady(log, spec)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      character(len=9) :: decay
+      character(len=6) :: decay
       real(wp) :: shown
 
       decay = "FDECAY"
@@ -214,11 +206,10 @@ contains
          decay = "KDOWN"
          shown = real(max(1, nint(-shown)), wp)
       end if
-      call log%result("")
-      call log%result(" PARAMETERS FOR SOLVER GDSTEADY")
-      call log%result(heading([character(len=9) :: decay, "KDOWFB", "BETA", "D_IFC", "D_LIN", "D_CNS", "D_SLP", "POW_S"]))
-      call log%result("  " // generals([shown, real(spec%iteration%kdowfb, wp), spec%iteration%betath, &
-         & spec%iteration%d_ifc, spec%iteration%d_lin, spec%iteration%d_cns, spec%iteration%d_slp, spec%iteration%pow_s]))
+      call write_title(log, " PARAMETERS FOR SOLVER GDSTEADY")
+      call write_row(log, decay // " KDOWFB BETA D_IFC D_LIN D_CNS D_SLP POW_S", [shown, real(spec%iteration%kdowfb, wp), &
+         & spec%iteration%betath, spec%iteration%d_ifc, spec%iteration%d_lin, spec%iteration%d_cns, spec%iteration%d_slp, &
+         & spec%iteration%pow_s], "G")
    end subroutine write_gd_steady
 
    !> Write material constants, damping, heat, and the thin sheet between the bodies
@@ -251,14 +242,13 @@ contains
       call visit_kinematics(given, kinematics, spec%normal, spec%force)
       call visit_rolling(step, rolling, spec%material_model)
       names = "VELOC    " // title(given%names(2)) // title(given%names(3)) // "   " // given%names(4)
-      call log%result("")
-      call log%result(" KINEMATIC CONSTANTS")
+      call write_title(log, " KINEMATIC CONSTANTS")
       if (is_rolling(spec%motion)) then
          call log%result("     CHI         DQ          " // trim(names))
-         call log%result("  " // generals(step%values(:2)) // smarts([step%values(3), given%values(2:4)]))
+         call log%result("  " // formatted([step%values(:3), given%values(2:4)], "GGS"))
       else
          call log%result("     DT          " // trim(names))
-         call log%result("  " // fixed(result%dt, 8, 3) // "    " // smarts([result%veloc, given%values(2:4)]))
+         call log%result("  " // fixed(result%dt, 8, 3) // "    " // formatted([result%veloc, given%values(2:4)], "S"))
       end if
       if (.not. any(abs(given%values(5:)) > 0.0_wp)) return
       call log%result("")

@@ -1,25 +1,36 @@
 !> Results of a case in the .out file: totals, sensitivities, statistics, solution
 module contact_output_report_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_accuracy_report, only : accuracy_report
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, is_rolling, motion, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : solve_report
    use contact_cases_spec, only : case_spec
-   use contact_output_formats, only : scientific, smart, smarts, whole
+   use contact_output_formats, only : formatted, scientific, smart, whole
+   use contact_output_report_lines, only : write_title
    use contact_patch_quantities, only : error_law, total_list
    use contact_patch_result, only : patch_result
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
-   public :: ending_text, remove_noise, write_errors, write_sensitivities, write_solution_line, write_statistics, &
-      & write_total_lines, write_totals
+   public :: ending_text, remove_noise, write_accuracy, write_errors, write_sensitivities, write_solution_line, &
+      & write_statistics, write_total_lines, write_totals
 
    !> Number of errors of totals per line
    integer, parameter :: errors_per_line = 5
 
 contains
+
+   !> A number with two significant digits
+   pure function short(number) result(text)
+      real(wp), intent(in) :: number
+      character(len=len_trim(adjustl(scientific(number, 10, 1)))) :: text
+
+      text = adjustl(scientific(number, 10, 1))
+   end function short
 
    !> Set totals below the tolerance of the solution to zero for printing
    pure subroutine remove_noise(spec, totals)
@@ -97,12 +108,9 @@ contains
       real(wp) :: approach(2)
       integer :: k
 
-      if (spec%output_level >= 2) then
-         call log%result("")
-         call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
-      end if
+      if (spec%output_level >= 2) call write_title(log, " TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
       call log%result(first_heading)
-      call log%result("  " // smarts(first))
+      call log%result("  " // formatted(first, "S"))
       approach = totals%of([character(len=4) :: "pen", "pmax"])
       names = second_heading // "APPROACH     PMAX    "
       values = smart(approach(1), 12, 6, 4) // smart(approach(2), 12, 4, 4)
@@ -112,11 +120,11 @@ contains
          values = values // smart(totals%rows(k)%value, 12, 4, 4)
       end do
       call log%result(names)
-      call log%result("  " // smarts(second) // values)
+      call log%result("  " // formatted(second, "S") // values)
       if (.not. any(totals%rows(:totals%length)%name == "fn_damp")) return
       if (spec%output_level >= 2) call log%result("")
       call log%result(" DAMPING FORCES, NOT INCLUDED ABOVE:    FN          FX          " // lateral)
-      call log%result("                                  " // smarts(totals%of(["fn_damp", "fx_damp", "fy_damp"])))
+      call log%result("                                  " // formatted(totals%of(["fn_damp", "fx_damp", "fy_damp"]), "S"))
    end subroutine write_total_lines
 
    !> Write derivatives of the forces with respect to approach, creepages and spin
@@ -129,18 +137,17 @@ contains
       real(wp) :: table(3, 4)
       integer :: i, j
 
-      call log%result("")
       if (spec%motion == motion%none) then
-         call log%result(" THE SENSITIVITIES.")
+         call write_title(log, " THE SENSITIVITIES.")
          call log%result(" ZERO MEANS: NOT COMPUTED.")
          call log%result("  DFN/DPEN")
          call log%result(smart(result%sensitivity(1, 1), 12, 3, 3))
          return
       end if
       if (spec%variation == variation%by_row) then
-         call log%result(" THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN.")
+         call write_title(log, " THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN.")
       else
-         call log%result(" THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN/FSTAT.")
+         call write_title(log, " THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN/FSTAT.")
       end if
       call log%result(" ZERO MEANS: NOT COMPUTED.")
       call log%result("         DF/DPEN     DF/DKSI     DF/DETA     DF/DPHI")
@@ -157,6 +164,39 @@ contains
       end do
    end subroutine write_sensitivities
 
+   !> Write the lines of the .out file: requested accuracy, what was chosen, estimated error, and computing time
+   subroutine write_accuracy(log, report)
+      type(log_type), intent(inout) :: log
+      !> Report of the case on its accuracy
+      type(accuracy_report), intent(in) :: report
+      character(len=:), allocatable :: line
+
+      call log%result("")
+      line = " REQUIRED ACCURACY: " // short(report%required) // " OF THE FORCES, "
+      if (report%is_met) then
+         line = line // "REACHED"
+      else
+         line = line // "NOT REACHED: " // trim(report%reason)
+      end if
+      call log%result(line)
+      line = "   estimated error "
+      if (report%estimated < 0.0_wp) then
+         line = line // "unknown"
+      else
+         line = line // short(report%estimated)
+      end if
+      line = line // ", elements"
+      if (report%elements(1) > 0) line = line // " " // integer_text(report%elements(1)) // " x " // &
+         & integer_text(report%elements(2))
+      line = line // " of " // real_text(report%sides(1)) // " x " // real_text(report%sides(2)) // " mm"
+      if (report%order > 0) line = line // ", order " // integer_text(report%order)
+      call log%result(line // ", EPS " // short(report%eps))
+      if (report%method /= "") call log%result("   simplified methods allowed: " // trim(report%method))
+      line = "   " // integer_text(report%levels) // " grid"
+      if (report%levels /= 1) line = line // "s"
+      call log%result(line // ", " // short(report%seconds) // " s, of which the last one " // short(report%last_seconds) // " s")
+   end subroutine write_accuracy
+
    !> Write estimated errors of the totals
    subroutine write_errors(log, errors, totals, reason)
       type(log_type), intent(inout) :: log
@@ -168,8 +208,7 @@ contains
       character(len=:), allocatable :: line, without
       integer :: k, n
 
-      call log%result("")
-      call log%result(" ESTIMATED ERRORS OF THE TOTALS, in their units")
+      call write_title(log, " ESTIMATED ERRORS OF THE TOTALS, in their units")
       line = ""
       without = ""
       n = 0
@@ -180,7 +219,7 @@ contains
                without = without // " " // trim(row%name)
                cycle
             end if
-            line = line // "  " // trim(row%name) // ": " // trim(adjustl(scientific(errors(k), 10, 1)))
+            line = line // "  " // trim(row%name) // ": " // short(errors(k))
             if (row%unit /= "-") line = line // " " // trim(row%unit)
             n = n + 1
             if (mod(n, errors_per_line) > 0) cycle
@@ -200,21 +239,17 @@ contains
       type(patch_result), intent(in) :: result
       character(len=:), allocatable :: names, numbers
 
-      names = "    NPOT   NCON   NADH  NSLIP"
+      names = "    NPOT   NCON   NADH  NSLIP  "
       numbers = " " // whole(result%grid%npot(), 7) // whole(result%ncon, 7) // whole(result%nadh, 7) &
          & // whole(result%nslip, 7)
       if (spec%has_plasticity()) then
-         names = names // "  NPLAST"
+         names = names // "NPLAST "
          numbers = numbers // whole(result%nplast, 7)
-         names = names // " INORM  ITANG"
-      else
-         names = names // "  INORM  ITANG"
       end if
-      call log%result("")
-      call log%result(" CONTACT STATISTICS")
+      call write_title(log, " CONTACT STATISTICS")
       call log%result(" N: ELEMENTS IN A REGION,  I: PASSES OF A SOLVER (NEGATIVE: FAILED),")
       call log%result(" POT: POTENTIAL CONTACT AREA,  CON: CONTACT,  ADH: ADHESION")
-      call log%result(names)
+      call log%result(names // "INORM  ITANG")
       call log%result(numbers // whole(result%inorm, 7) // whole(result%itang, 7))
    end subroutine write_statistics
 
@@ -293,7 +328,7 @@ contains
       character(len=10) :: text
 
       text = "unknown"
-      if (residual >= 0.0_wp) text = adjustl(scientific(residual, 10, 1))
+      if (residual >= 0.0_wp) text = short(residual)
    end function residual_text
 
    !> Add which method was abandoned, and which replaced it

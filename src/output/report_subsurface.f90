@@ -3,7 +3,8 @@ module contact_output_report_subsurface
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
-   use contact_output_formats, only : fixed, general, generals, whole
+   use contact_output_formats, only : fixed, formatted, general, whole
+   use contact_output_report_lines, only : write_title
    use contact_patch_result, only : patch_result, subsurface_result
    implicit none (type, external)
    private
@@ -25,8 +26,7 @@ contains
       if (.not. spec%has_stress .or. spec%subsurface%output < 1) return
       if (.not. allocated(result%subsurface)) return
       do i = 1, size(result%subsurface)
-         call log%result("")
-         call log%result(" SUBSURFACE STRESSES BLOCK" // whole(i, 3) // ":")
+         call write_title(log, " SUBSURFACE STRESSES BLOCK" // whole(i, 3) // ":")
          call log%result(" ")
          if (allocated(result%subsurface(i)%sighyd)) then
             if (size(result%subsurface(i)%sighyd) > 0) then
@@ -88,11 +88,11 @@ contains
 
       call log%result("")
       do point = 1, size(block%sighyd)
-         call log%result(" Position (X,Y,Z):" // generals(block%position(:, point)))
+         call log%result(" Position (X,Y,Z):" // formatted(block%position(:, point), "G"))
          call log%result(" DIRECTION, DISPLACEMENT; ROW OF THE STRESS TENSOR")
          do i = 1, 3
             call log%result(whole(i, 3) // "  " // general(block%displacement(i, point), 12, 4) // "; " &
-               & // generals(block%stress(entry(:, i), point)))
+               & // formatted(block%stress(entry(:, i), point), "G"))
          end do
          call log%result("  SigHyd = " // general(block%sighyd(point), 12, 4) // ", SigVM = " &
             & // general(block%sigvm(point), 12, 4))

@@ -10,13 +10,13 @@ module contact_output_report_wheel_rail
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : bounding_box, contact_box
-   use contact_output_accuracy_statement, only : write_accuracy
    use contact_output_element_table, only : write_element_table
-   use contact_output_formats, only : fixed, fixeds, generals, heading, smart, smarts, whole
+   use contact_output_formats, only : fixed, formatted, whole
    use contact_grid_picture, only : write_picture
+   use contact_output_report_lines, only : write_row, write_title
    use contact_output_report_materials, only : write_flexibilities, write_friction
-   use contact_output_report_result, only : ending_text, remove_noise, write_errors, write_solution_line, write_statistics, &
-      & write_total_lines
+   use contact_output_report_result, only : ending_text, remove_noise, write_accuracy, write_errors, write_solution_line, &
+      & write_statistics, write_total_lines
    use contact_output_report_subsurface, only : write_subsurface
    use contact_output_report_wheel_rail_input, only : write_wheel_rail_input
    use contact_patch_quantities, only : total_list
@@ -31,7 +31,6 @@ contains
 
    !> Write everything of a case of module 1 after its flow trace
    subroutine write_wheel_rail(log, spec, result)
-      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> The case as given in the input
       type(case_spec), intent(in) :: spec
@@ -74,20 +73,17 @@ contains
       call result%totals(spec%wheel_rail, totals)
       body = trim(merge("ROLLER", "RAIL  ", spec%wheel_rail%roller))
       if (spec%output_level >= 4) then
-         call log%result(" ")
-         call log%result(" TOTAL FORCES AND MOMENTS ON " // body)
+         call write_title(log, " TOTAL FORCES AND MOMENTS ON " // body, " ")
       else if (spec%output_level >= 2) then
-         call log%result("")
-         call log%result(" TOTAL FORCES ON " // body)
+         call write_title(log, " TOTAL FORCES ON " // body)
       end if
       call log%result("     FX(TR)      FY(TR)      FZ(TR)      FX(WS)      FY(WS)      FZ(WS)")
-      call log%result(smarts(totals%of(["fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws"])))
+      call log%result(formatted(totals%of(["fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws"]), "S"))
       if (allocated(result%errors)) call write_errors(log, result%errors, totals, "")
       if (allocated(result%accuracy)) call write_accuracy(log, result%accuracy)
       if (spec%output_level < 4) return
-      call log%result("")
-      call log%result("     MX@R(TR)    MY@R(TR)    MZ@R(TR)    MX@W(WS)    MY@W(WS)    MZ@W(WS)")
-      call log%result(smarts(totals%of(["mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"])))
+      call write_title(log, "     MX@R(TR)    MY@R(TR)    MZ@R(TR)    MX@W(WS)    MY@W(WS)    MZ@W(WS)")
+      call log%result(formatted(totals%of(["mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"]), "S"))
    end subroutine write_total_forces
 
    !> Write one contact patch
@@ -119,8 +115,7 @@ contains
                end if
             end if
          end if
-         call log%result("")
-         call log%result(" ----- DATA FOR CONTACT PATCH" // whole(number, 3) // origin // " -----")
+         call write_title(log, " ----- DATA FOR CONTACT PATCH" // whole(number, 3) // origin // " -----")
          if (spec%output_level >= 2) then
             call write_reference(log, totals)
             if (allocated(patch%curve)) call write_curved_contact(log, patch, s)
@@ -149,13 +144,11 @@ contains
       !> Totals of the patch
       type(total_list), intent(in) :: totals
 
-      call log%result("")
-      call log%result(" CONTACT REFERENCE LOCATION")
+      call write_title(log, " CONTACT REFERENCE LOCATION")
       call log%result("     XCP(TR)     YCP(TR)     ZCP(TR)    DELTCP(TR)   YCP(R)      ZCP(R)")
-      call log%result(fixeds(totals%of([character(len=9) :: "xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r"])))
-      call log%result("")
-      call log%result("     XCP(W)      YCP(W)      ZCP(W)")
-      call log%result(fixeds(totals%of(["xcp_w", "ycp_w", "zcp_w"])))
+      call log%result(formatted(totals%of([character(len=9) :: "xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r"]), "F"))
+      call write_title(log, "     XCP(W)      YCP(W)      ZCP(W)")
+      call log%result(formatted(totals%of(["xcp_w", "ycp_w", "zcp_w"]), "F"))
    end subroutine write_reference
 
    !> Write the extent of the contact area on its curved reference surface, the angles at its ends, and the moments in the axes of
@@ -181,7 +174,7 @@ contains
          call log%line(" Contact angle" // fixed(s*patch%delta/degree, 8, 2) // " deg at the reference, from" &
             & // fixed(range(1), 8, 2) // " to" // fixed(range(2), 8, 2) // " deg in the contact area")
       end if
-      call log%line(" Moments about the reference MX, MS, MN:" // smarts([s, 1.0_wp, s]*patch%moment) // " N mm")
+      call log%line(" Moments about the reference MX, MS, MN:" // formatted([s, 1.0_wp, s]*patch%moment, "S") // " N mm")
    end subroutine write_curved_contact
 
    !> Write the friction in the patch, if it varies over the rail
@@ -208,10 +201,8 @@ contains
          call write_flexibilities(log, contact%flx)
       end if
       if (.not. has_slope_reduction(model)) return
-      call log%result("")
-      call log%result(" MODIFIED " // merge("FASTRIP", "FASTSIM", is_fastrip(model)) // " SLOPE REDUCTION PARAMETERS")
-      call log%result(heading([character(len=9) :: "K0_EFF"]))
-      call log%result("  " // generals([contact%k_eff]))
+      call write_title(log, " MODIFIED " // merge("FASTRIP", "FASTSIM", is_fastrip(model)) // " SLOPE REDUCTION PARAMETERS")
+      call write_row(log, "K0_EFF", [contact%k_eff], "G")
    end subroutine write_patch_flexibility
 
    !> Write creepages of the patch
@@ -222,15 +213,12 @@ contains
       real(wp), intent(in) :: s
 
       associate (contact => patch%contact)
-         call log%result("")
-         call log%result(" KINEMATIC CONSTANTS")
-         call log%result("     CHI         DQ          VELOC       CKSI        CETA        CPHI")
-         call log%result("  " // smart(s*contact%chi, 12, 4, 4) // generals([contact%dq]) // smart(contact%veloc, 12, 4, 4) &
-            & // smarts([contact%cksi, s*contact%ceta, s*contact%cphi]))
+         call write_title(log, " KINEMATIC CONSTANTS")
+         call write_row(log, "CHI DQ VELOC CKSI CETA CPHI", [s*contact%chi, contact%dq, contact%veloc, contact%cksi, &
+            & s*contact%ceta, s*contact%cphi], "SGS")
          if (.not. any(abs(patch%grid_reference) > 0.0_wp)) return
          call log%result("")
-         call log%result("     SPINXO      SPINYO")
-         call log%result("  " // generals([1.0_wp, s]*patch%grid_reference))
+         call write_row(log, "SPINXO SPINYO", [1.0_wp, s]*patch%grid_reference, "G")
       end associate
    end subroutine write_patch_kinematics
 
@@ -270,15 +258,11 @@ contains
       type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
-      integer :: i
 
-      call log%result("")
-      call log%result(" CURVED REFERENCE SURFACE, TRACK COORDINATES," // whole(size(patch%curve, 2), 5) // " POINTS:")
-      call log%result("    I        Y(I)       Z(I)       A(I)")
-      do i = 1, size(patch%curve, 2)
-         call log%result(whole(i, 6) // " " // fixed(s*patch%curve(1, i), 10, 4) // " " // fixed(patch%curve(2, i), 10, 4) &
-            & // " " // fixed(s*patch%curve(3, i), 10, 4))
-      end do
+      associate (curve => patch%curve)
+         call write_points(log, " CURVED REFERENCE SURFACE", "Y(I)       Z(I)       A(I)", &
+            & reshape([s*curve(1, :), curve(2, :), s*curve(3, :)], [size(curve, 2), 3]))
+      end associate
    end subroutine write_curve
 
    !> Write the profiles used, in track coordinates
@@ -286,28 +270,39 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(wheel_rail_result), intent(in) :: result
-      real(wp) :: s
-      integer :: i
 
-      s = sign_of(spec)
       if (allocated(result%rail_profile%s)) then
-         call log%result("")
-         call log%result(" RAIL PROFILE USED, TRACK COORDINATES," // whole(size(result%rail_profile%s), 5) // " POINTS:")
-         call log%result("    I        S(I)       Y(I)       Z(I)")
-         do i = 1, size(result%rail_profile%s)
-            call log%result(whole(i, 6) // " " // fixed(result%rail_profile%s(i), 10, 4) // " " &
-               & // fixed(s*result%rail_profile%y(i), 10, 4) // " " // fixed(result%rail_profile%z(i), 10, 4))
-         end do
+         associate (curve => result%rail_profile)
+            call write_points(log, " RAIL PROFILE USED", "S(I)       Y(I)       Z(I)", &
+               & reshape([curve%s, sign_of(spec)*curve%y, curve%z], [size(curve%s), 3]))
+         end associate
       end if
       if (allocated(result%wheel_profile%s)) then
-         call log%result("")
-         call log%result(" PRINCIPAL WHEEL PROFILE, TRACK COORDINATES," // whole(size(result%wheel_profile%s), 5) // " POINTS:")
-         call log%result("    I        S(I)       X(I)       Y(I)       Z(I)")
-         do i = 1, size(result%wheel_profile%s)
-            call log%result(whole(i, 6) // " " // fixed(result%wheel_profile%s(i), 10, 4) // " " &
-               & // fixed(result%wheel_profile%x(i), 10, 4) // " " // fixed(s*result%wheel_profile%y(i), 10, 4) // " " &
-               & // fixed(result%wheel_profile%z(i), 10, 4))
-         end do
+         associate (curve => result%wheel_profile)
+            call write_points(log, " PRINCIPAL WHEEL PROFILE", "S(I)       X(I)       Y(I)       Z(I)", &
+               & reshape([curve%s, curve%x, sign_of(spec)*curve%y, curve%z], [size(curve%s), 4]))
+         end associate
       end if
    end subroutine write_profiles
+
+   !> Write a table of points in track coordinates
+   subroutine write_points(log, title, names, table)
+      type(log_type), intent(inout) :: log
+      !> Title, and names of the columns
+      character(len=*), intent(in) :: title, names
+      !> Values in columns
+      real(wp), intent(in) :: table(:, :)
+      character(len=:), allocatable :: line
+      integer :: i, k
+
+      call write_title(log, title // ", TRACK COORDINATES," // whole(size(table, 1), 5) // " POINTS:")
+      call log%result("    I        " // names)
+      do i = 1, size(table, 1)
+         line = whole(i, 6)
+         do k = 1, size(table, 2)
+            line = line // " " // fixed(table(i, k), 10, 4)
+         end do
+         call log%result(line)
+      end do
+   end subroutine write_points
 end module contact_output_report_wheel_rail

@@ -10,9 +10,10 @@ module contact_output_report_wheel_rail_input
    use contact_cases_spec, only : case_spec, part_source
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
-   use contact_output_formats, only : fixed, generals, heading, whole
+   use contact_output_formats, only : fixed, formatted, whole
    use contact_output_report_input, only : digit_words, write_last_digits, write_outer_iteration
-   use contact_output_report_materials, only : formatted, show, write_constants, write_friction, write_material_model
+   use contact_output_report_lines, only : show, write_row, write_title
+   use contact_output_report_materials, only : write_constants, write_friction, write_material_model
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : profile_spec, rail_spec, search_spec, wheel_rail_spec, wheelset_spec
    implicit none (type, external)
@@ -27,7 +28,6 @@ contains
 
    !> Write digits, problem, and all groups of the input that are given by the case
    subroutine write_wheel_rail_input(log, spec, result, patches)
-      !> Receives the lines of the .out file
       type(log_type), intent(inout) :: log
       !> The case as given in the input
       type(case_spec), intent(in) :: spec
@@ -39,12 +39,10 @@ contains
       type(case_digits) :: digits
 
       body = trim(merge("ROLLER", "RAIL  ", spec%wheel_rail%roller))
-      call log%result("")
-      call log%result(" WHEEL-" // body // " CONTACT, " // trim(merge("LEFT ", "RIGHT", spec%wheel_rail%left)) // " WHEEL," &
+      call write_title(log, " WHEEL-" // body // " CONTACT, " // trim(merge("LEFT ", "RIGHT", spec%wheel_rail%left)) // " WHEEL," &
          & // whole(patches, 3) // " CONTACT PATCH" // trim(merge("  ", "ES", patches == 1)))
-      call log%result("")
       digits = digits_of(spec)
-      call log%result(" CPBTNFS.  " // trim(digit_words(digits, 1, 7, .true.)))
+      call write_title(log, " CPBTNFS.  " // trim(digit_words(digits, 1, 7, .true.)))
       call log%result(" VLDCMZE.  " // trim(digit_words(digits, 8, 14, .true.)))
       call write_last_digits(log, digits)
       call write_problem(log, spec)
@@ -134,8 +132,7 @@ contains
       own_turn = abs(search%d_turn - (2.0_wp*search%d_sep - search%d_comb)) > no_deviation
       copy = search
       call visit_search(shown, copy, with_step=.true.)
-      call log%result(" ")
-      call log%result(" DISCRETISATION PARAMETERS")
+      call write_title(log, " DISCRETISATION PARAMETERS", " ")
       call show(log, shown, repeat("G", merge(7, 6, own_turn)))
    end subroutine write_discretisation
 
@@ -148,24 +145,21 @@ contains
       !> Output level
       integer, intent(in) :: level
 
-      call log%result(" ")
-      call log%result(" " // body // ' PROFILE "' // profile%name // '"')
+      call write_title(log, " " // body // ' PROFILE "' // profile%name // '"', " ")
       call log%result("   MIRRORY     MIRRORZ     ISMOOTH      " // trim(merge("LAMBDA", "L_FILT", profile%smoothing_method == 0)))
       call log%result(whole(profile%mirror_y, 7) // whole(profile%mirror_z, 12) // whole(profile%smoothing_method, 12) &
          & // "   " // fixed(profile%smoothing, 12, 4))
       if (level < 3) return
-      call log%result(" ")
-      call log%result("   ZIGTHRS     KINKHIG     KINKLOW      KINKWID     MAXOMIT")
-      call log%result("  " // generals([profile%zigzag, profile%kink_high, profile%kink_low, profile%kink_width, &
-         & profile%largest_omission]))
+      call write_title(log, "   ZIGTHRS     KINKHIG     KINKLOW      KINKWID     MAXOMIT", " ")
+      call log%result("  " // formatted([profile%zigzag, profile%kink_high, profile%kink_low, profile%kink_width, &
+         & profile%largest_omission], "G"))
    end subroutine write_profile_choice
 
    subroutine write_track(log, pair)
       type(log_type), intent(inout) :: log
       type(wheel_rail_spec), intent(in) :: pair
 
-      call log%result(" ")
-      call log%result(" TRACK DIMENSIONS AND RAIL POSITION")
+      call write_title(log, " TRACK DIMENSIONS AND RAIL POSITION", " ")
       associate (track => pair%track)
          if (track%gaught > 0.0_wp) then
             call log%result("    GAUGHT      GAUGWD        CANT        CURV")
@@ -191,16 +185,13 @@ contains
          if (any(abs([rail%dy, rail%dz, rail%roll, rail%vy, rail%vz, rail%vroll]) > no_deviation)) then
             copy = rail
             call visit_deviations(shown, copy)
-            call log%result(" ")
-            call log%result(" RAIL IRREGULARITY")
+            call write_title(log, " RAIL IRREGULARITY", " ")
             call show(log, shown, "FFFSSS")
          end if
          if (spec%force /= force_control%massless_rail) return
-         call log%result(" ")
-         call log%result(" MASSLESS RAIL DEFLECTION")
-         call log%result(heading([character(len=9) :: "KY_RAIL", "DY_DEFL", "FY_RAIL", "KZ_RAIL", "DZ_DEFL", "FZ_RAIL"]))
-         call log%result("  " // formatted([rail%ky, merge(-1, 1, spec%wheel_rail%left)*result%dy_defl, rail%fy, rail%kz, &
-            & result%dz_defl, rail%fz], "FFSFFS"))
+         call write_title(log, " MASSLESS RAIL DEFLECTION", " ")
+         call write_row(log, "KY_RAIL DY_DEFL FY_RAIL KZ_RAIL DZ_DEFL FZ_RAIL", [rail%ky, &
+            & merge(-1, 1, spec%wheel_rail%left)*result%dy_defl, rail%fy, rail%kz, result%dz_defl, rail%fz], "FFSFFS")
       end associate
    end subroutine write_rail
 
@@ -216,17 +207,15 @@ contains
       associate (roller => spec%wheel_rail%roller)
          call visit_position(place, copy, roller, with_force=.false.)
          call visit_velocity(rates, copy, roller, with_force=.false.)
-         call log%result("")
-         call log%result(" WHEEL-SET POSITION AND VELOCITY")
+         call write_title(log, " WHEEL-SET POSITION AND VELOCITY")
          place%names(4:) = [character(len=8) :: "ROLL_WS", "YAW_WS", "PITCH_WS"]
          place%values(3) = result%z_ws
          call show(log, place, merge("S", "L", roller) // "SFSSS")
-         call log%result("")
          rates%values(6) = result%vpitch
          if (roller) then
-            call log%result("  VPITCH_ROL    VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
+            call write_title(log, "  VPITCH_ROL    VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
          else
-            call log%result("     VX_WS       VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
+            call write_title(log, "     VX_WS       VY_WS       VZ_WS       VROLL_WS    VYAW_WS     VPITCH_WS")
          end if
          call log%result("  " // formatted(rates%values, merge("P", "S", roller) // "SSSSP"))
          call log%result("")

@@ -114,7 +114,7 @@ contains
       call suite%equal(whole(123456, 3), "123456", "a long integer keeps its digits")
       call suite%equal(smart(ieee_value(zero, ieee_quiet_nan), 12, 4, 4), "         NaN", "NaN")
       call suite%equal(general(ieee_value(zero, ieee_positive_inf), 12, 4), "         Inf", "infinity")
-      call suite%equal(heading([character(len=9) :: "NU", "G", "AK"]), "     NU          G           AK", "heading")
+      call suite%equal(trim(heading("NU G AK")), "     NU          G           AK", "heading")
    end subroutine check_special
 
    !> The same texts as edit descriptors give, for numbers of all sizes without ties in rounding
