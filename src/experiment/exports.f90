@@ -165,8 +165,8 @@ contains
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
 
-      if (allocated(self%json)) call self%json%write_failure(head)
-      if (allocated(self%hdf5)) call self%hdf5%write_failure(head)
+      if (allocated(self%json)) call self%json%write_case(head)
+      if (allocated(self%hdf5)) call self%hdf5%write_case(head)
    end subroutine write_failure
 
    !> Write a solved case of module 3
@@ -178,8 +178,8 @@ contains
       type(patch_result), intent(in) :: contact
       type(error_type), allocatable, intent(out) :: error
 
-      if (allocated(self%json)) call self%json%write_contact(head, spec, contact)
-      if (allocated(self%hdf5)) call self%hdf5%write_contact(head, given, spec, contact)
+      if (allocated(self%json)) call self%json%write_case(head, spec, contact)
+      if (allocated(self%hdf5)) call self%hdf5%write_case(head, given, spec, contact)
       if (allocated(self%vtk)) call self%vtk%write_contact(head, spec, contact, error)
    end subroutine write_contact
 
@@ -205,7 +205,7 @@ contains
          if (allocated(session%problem%wheel_surface)) bodies(2)%surface => session%problem%wheel_surface
          call self%vtk%write_wheel_rail(head, spec, pair, bodies(1), bodies(2), error)
       end if
-      if (allocated(self%json)) call self%json%write_wheel_rail(head, spec, pair)
+      if (allocated(self%json)) call self%json%write_case(head, spec, pair=pair)
       if (.not. allocated(self%hdf5)) return
       associate (problem => session%problem, w => spec%wheel_rail%wheelset)
          place = 0.0_wp
@@ -213,7 +213,7 @@ contains
          call get_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
          call get_section(problem%wheel, problem%wheel_surface, &
             & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch_of_wheel(), wheel)
-         call self%hdf5%write_wheel_rail(head, given, spec, pair, rail, wheel)
+         call self%hdf5%write_case(head, given, spec, pair=pair, rail=rail, wheel=wheel)
       end associate
    end subroutine write_wheel_rail
 end module contact_experiment_exports

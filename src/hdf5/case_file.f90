@@ -31,10 +31,7 @@ module contact_hdf5_case_file
       procedure :: go_on
       procedure :: abandon
       procedure :: close_file
-      !> Write a case without result, of module 3, of module 1
-      procedure :: write_failure
-      procedure :: write_contact
-      procedure :: write_wheel_rail
+      procedure :: write_case
    end type hdf5_case_file
 
 contains
@@ -47,7 +44,6 @@ contains
       character(len=*), intent(in) :: input, folder
       !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> Limits, with whether files must be below the folder
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> The folder if files are confined to it; otherwise unallocated, which is absent in calls
@@ -89,7 +85,6 @@ contains
       character(len=*), intent(in) :: input, folder
       !> Number of planned cases
       type(run_summary), intent(in) :: run
-      !> Limits, with whether files must be below the folder
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: final_counts(3) = [character(len=13) :: "solved", "not_converged", "refused"]
@@ -121,61 +116,55 @@ contains
       call self%finish_file(error)
    end subroutine close_file
 
-   !> Write a case that has no result: a row of /cases, and the reason
-   subroutine write_failure(self, head)
+   !> Write a case: its rows of /cases and /patches, and its group
+   subroutine write_case(self, head, given, spec, contact, pair, rail, wheel)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
-
-      call begin(self, head)
-      call self%end_case(head%finished)
-   end subroutine write_failure
-
-   !> Write a solved case of module 3
-   subroutine write_contact(self, head, given, spec, contact)
-      class(hdf5_case_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-      !> The case as given, and as solved: an accuracy chooses grid, order and tolerance
-      type(case_spec), intent(in) :: given, spec
-      type(patch_result), intent(in) :: contact
-
-      call begin(self, head)
-      call self%enter("inputs")
-      call describe_input(self, given)
-      call self%leave()
-      call write_patch(self, head, 1, spec, contact)
-      call self%end_case(head%finished)
-   end subroutine write_contact
-
-   !> Write a solved case of module 1
-   subroutine write_wheel_rail(self, head, given, spec, pair, rail, wheel)
-      class(hdf5_case_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-      !> The case as given, and as solved: an accuracy chooses grid, order and tolerance
-      type(case_spec), intent(in) :: given, spec
-      type(wheel_rail_result), intent(in) :: pair
+      !> The case as given, and as solved: an accuracy chooses grid, order and tolerance; absent: there is no result
+      type(case_spec), intent(in), optional :: given, spec
+      !> Result of module 3
+      type(patch_result), intent(in), optional :: contact
+      !> Result of module 1
+      type(wheel_rail_result), intent(in), optional :: pair
       !> Profiles, or sections at the first contact, in their own axes for a right-hand pair
+      type(profile_curve), intent(in), optional :: rail, wheel
+
+      if (present(pair)) then
+         call note_profile(self, spec%wheel_rail%rail_profile, spec%limits)
+         call note_profile(self, spec%wheel_rail%wheel_profile, spec%limits)
+      end if
+      call begin(self, head)
+      if (present(given)) then
+         call self%enter("inputs")
+         call describe_input(self, given)
+         call self%leave()
+      end if
+      if (present(contact)) call write_patch(self, head, 1, spec, contact)
+      if (present(pair)) call write_pair(self, head, spec, pair, rail, wheel)
+      call self%end_case(head%finished)
+   end subroutine write_case
+
+   !> Write the results of module 1
+   subroutine write_pair(file, head, spec, pair, rail, wheel)
+      class(hdf5_file), intent(inout) :: file
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(wheel_rail_result), intent(in) :: pair
       type(profile_curve), intent(in), optional :: rail, wheel
       type(total_list) :: markers
       integer :: k
 
-      call note_profile(self, spec%wheel_rail%rail_profile, spec%limits)
-      call note_profile(self, spec%wheel_rail%wheel_profile, spec%limits)
-      call begin(self, head)
-      call self%enter("inputs")
-      call describe_input(self, given)
-      call self%leave()
-      call describe_wheel_rail(self, spec, pair)
+      call describe_wheel_rail(file, spec, pair)
       call pair%markers(spec%wheel_rail%left, markers)
-      call describe_list(self, "markers", markers)
-      call self%enter("profiles")
-      if (present(rail)) call write_profile(self, "rail", spec, rail)
-      if (present(wheel)) call write_profile(self, "wheel", spec, wheel)
-      call self%leave()
+      call describe_list(file, "markers", markers)
+      call file%enter("profiles")
+      if (present(rail)) call write_profile(file, "rail", spec, rail)
+      if (present(wheel)) call write_profile(file, "wheel", spec, wheel)
+      call file%leave()
       do k = 1, size(pair%patches)
-         call write_patch(self, head, k, spec, pair%patches(k)%contact, pair%patches(k))
+         call write_patch(file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
       end do
-      call self%end_case(head%finished)
-   end subroutine write_wheel_rail
+   end subroutine write_pair
 
    !> Record the origin of a profile
    subroutine note_profile(self, profile, limits)

@@ -45,14 +45,10 @@ module contact_output_json_file
       procedure :: place
       !> Write the last line: the progress of the run
       procedure :: write_end
-      !> Write one line: for a case without result, of module 3, of module 1
-      procedure :: write_failure
-      procedure :: write_contact
-      procedure :: write_wheel_rail => write_wheel_rail_line
+      procedure :: write_case
       procedure :: open_group => open_object
       procedure :: close_group => close_object
       procedure :: write_item => write_value
-      procedure, private :: begin_line
       procedure, private :: key
       procedure, private :: add
       procedure, private :: add_quoted
@@ -81,7 +77,6 @@ contains
       character(len=*), intent(in) :: name
       !> Number of cases of the input
       integer, intent(in) :: planned
-      !> See open_result
       type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> Continue after this number of bytes
@@ -130,63 +125,38 @@ contains
       call self%end_line()
    end subroutine write_end
 
-   !> Begin the line of a case
-   subroutine begin_line(self, head)
+   !> Write the line of a case
+   subroutine write_case(self, head, spec, contact, pair)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
+      !> The case as solved; absent: there is no result
+      type(case_spec), intent(in), optional :: spec
+      !> Result of module 3
+      type(patch_result), intent(in), optional :: contact
+      !> Result of module 1
+      type(wheel_rail_result), intent(in), optional :: pair
+      integer :: k
 
       call self%add("{")
       self%follows = .false.
       call describe_head(self, head)
       call self%count("cases_planned", "", self%planned)
-   end subroutine begin_line
-
-   !> Write a case without a result
-   subroutine write_failure(self, head)
-      class(json_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-
-      call self%begin_line(head)
-      call self%key("patches")
-      call self%add("[]")
-      call self%end_line()
-   end subroutine write_failure
-
-   !> Write a solved case of module 3
-   subroutine write_contact(self, head, spec, contact)
-      class(json_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: contact
-
-      call self%begin_line(head)
+      if (present(pair)) then
+         call self%text("side", "", trim(merge("left ", "right", spec%wheel_rail%left)))
+         call describe_wheel_rail(self, spec, pair)
+      end if
       call self%key("patches")
       call self%add("[")
-      call write_patch(self, 1, spec, contact)
+      if (present(contact)) call write_patch(self, 1, spec, contact)
+      if (present(pair)) then
+         do k = 1, size(pair%patches)
+            if (k > 1) call self%add(",")
+            call write_patch(self, k, spec, pair%patches(k)%contact, pair%patches(k))
+         end do
+      end if
       call self%add("]")
       call self%end_line()
-   end subroutine write_contact
-
-   !> Write a solved case of module 1
-   subroutine write_wheel_rail_line(self, head, spec, pair)
-      class(json_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-      type(case_spec), intent(in) :: spec
-      type(wheel_rail_result), intent(in) :: pair
-      integer :: k
-
-      call self%begin_line(head)
-      call self%text("side", "", trim(merge("left ", "right", spec%wheel_rail%left)))
-      call describe_wheel_rail(self, spec, pair)
-      call self%key("patches")
-      call self%add("[")
-      do k = 1, size(pair%patches)
-         if (k > 1) call self%add(",")
-         call write_patch(self, k, spec, pair%patches(k)%contact, pair%patches(k))
-      end do
-      call self%add("]")
-      call self%end_line()
-   end subroutine write_wheel_rail_line
+   end subroutine write_case
 
    !> Write one contact patch as an object
    subroutine write_patch(self, number, spec, contact, place)
