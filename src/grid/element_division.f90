@@ -3,7 +3,7 @@ module contact_grid_element_division
    implicit none (type, external)
    private
 
-   public :: element, bounding_box, contact_box, copy_states, set_states
+   public :: element, bounding_box, contact_box, copy_states, list_elements, set_states
 
    type :: element_list
       integer :: exterior = 0, adhesion = 1, slip = 2, plastic = 3
@@ -49,6 +49,29 @@ contains
          end do
       end do
    end function contact_box
+
+   !> Elements for tables, in increasing index
+   subroutine list_elements(division, all_elements, at)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      !> Include those without contact?
+      logical, intent(in) :: all_elements
+      !> Column and row of each, shape (2, elements)
+      integer, allocatable, intent(out) :: at(:, :)
+      integer :: ix, iy, n
+
+      n = size(division)
+      if (.not. all_elements) n = count(division /= element%exterior)
+      allocate(at(2, n))
+      n = 0
+      do iy = 1, size(division, 2)
+         do ix = 1, size(division, 1)
+            if (division(ix, iy) == element%exterior .and. .not. all_elements) cycle
+            n = n + 1
+            at(:, n) = [ix, iy]
+         end do
+      end do
+   end subroutine list_elements
 
    !> Set contiguous element states to one value; see `copy_states`
    pure subroutine set_states(n, state, to)

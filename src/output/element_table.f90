@@ -5,9 +5,10 @@ module contact_output_element_table
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : list_elements
    use contact_numeric_pieces, only : pieces_of
    use contact_output_formats, only : fixed, formatted, general, whole
+   use contact_output_report_lines, only : write_title
    use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
    use contact_text_words, only : capital
@@ -30,62 +31,59 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), target, intent(in) :: result
       type(element_field), allocatable :: fields(:)
-      !> Lines of a block, and their elements
+      !> Lines of a block, and all elements
       character(len=longest_line), allocatable :: lines(:)
       integer, allocatable :: at(:, :)
-      logical :: all_elements
-      integer :: ix, iy, last_row, n, length
+      integer :: first, k, last_row, n, length
 
-      all_elements = spec%output_level >= 6
       call result%fields(fields)
       fields = pack(fields, has_column(fields))
       length = merge(still_columns, first_columns + width*size(fields), spec%motion == motion%none)
       call write_table_head(log, spec%motion, fields)
-      n = min(lines_of_block, result%grid%npot())
-      allocate(lines(n), at(2, n))
-      n = 0
+      call list_elements(result%division, spec%output_level >= 6, at)
+      allocate(lines(min(lines_of_block, size(at, 2))))
       last_row = 0
-      do iy = 1, result%grid%my
-         do ix = 1, result%grid%mx
-            if (result%division(ix, iy) == element%exterior .and. .not. all_elements) cycle
-            n = n + 1
-            at(:, n) = [ix, iy]
-            if (n < size(lines)) cycle
-            call write_block()
-         end do
-      end do
-      call write_block()
-
-   contains
-
-      !> Write the elements that were gathered, with the title of each row; threads share the lines of large grids
-      subroutine write_block()
-         integer :: k
-
-         if (pieces_of(result%grid%npot()) == 1) then
-            do k = 1, n
-               call set_line(spec%motion, result, fields, at(1, k), at(2, k), lines(k))
-            end do
-         else
-            !$omp parallel do
-            do k = 1, n
-               call set_line(spec%motion, result, fields, at(1, k), at(2, k), lines(k))
-            end do
-            !$omp end parallel do
-         end if
+      do first = 1, size(at, 2), lines_of_block
+         n = min(lines_of_block, size(at, 2) - first + 1)
+         call set_lines(spec%motion, result, fields, at(:, first:first + n - 1), lines)
          do k = 1, n
-            if (at(2, k) /= last_row) then
-               call log%result("")
-               call log%result(" Y = " // general(result%grid%y(at(2, k)), 12, 4) // " ROW" // whole(at(2, k), 3) &
-                  & // " OF THE POTENTIAL CONTACT")
-               call log%result("")
-               last_row = at(2, k)
-            end if
+            associate (row => at(2, first + k - 1))
+               if (row /= last_row) then
+                  call write_title(log, " Y = " // general(result%grid%y(row), 12, 4) // " ROW" // whole(row, 3) &
+                     & // " OF THE POTENTIAL CONTACT")
+                  call log%result("")
+                  last_row = row
+               end if
+            end associate
             call log%result(lines(k)(:length))
          end do
-         n = 0
-      end subroutine write_block
+      end do
    end subroutine write_element_table
+
+   !> Make the lines of elements; threads share those of large grids
+   subroutine set_lines(motion_kind, result, fields, at, lines)
+      !> Member of `motion`
+      integer, intent(in) :: motion_kind
+      type(patch_result), intent(in) :: result
+      !> Fields with a separate column
+      type(element_field), intent(in) :: fields(:)
+      !> Column and row of each element
+      integer, intent(in) :: at(:, :)
+      character(len=longest_line), intent(inout) :: lines(:)
+      integer :: k
+
+      if (pieces_of(result%grid%npot()) == 1) then
+         do k = 1, size(at, 2)
+            call set_line(motion_kind, result, fields, at(1, k), at(2, k), lines(k))
+         end do
+      else
+         !$omp parallel do
+         do k = 1, size(at, 2)
+            call set_line(motion_kind, result, fields, at(1, k), at(2, k), lines(k))
+         end do
+         !$omp end parallel do
+      end if
+   end subroutine set_lines
 
    !> Title, explanation and column heading
    subroutine write_table_head(log, motion_kind, fields)
@@ -101,8 +99,7 @@ contains
       do k = 1, size(fields)
          more(2 + width*(k - 1):1 + width*k) = repeat(" ", width - len_trim(fields(k)%name)) // capital(fields(k)%name)
       end do
-      call log%result("")
-      call log%result(" QUANTITIES DISTRIBUTED OVER THE CONTACT AREA:")
+      call write_title(log, " QUANTITIES DISTRIBUTED OVER THE CONTACT AREA:")
       call log%result(" H-PEN: UNDEFORMED DISTANCE MINUS APPROACH [MM], X [MM], PN: NORMAL PRESSURE [N/MM2],")
       if (motion_kind == motion%none) then
          call log%result(" PT: TANGENTIAL TRACTION ON BODY 1 [N/MM2], ARG: ITS DIRECTION IN DEGREES.")

@@ -4,14 +4,14 @@
 !> information that other programs do not know, the status, is appended to the names of the first line.
 module contact_output_mat_file
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : is_rolling, material_model
+   use contact_base_choices, only : has_slope_reduction, is_rolling, is_simplified, material_model
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_collector, only : collector, friction_numbers
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
-   use contact_grid_element_division, only : element
+   use contact_grid_element_division, only : list_elements
    use contact_numeric_pieces, only : pieces_of
    use contact_output_finished_file, only : finished_file
    use contact_output_formats, only : general, whole
@@ -93,6 +93,7 @@ contains
       character(len=14*(size(fields) + 2)) :: lines(13)
       type(collector) :: friction
       real(wp), allocatable :: values(:)
+      character(len=11), allocatable :: constants(:)
       character(len=11) :: names(size(fields) + 1)
       real(wp) :: chi, dq
       logical :: rolling
@@ -122,8 +123,8 @@ contains
          & (unused, i = 12, columns)])
       lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
          & result%grid%dy, chi, dq]) // integers([place%c1, place%d]) // reals([place%wheel_offset, zeros(columns - 11)])
-      lines(9) = name_line(completed("   T    M", material_names(spec%material_model), columns))
-      values = material_values(spec, result)
+      call list_materials(spec, result, constants, values)
+      lines(9) = name_line(completed("   T    M", constants, columns))
       lines(10) = two_integers(digits%t, digits%m) // reals([values, zeros(columns - 2 - size(values))])
       call list_friction(spec, friction)
       lines(11) = name_line(completed("   L    H", [character(len=11) :: "VELOC", friction%names], columns))
@@ -157,44 +158,27 @@ contains
       type(element_field), intent(in) :: fields(:)
       character(len=14*(size(fields) + 2)), allocatable :: lines(:)
       integer, allocatable :: at(:, :)
-      integer :: ix, iy, n
+      integer :: first, k, last
 
-      n = min(lines_of_block, result%grid%npot())
-      allocate(lines(n), at(2, n))
-      n = 0
-      do iy = 1, result%grid%my
-         do ix = 1, result%grid%mx
-            if (result%division(ix, iy) == element%exterior .and. spec%mat_file < all_elements) cycle
-            n = n + 1
-            at(:, n) = [ix, iy]
-            if (n < size(lines)) cycle
-            call write_block()
-         end do
-      end do
-      call write_block()
-
-   contains
-
-      !> Write the elements that were gathered
-      subroutine write_block()
-         integer :: k
-
+      call list_elements(result%division, spec%mat_file >= all_elements, at)
+      allocate(lines(min(lines_of_block, size(at, 2))))
+      do first = 1, size(at, 2), lines_of_block
+         last = min(size(at, 2), first + lines_of_block - 1)
          if (pieces_of(result%grid%npot()) == 1) then
-            do k = 1, n
-               call set_line(result, fields, at(1, k), at(2, k), lines(k))
+            do k = first, last
+               call set_line(result, fields, at(1, k), at(2, k), lines(k - first + 1))
             end do
          else
             !$omp parallel do
-            do k = 1, n
-               call set_line(result, fields, at(1, k), at(2, k), lines(k))
+            do k = first, last
+               call set_line(result, fields, at(1, k), at(2, k), lines(k - first + 1))
             end do
             !$omp end parallel do
          end if
-         do k = 1, n
+         do k = 1, last - first + 1
             call file%line(trim(lines(k)))
          end do
-         n = 0
-      end subroutine write_block
+      end do
    end subroutine write_elements
 
    !> The line of an element
@@ -216,48 +200,33 @@ contains
       end do
    end subroutine set_line
 
-   !> Names of the material constants of the model
-   pure function material_names(model) result(names)
-      !> Member of material_model
-      integer, intent(in) :: model
-      character(len=11), allocatable :: names(:)
-
-      select case (model)
-      case (material_model%viscoelastic)
-         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "FG1", "FG2", "TC1", "TC2"]
-      case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip, material_model%fastrip_plain, &
-            & material_model%fastrip_sliding)
-         names = [character(len=11) :: "GG1", "GG2", "POISS1", "FLX1", "FLX2", "FLX3", "K0_MF", "ALFAMF", "BETAMF"]
-      case (material_model%interfacial_layer)
-         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "GG3", "LAYTHK", "TAU_C0", "K_TAU"]
-      case default
-         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2"]
-      end select
-   end function material_names
-
-   !> Values for material_names
-   pure function material_values(spec, solved) result(values)
+   !> Names and values of the material constants of the model
+   pure subroutine list_materials(spec, solved, names, values)
       type(case_spec), intent(in) :: spec
       !> Result, for the flexibilities of simplified theory
       type(patch_result), intent(in) :: solved
-      real(wp), allocatable :: values(:)
+      character(len=11), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: values(:)
 
+      names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2"]
       associate (material => spec%material)
+         values = [material%gg, material%poiss]
          select case (spec%material_model)
          case (material_model%viscoelastic)
-            values = [material%gg, material%poiss, material%fg, material%tc]
-         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
-            values = [material%gg, material%poiss(1), solved%flx, material%k0_mf, material%alfamf, material%betamf]
-         case (material_model%fastrip_plain, material_model%fastrip_sliding)
-            ! values of an earlier case in store do not act
-            values = [material%gg, material%poiss(1), solved%flx, 1.0_wp, 1.0_wp, 1.0_wp]
+            names = [character(len=11) :: names, "FG1", "FG2", "TC1", "TC2"]
+            values = [values, material%fg, material%tc]
          case (material_model%interfacial_layer)
-            values = [material%gg, material%poiss, material%gg3, material%laythk, material%tau_c0, material%k_tau]
+            names = [character(len=11) :: names, "GG3", "LAYTHK", "TAU_C0", "K_TAU"]
+            values = [values, material%gg3, material%laythk, material%tau_c0, material%k_tau]
          case default
-            values = [material%gg, material%poiss]
+            if (.not. is_simplified(spec%material_model)) return
+            names = [character(len=11) :: names(:3), "FLX1", "FLX2", "FLX3", "K0_MF", "ALFAMF", "BETAMF"]
+            values = [values(:3), solved%flx, material%k0_mf, material%alfamf, material%betamf]
+            ! values of an earlier case in store do not act
+            if (.not. has_slope_reduction(spec%material_model)) values(7:9) = 1.0_wp
          end select
       end associate
-   end function material_values
+   end subroutine list_materials
 
    !> List names and values of the first friction set and of the friction memory
    subroutine list_friction(spec, a)
