@@ -1,6 +1,6 @@
 !> An input file as a sequence of cases: module lines, result elements, stored input
 module contact_input_experiment_file
-   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
@@ -21,15 +21,9 @@ module contact_input_experiment_file
    integer, parameter :: highest_element = 999, highest_patch = 9, max_elements = 100
 
    !> One case as read from the file
-   type :: input_case
-      !> Module, 0 at the end of the input
-      integer :: module_number = 0
-      !> Result element, 0 for the default one, and contact patch
-      integer :: reid = 0, cpid = 1
+   type, extends(case_address) :: input_case
       !> Number of the case within its result element and patch, from 1
       integer :: number = 0
-      !> Line of the first control word
-      integer :: first_line = 0
       !> Digits as in the file
       type(case_digits) :: digits
       type(case_spec) :: spec
@@ -204,10 +198,7 @@ contains
       do k = 1, size(values)
          call self%cases%set_number(self%varied_numbers(k), values(k))
       end do
-      this%module_number = self%varied%module_number
-      this%reid = self%varied%reid
-      this%cpid = self%varied%cpid
-      this%first_line = self%varied%line
+      this%case_address = self%varied
       this%number = 1
       call read_it()
       if (this%problems%is_usable()) then
@@ -297,14 +288,11 @@ contains
       call self%select_store(address%module_number, address%reid, address%cpid)
       if (self%current == 0) then
          call fatal_error(error, "result_element = " // integer_text(address%reid) // " is one too many; there can be " // &
-            & integer_text(max_elements), file=self%lexer%file, line=address%line)
+            & integer_text(max_elements), file=self%lexer%file, line=address%first_line)
          return
       end if
       associate (store => self%stores(self%current))
-         this%module_number = address%module_number
-         this%reid = address%reid
-         this%cpid = address%cpid
-         this%first_line = address%line
+         this%case_address = address
          this%number = self%next_number()
          call read_toml_case(self%cases%document, self%cases%node, store%memory, self%cases%used, address%module_number, &
             & ends_module, store%spec, store%cases > 0, this%spec, this%problems, store%coefficients, this%digits)

@@ -21,12 +21,12 @@ module contact_input_toml_cases
 
    !> The problem to which a case belongs, and its position
    type :: case_address
-      !> 1 or 3; 0 after the last case
+      !> Module; 0 after the last case
       integer :: module_number = 0
       !> Result element, 0 for the default one, and contact patch
       integer :: reid = 0, cpid = 1
-      !> First line of the case, and last line before the next
-      integer :: line = 0, last_line = 0
+      !> First line of the case: of its control words or of its table; and last line before the next
+      integer :: first_line = 0, last_line = 0
    end type case_address
 
    !> The cases of a file
@@ -138,7 +138,7 @@ contains
          call find_address(self, following, next, later)
          ends_module = allocated(later) .or. next%module_number /= self%address%module_number .or. &
             & next%reid /= self%address%reid .or. next%cpid /= self%address%cpid
-         self%address%last_line = max(self%address%line, self%document%nodes(following)%line - 1)
+         self%address%last_line = max(self%address%first_line, self%document%nodes(following)%line - 1)
       end if
       address = self%address
    end subroutine go_on
@@ -152,7 +152,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: index
 
-      address%line = self%document%nodes(node)%line
+      address%first_line = self%document%nodes(node)%line
       index = self%document%child(node, "module")
       if (index > 0) then
          select case (self%document%text_of(index))
