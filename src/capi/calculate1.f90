@@ -1,7 +1,7 @@
 !> Calculation for wheel and rail (module 1) of a caller, from settings to results and files
 module contact_capi_calculate1
    use contact_base_case_status, only : case_status
-   use contact_base_error, only : error_kind, error_type, fatal_error, full_text
+   use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_files, only : find_result_file, find_working_folder

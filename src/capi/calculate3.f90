@@ -24,7 +24,6 @@ module contact_capi_calculate3
    use contact_output_report, only : write_case
    use contact_patch_border, only : border_elements
    use contact_patch_time_steps, only : elements_left_out
-   use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 

@@ -1,7 +1,6 @@
 !> Cases of callers, written as an input file of the program (flag 2002)
 module contact_capi_input_dump
    use contact_base_error, only : error_type
-   use contact_base_kinds, only : wp
    use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
    use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : report_error, warn

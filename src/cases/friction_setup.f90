@@ -2,7 +2,7 @@
 module contact_cases_friction_setup
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : motion, variation
-   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, heat_spec
    use contact_friction_law, only : friction_driver, friction_law

@@ -4,7 +4,6 @@
 !> flags.
 module contact_cases_own_keys
    use contact_base_choices, only : heat_source
-   use contact_base_kinds, only : wp
    use contact_cases_accuracy_plan, only : largest_accuracy, smallest_accuracy
    use contact_cases_approximate_methods, only : allowances
    use contact_cases_archive, only : case_archive

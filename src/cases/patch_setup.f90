@@ -13,7 +13,6 @@ module contact_cases_patch_setup
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec, part_source
    use contact_friction_law, only : friction_driver
-   use contact_friction_new_law, only : friction_model
    use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law

@@ -1,6 +1,5 @@
 !> Warning about contact that is only a few elements wide
 module contact_cases_resolution_warning
-   use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_patch_resolution, only : elements_across, enough_elements, enough_sides, is_coarse
    use contact_patch_result, only : patch_result

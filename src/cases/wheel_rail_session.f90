@@ -2,7 +2,7 @@
 module contact_cases_wheel_rail_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
       & motion, normal_control, pressure_model, sensitivity_choice, time_link, variation
-   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_base_memory, only : bytes_per_element, require_memory

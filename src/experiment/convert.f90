@@ -1,7 +1,6 @@
 !> Conversion of experiments between the two input formats
 module contact_experiment_convert
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
-   use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
    use contact_cases_spec, only : case_spec
    use contact_experiment_input_cases, only : next_valid_case

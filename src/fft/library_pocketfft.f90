@@ -1,6 +1,6 @@
 !> Transforms by pocketfft, whose licence allows distribution with any program; see library_fftw.f90
 module contact_fft_library
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_double_complex, c_int, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double_complex, c_int, c_null_ptr, c_ptr
    implicit none (type, external)
    private
 

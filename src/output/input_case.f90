@@ -1,7 +1,6 @@
 !> Cases as input files, so that cases solved through the library can be solved by the program
 module contact_output_input_case
    use contact_base_choices, only : planform_choice, pressure_model, slip_source
-   use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_cases_whole_case, only : visit_case
    use contact_control_translation, only : digits_of

@@ -3,7 +3,7 @@ module contact_patch_yield
    use contact_base_choices, only : motion
    use contact_base_constants, only : nmm_per_joule
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : bounding_box, element
+   use contact_grid_element_division, only : bounding_box
    use contact_patch_problem, only : carried, patch_problem, patch_state, rolling_direction, traction_fields
    use contact_patch_result, only : patch_result
    use contact_tangential_problem, only : tangential_problem, tangential_solution

@@ -8,7 +8,6 @@ module contact_tangential_nested
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
-   use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    use contact_numeric_pieces, only : pieces_of

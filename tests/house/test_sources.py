@@ -31,11 +31,24 @@ CHANGED_INPUT = re.compile(r"(?:type|class)\((?:\w+_spec|input_case)\), intent\(
 MADE_RESULT = re.compile(r"(?:type|class)\(\w+_result\), intent\((?:inout|out)\)")
 # First line of a comment that begins in the middle of a sentence
 CUT_OFF = re.compile(r"   !> [a-z]{3,}(?:$|,| [a-z])")
+# The names that a module takes from another one; with the signs of operators they are not followed
+IMPORT = re.compile(r"^ *use\b.*only : (.*)$", re.MULTILINE)
 # A derived type with its components, the names in a declaration of components, and statements that may set a component
 TYPE = re.compile(r"^ *type(?:, [^\n:]*)? ?:: (\w+)\n(.*?)^ *(?:contains|end type)\b", re.MULTILINE | re.DOTALL)
 COMPONENTS = re.compile(r"^(?!.*\bprocedure\b).*?:: (.*)$", re.MULTILINE)
 COMPONENT = re.compile(r"(\w+)(?:\([^()]*\))?(?: *=>? *[^,()]*(?:\([^()]*\))?)?(?:, |$)")
 SETS = r"%{}\b[^=]*(?<![=/<>])=(?!=)|\b(?:call|allocate|move_alloc|read|open|inquire|source)\b|=>"
+
+
+def unused_imports(text):
+    """Names that a module takes from another one and does not use, also not as the kind of a number, 0.0_wp"""
+    text = re.sub(r"&\s*\n\s*&", "", text)
+    body = re.sub(r"^ *(?:use\b|!).*$", "", text, flags=re.MULTILINE)
+    for names in IMPORT.findall(text):
+        for name in names.split(","):
+            name = name.split("=>")[0].strip()
+            if re.fullmatch(r"\w+", name) and not re.search(rf"(?:\b|\d_){name}\b", body, re.IGNORECASE):
+                yield name
 
 
 def written_back(text):
@@ -120,6 +133,9 @@ def main():
     assert [line[0] for line in offences(mixed, "capi")] == [1, 2], "numbers of choices"
     made = ("   pure subroutine a(spec, result)\n      type(case_spec), intent({}) :: spec\n"
             "      type(patch_result), intent(out) :: result\n   end subroutine a\n")
+    taken = ("   use a, only : wp, long, &\n      & one, two, operator(+)\n   use b, only : mine => yours, three\n   ! two\n"
+             "   x = 0.0_wp + one(mine)\n   call tell('three')\n")
+    assert list(unused_imports(taken)) == ["long", "two"], "names that are taken and not used"
     assert list(written_back(made.format("inout"))) == ["a"] and not list(written_back(made.format("in"))), "results in the input"
     comments = ["!> A module", "module a", "!> a component", "   !> Another", "end module a", "! behind it"]
     assert [line[0] for line in offences(comments)] == [3], "comments that are not indented"
@@ -149,6 +165,9 @@ def main():
             bad += 1
             print(f"FAILED {file}: no reader knows the choice {choice}")
     for file in files:
+        for name in unused_imports(file.read_text(encoding="utf-8")):
+            bad += 1
+            print(f"FAILED {file}: {name} is taken from another module and not used")
         for name in written_back(file.read_text(encoding="utf-8")):
             bad += 1
             print(f"FAILED {file}: {name} makes a result and may change its specification: problem in, result out")
