@@ -19,8 +19,8 @@ module contact_output_formats
    real(wp), parameter :: smart_zero = 1.0e-20_wp
    !> Maximum magnitude of a number that is converted to an integer [-]
    real(wp), parameter :: integer_limit = 9.0e15_wp
-   !> Columns of the working text
-   integer, parameter :: room = 40
+   !> Columns of the working text, and of a line of names
+   integer, parameter :: room = 40, line_length = 132
    !> Powers of ten that are represented exactly
    real(wp), parameter :: ten(0:22) = [1.0e0_wp, 1.0e1_wp, 1.0e2_wp, 1.0e3_wp, 1.0e4_wp, 1.0e5_wp, 1.0e6_wp, &
       & 1.0e7_wp, 1.0e8_wp, 1.0e9_wp, 1.0e10_wp, 1.0e11_wp, 1.0e12_wp, 1.0e13_wp, 1.0e14_wp, 1.0e15_wp, 1.0e16_wp, &
@@ -184,20 +184,23 @@ contains
 
    !> Column names for a line of values: two blanks, then three blanks and a name in every twelve columns; padded with blanks
    pure function heading(names) result(text)
-      !> Names of at most nine characters, separated by blanks
+      !> At most ten names of at most nine characters, separated by blanks
       character(len=*), intent(in) :: names
-      character(len=12*(1 + len(names)/2)) :: text
-      integer :: column, first, last
+      character(len=line_length) :: text
+      integer :: at, k, next
 
       text = ""
-      column = 6
-      last = 0
-      do
-         first = last + verify(names(last + 1:), " ")
-         if (first == last) exit
-         last = first - 2 + index(names(first:) // " ", " ")
-         text(column:) = names(first:last)
-         column = column + 12
+      next = 6
+      at = next
+      do k = 1, len(names)
+         if (names(k:k) /= " ") then
+            if (at > line_length) return
+            text(at:at) = names(k:k)
+            at = at + 1
+         else if (at > next) then
+            next = next + 12
+            at = next
+         end if
       end do
    end function heading
 

@@ -36,8 +36,10 @@ contains
       real(wp), intent(in) :: values(:)
       !> Letters for the formats of the values, see `formatted`
       character(len=*), intent(in) :: forms
+      character(len=len(heading(""))) :: line
 
-      call log%result(trim(heading(names)))
+      line = heading(names)
+      call log%result(line(:len_trim(line)))
       call log%result("  " // formatted(values, forms))
    end subroutine write_row
 
@@ -66,9 +68,8 @@ contains
       character(len=(1 + len(names))*size(names)) :: text
       integer :: k
 
-      text = ""
       do k = 1, size(names)
-         text = trim(text) // " " // names(k)
+         text((1 + len(names))*(k - 1) + 1:(1 + len(names))*k) = names(k)
       end do
    end function joined
 end module contact_output_report_lines
