@@ -23,19 +23,19 @@ program test_estimate_properties
 contains
 
    !> Estimated error of a total; -1 without an estimate
-   real(wp) function error_of(result, name) result(e)
-      type(patch_result), intent(in) :: result
+   real(wp) function error_of(solution, name) result(e)
+      type(patch_result), intent(in) :: solution
       !> Name of the total
       character(len=*), intent(in) :: name
       type(total_list) :: list
       integer :: k
 
       e = -1.0_wp
-      if (.not. allocated(result%errors)) return
-      call result%totals(list)
+      if (.not. allocated(solution%errors)) return
+      call solution%totals(list)
       k = list%place_of(name)
-      if (list%rows(k)%name /= name .or. k > size(result%errors%value)) return
-      if (.not. ieee_is_nan(result%errors%value(k))) e = result%errors%value(k)
+      if (list%rows(k)%name /= name .or. k > size(solution%errors%value)) return
+      if (.not. ieee_is_nan(solution%errors%value(k))) e = solution%errors%value(k)
    end function error_of
 
    !> The same estimates for all totals of two results
@@ -120,7 +120,7 @@ contains
 
    !> Pressures by formula do not follow from distance and approach, which may be zero; they carry the force exactly
    subroutine with_formula_pressures()
-      type(test_case) :: case
+      type(test_case) :: trial
       integer :: kind
       character(len=:), allocatable :: what
 
@@ -128,31 +128,31 @@ contains
          select case (kind)
          case (1)
             what = "SDEC"
-            case%spec = half_ellipses()
+            trial%spec = half_ellipses()
          case (2)
             what = "line"
-            case%spec = line_case(0.5_wp, 3.0_wp, 100.0_wp, 14, scale=1.2_wp)
-            case%spec%grid%my = 12
-            case%spec%pressure = pressure_model%elliptical
+            trial%spec = line_case(0.5_wp, 3.0_wp, 100.0_wp, 14, scale=1.2_wp)
+            trial%spec%grid%my = 12
+            trial%spec%pressure = pressure_model%elliptical
          case (3)
             what = "elliptical"
-            case%spec = ellipse_case(2.0_wp, 1.0_wp, 30.0_wp, 13, 12)
-            case%spec%pressure = pressure_model%elliptical
+            trial%spec = ellipse_case(2.0_wp, 1.0_wp, 30.0_wp, 13, 12)
+            trial%spec%pressure = pressure_model%elliptical
          case (4)
             what = "parabolical"
-            case%spec = ellipse_case(2.0_wp, 1.0_wp, 30.0_wp, 13, 12)
-            case%spec%pressure = pressure_model%parabolical
+            trial%spec = ellipse_case(2.0_wp, 1.0_wp, 30.0_wp, 13, 12)
+            trial%spec%pressure = pressure_model%parabolical
          end select
-         call creep(case%spec, motion%steady_rolling, ksi=5.0e-4_wp, eta=2.0e-4_wp, mu=0.3_wp)
-         case%spec%estimates_errors = .true.
-         call case%run(suite, what)
-         associate (found => case%result)
+         call creep(trial%spec, motion%steady_rolling, ksi=5.0e-4_wp, eta=2.0e-4_wp, mu=0.3_wp)
+         trial%spec%estimates_errors = .true.
+         call trial%run(suite, what)
+         associate (found => trial%result)
             call suite%check(error_of(found, "fn") < 0.0_wp, what // ": the force has no error")
             call suite%check(error_of(found, "fx") > 0.0_wp .and. error_of(found, "fx") < 0.2_wp*0.3_wp*found%fn, what // ": FX")
             call suite%check(error_of(found, "fy") > 0.0_wp .and. error_of(found, "fy") < 0.2_wp*0.3_wp*found%fn, what // ": FY")
             call suite%check(error_of(found, "pmax") > 0.0_wp .and. error_of(found, "pmax") < 0.2_wp*found%pmax, what // ": PMAX")
          end associate
-         call case%release()
+         call trial%release()
       end do
    end subroutine with_formula_pressures
 
@@ -168,28 +168,28 @@ contains
 
    !> Two half ellipses have no undeformed distance: neither that of an earlier grid, nor its planform, is used
    subroutine half_ellipses_after_another_grid()
-      type(test_case) :: case
+      type(test_case) :: trial
       type(error_type), allocatable :: error
       integer :: kind
 
       do kind = 1, 3
-         case%spec = half_ellipses()
+         trial%spec = half_ellipses()
          select case (kind)
          case (2)
-            case%spec%geometry%form = 9
-            allocate(case%spec%geometry%h(27), source=0.5_wp)
+            trial%spec%geometry%form = 9
+            allocate(trial%spec%geometry%h(27), source=0.5_wp)
          case (3)
             ! a circle of 0.5 mm
-            case%spec%geometry%planform = 2
-            case%spec%geometry%pl(:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -0.25_wp]
+            trial%spec%geometry%planform = 2
+            trial%spec%geometry%pl(:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -0.25_wp]
          end select
-         call creep(case%spec, motion%steady_rolling, ksi=5.0e-4_wp, mu=0.3_wp)
-         call case%try(error)
+         call creep(trial%spec, motion%steady_rolling, ksi=5.0e-4_wp, mu=0.3_wp)
+         call trial%try(error)
          call suite%check(.not. allocated(error), "half ellipses after another grid are solved")
          if (allocated(error)) cycle
-         call suite%check(all(abs(case%result%h) <= 0.0_wp), "they have no undeformed distance")
-         call suite%close_to(case%result%fn, 30.0_wp, 1.0e-10_wp, "they carry their force")
-         call case%release()
+         call suite%check(all(abs(trial%result%h) <= 0.0_wp), "they have no undeformed distance")
+         call suite%close_to(trial%result%fn, 30.0_wp, 1.0e-10_wp, "they carry their force")
+         call trial%release()
       end do
    end subroutine half_ellipses_after_another_grid
 end program test_estimate_properties
