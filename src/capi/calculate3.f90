@@ -76,7 +76,12 @@ contains
          if (allocated(problem%solved)) solved = problem%solved
          solved%rolling = problem%stored%acting
          call write_results(this, problem, solved, log)
-         call dump_contact_case(problem, solved)
+         if (problem%session%started_anew) then
+            ! the input that is written does not contain the case that failed
+            solved%link = time_link%initiate
+            solved%estimate = estimate_choice%fresh
+         end if
+         call dump_contact_case(this, problem, solved)
       else
          call status%only_check()
          code = library_code%success

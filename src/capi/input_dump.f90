@@ -21,7 +21,8 @@ module contact_capi_input_dump
 contains
 
    !> Write a contact problem, after it was solved
-   subroutine dump_contact_case(problem, spec)
+   subroutine dump_contact_case(this, problem, spec)
+      type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
       !> The case
       type(case_spec), intent(in) :: spec
@@ -37,6 +38,7 @@ contains
       call write_contact_case(library%input_dump, spec, problem%result)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
+      call warn_of_unwritten(this, spec)
       ignored = dumps_input()
    end subroutine dump_contact_case
 
@@ -45,9 +47,7 @@ contains
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       type(case_spec) :: written
-      type(unwritten_setting), allocatable :: settings(:)
       character(len=80) :: line
-      integer :: k
       logical :: ignored
 
       if (problem%write_input < as_given) return
@@ -70,13 +70,24 @@ contains
       call write_input_case(library%input_dump, written)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
-      settings = unwritten_settings(written)
+      call warn_of_unwritten(this, written)
+      ignored = dumps_input()
+   end subroutine dump_wheel_rail_case
+
+   !> Warn of each setting that neither the file nor an option of the program has
+   subroutine warn_of_unwritten(this, spec)
+      type(entry_type), intent(in) :: this
+      !> The case
+      type(case_spec), intent(in) :: spec
+      type(unwritten_setting), allocatable :: settings(:)
+      integer :: k
+
+      settings = unwritten_settings(spec)
       do k = 1, size(settings)
          if (settings(k)%fact /= "" .and. settings(k)%option == "") call warn(this, trim(settings(k)%fact) // &
             & ", which is not in the input file that is written")
       end do
-      ignored = dumps_input()
-   end subroutine dump_wheel_rail_case
+   end subroutine warn_of_unwritten
 
    !> Name of a profile for the input file; a profile that was given by values is written to a file, once
    subroutine name_profile(this, number, body, profile, given)

@@ -46,6 +46,8 @@ module contact_cases_session
       real(wp) :: curvatures(2) = 0.0_wp
       !> Does the next case continue from its own solution on other elements?
       logical :: refines = .false.
+      !> Has the last case failed such that the next one has no predecessor? Had the last one none for this reason?
+      logical :: has_failed = .false., started_anew = .false.
       !> Cases that the next one may continue, if they have an accuracy
       type(accuracy_series) :: series
    end type contact_session
@@ -85,6 +87,7 @@ contains
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
 
+      session%started_anew = session%has_failed
       call set_problem(spec, folder, session%problem, log, error)
       call store_hertz(session%problem, result)
       if (allocated(error)) return
@@ -113,6 +116,7 @@ contains
          call forget(session, result)
          return
       end if
+      session%has_failed = .false.
       call find_border(session%problem, result)
       ! prescribed pressures are known everywhere: contact is not truncated by a grid that contains them all
       if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
@@ -205,6 +209,7 @@ contains
       call clear_time_step(session%state%now, session%problem%grid)
       call clear_time_step(session%state%before, session%problem%grid)
       session%state%started = .true.
+      session%has_failed = .true.
       result%ncon = 0
    end subroutine forget
 

@@ -672,6 +672,18 @@ def replay():
         cntc.setcreepages(1, 1, cksi, 0.0005, 0.0004)
         same(cntc.calculate(1, 1), 0, "error code")
         forces.append(cntc.getcontactforces(1, 1))
+    # a case that is refused is not written, and the next one starts anew
+    cntc.setflags(1, 1, CNTC["ic_pvtime"], 0)
+    cntc.sethertzcontact(1, 1, -3, [25, 33, 4.25, 7.0, 21 / 17])
+    same(cntc.calculate(1, 1, -1), -34, "other elements in a case that continues the previous one: error code")
+    cntc.setwear(1, 1, [1e-4, 3000.0, 300.0])
+    last_error(1, 1)
+    same(cntc.calculate(1, 1), 0, "error code after it")
+    check("not in the input file" in last_error(1, 1)[1], "wear is reported to be left out of the file")
+    forces.append(cntc.getcontactforces(1, 1))
+    cntc.setcreepages(1, 1, 0.0005, 0.0, 0.0)
+    same(cntc.calculate(1, 1), 0, "error code of a case that continues it")
+    forces.append(cntc.getcontactforces(1, 1))
     cntc.finalize(1)
     program = os.environ["CONTACT_PROGRAM"]
     os.makedirs("program", exist_ok=True)
