@@ -1,4 +1,7 @@
-/* Initialisation of the program before that of its libraries */
+/* Initialisation of the program before that of its libraries
+ *
+ * Each function to be called is a variable of its own in the section of the linker: an array of two would be aligned to 16 bytes,
+ * and a gap behind the entry of another object file, as sanitizers have one, would be called as a null pointer. */
 #include <stddef.h>
 #include <string.h>
 
@@ -50,6 +53,6 @@ static void wait_briefly(int count, char **words, char **variables) {
   if (place != NULL) *place = choice;
 }
 
-__attribute__((section(".preinit_array"), used)) static void (*const before_all[])(int, char **, char **) = {
-  forget_variables, wait_briefly};
+__attribute__((section(".preinit_array"), used)) static void (*const second)(int, char **, char **) = forget_variables;
+__attribute__((section(".preinit_array"), used)) static void (*const third)(int, char **, char **) = wait_briefly;
 #endif
