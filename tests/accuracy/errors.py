@@ -66,9 +66,10 @@ MARGIN_WHEELS = ("2", 99712, (14, 51, 60, 69))
 # forces: one of dissimilar bodies has the bound of the leading edge, 5 to 8 times its error
 MARGIN_BOUNDS = {"forces": (0.3, 12.0, 0.8), "friction_power": (0.3, 7.0, 0.9), "elastic_energy": (0.4, 9.0, 0.8),
                  "max_mises": (0.25, 6.0, 0.9), "max_tresca": (0.25, 7.0, 0.8)}
-#: The second order: power of viscoelastic bodies, of kind, seed, count, numbers; sliding wheels whose pressures depend on the
-#: position of the elements, and one with two peaks of nearly equal pressure: seed, numbers among those of a campaign
-RELAXING = ("viscoelastic", 77201, 72, (13, 38, 42, 65))
+#: The second order: power of viscoelastic bodies and pressures of bumpy profiles, whose waves are no noise: kinds, seeds, counts,
+#: numbers; sliding wheels whose pressures depend on the position of the elements, and one with two peaks of nearly equal pressure:
+#: seed, numbers among those of a campaign
+SECOND_CONTACTS = (("viscoelastic", 77201, 72, (13, 38, 42, 65)), ("profile", 77301, 72, (27, 61)))
 SECOND_WHEELS = ((99822, (63, 64)), (99812, (62,)))
 SECOND_BOUNDS = {"friction_power": (0.3, 5.0, 1.0), "pmax": (0.3, math.inf, 0.85)}
 #: Number of other offsets for a finer grid on which the second order was replaced by the first
@@ -430,9 +431,9 @@ def main():
                               numbers)
             rows += judge_wheels(program, MARGIN_WHEELS[1], ACCEPTANCE[1], Path(name), asked.order, asked.places, MARGIN_WHEELS[2])
         if asked.check == "second":
-            kind, seed, count, numbers = RELAXING
             asked.order = ("--order", "2")
-            rows += judge(program, seed, count, [kind], limits, Path(name), asked.order, asked.places, numbers)
+            for kind, seed, count, numbers in SECOND_CONTACTS:
+                rows += judge(program, seed, count, [kind], limits, Path(name), asked.order, asked.places, numbers)
         second = tuple((seed, ACCEPTANCE[1], numbers) for seed, numbers in SECOND_WHEELS)
         usual = ((asked.seed, asked.wheels, ()),)
         wheels = {"peaks": PEAK_WHEELS, "second": second, "sliding": SLIDING_WHEELS}.get(asked.check, usual)
