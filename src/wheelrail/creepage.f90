@@ -48,7 +48,7 @@ contains
    !> Creepages in rolling
    !>
    !> V is the mean of the velocities of translation and of the wheel's circumference; on a roller it is the mean of the two
-   !> circumferential velocities.
+   !> circumferential velocities. If the wheel neither travels nor turns, V is the sliding velocity.
    pure function flat_creepage(rail, wheel, spin_axis, pitch_rate, on_rail, on_wheel, delta, roller) result(motion)
       !> Motion of rail (or roller) and wheel
       type(rigid_motion), intent(in) :: rail, wheel
@@ -79,6 +79,8 @@ contains
             motion%chi = pi
          end if
       end if
+      ! without rolling the surfaces slide everywhere: the limit of slow rolling, with finite creepages
+      if (motion%veloc < standstill) motion%veloc = norm2(p(1:2) - q(1:2))
       if (motion%veloc < standstill) return
       motion%cksi = (p(1) - q(1))/motion%veloc
       motion%ceta = (p(2) - q(2))/motion%veloc

@@ -12,9 +12,10 @@ module contact_wheelrail_height
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_gap, only : gap_curve
-   use contact_wheelrail_geometry, only : measure
+   use contact_wheelrail_geometry, only : measure, wheel_rail_geometry
    use contact_wheelrail_height_search, only : height_search, mostly_friction
    use contact_wheelrail_memory, only : sum_of_normal_forces, wheel_rail_memory, vertical_force
+   use contact_wheelrail_placement, only : side_sign
    use contact_wheelrail_problem, only : follows_surface, keeps_lattice, wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares
@@ -75,6 +76,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: target, spring
       character(len=12) :: wanted, touching
+      character(len=:), allocatable :: reason
       logical :: height_is_unknown
 
       result%status = case_status()
@@ -100,9 +102,13 @@ contains
       end if
       if (memory%geometry%touch - z > contact_reach) then
          memory%used = 0
-         call result%status%record_missed_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
-            & "wheel and rail do not meet: their lateral positions are apart")
-         call log%warning(result%status%reason)
+         if (problem%force_prescribed) then
+            call explain_gap(problem, memory%geometry, reason)
+            call result%status%record_missed_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, reason)
+            call log%warning(result%status%reason)
+         else
+            z = problem%spec%wheelset%z - problem%spec%rail%fz/problem%spec%rail%kz
+         end if
          return
       end if
       associate (touch => memory%geometry%touch, rail => problem%spec%rail)
@@ -128,6 +134,26 @@ contains
          end if
       end associate
    end subroutine find_height
+
+   !> Reason why wheel and rail do not meet at any height
+   subroutine explain_gap(problem, geometry, reason)
+      type(wheel_rail_problem), intent(in) :: problem
+      !> With the placement, and the deflection of a rail on springs
+      type(wheel_rail_geometry), intent(in) :: geometry
+      character(len=:), allocatable, intent(out) :: reason
+
+      reason = "wheel and rail do not meet: "
+      associate (ahead => geometry%placement%wheel%origin(1), radius => geometry%placement%roller_radius)
+         if (problem%spec%roller .and. abs(ahead) > radius) then
+            reason = reason // "the wheel is " // real_text(ahead) // " mm ahead of the axle of the roller, whose radius is " // &
+               & real_text(radius) // " mm"
+            return
+         end if
+      end associate
+      reason = reason // "their lateral positions are apart"
+      if (abs(geometry%deflection) > 0.0_wp) reason = reason // ", with a rail on springs at DY_DEFL = " // &
+         & real_text(side_sign(problem%spec)*geometry%deflection) // " mm"
+   end subroutine explain_gap
 
    !> Find the height at which the vertical force acts
    !>

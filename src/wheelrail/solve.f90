@@ -85,6 +85,7 @@ contains
          end do
       end if
       call warn_of_direction(problem, memory%geometry%pitch_rate, log)
+      call warn_of_slope(problem, memory, log)
       if (problem%in_loop) call memory%course%note(problem%spec%wheelset, merge(problem%spec%wheelset%fz, 0.0_wp, &
          & problem%force_prescribed .and. result%status%is_solved()), memory%geometry%penetration)
       if (problem%in_loop) call note_shares(memory)
@@ -165,7 +166,7 @@ contains
       if (allocated(template%simplified)) has_one_height = has_one_height .and. .not. is_fastrip(template%simplified%choice)
    end function has_one_height
 
-   !> Warn of a wheel that rotates against its direction of travel
+   !> Warn of a wheel that rotates against its direction of travel, or does not roll at all
    subroutine warn_of_direction(problem, pitch_rate, log)
       type(wheel_rail_problem), intent(in) :: problem
       !> Pitch rate of the wheelset, prescribed or found [rad/s]
@@ -174,6 +175,13 @@ contains
       character(len=:), allocatable :: travel
 
       if (.not. any(problem%template%motion == [motion%transient_rolling, motion%steady_rolling])) return
+      if (.not. (abs(pitch_rate) > 0.0_wp .or. abs(rate_of_pure_rolling(problem)) > 0.0_wp)) then
+         travel = "VS"
+         if (problem%spec%roller) travel = "RPITCH"
+         call log%warning("rolling without a rolling velocity, " // travel // " = 0 and VPITCH = 0: creepages are relative to the &
+            &velocity of sliding, or zero without sliding; a wheel that stands is a case of motion = ""shift""")
+         return
+      end if
       if (.not. pitch_rate*rate_of_pure_rolling(problem) < 0.0_wp) return
       if (problem%spec%roller) then
          travel = "the roller: with RPITCH = " // real_text(problem%spec%wheelset%rpitch) // " rad/s"
@@ -183,6 +191,30 @@ contains
       call log%warning("the wheel turns against " // travel // " it rolls at about VPITCH = " &
          & // real_text(rate_of_pure_rolling(problem)) // " rad/s, and VPITCH = " // real_text(pitch_rate) // " rad/s")
    end subroutine warn_of_direction
+
+   !> Warn of contact beside the top of a roller: planes of patches are level along the track
+   subroutine warn_of_slope(problem, memory, log)
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches
+      type(wheel_rail_memory), intent(in) :: memory
+      type(log_type), intent(inout) :: log
+      !> Inclination along the track that is not mentioned [rad]: the share of the normal force that FX lacks; chosen
+      real(wp), parameter :: level = 0.02_wp
+      real(wp) :: slope
+      integer :: k
+
+      if (.not. problem%spec%roller) return
+      do k = 1, memory%used
+         associate (point => memory%slot(k)%plane%origin)
+            slope = atan2(point(1), memory%geometry%placement%roller_radius - point(3))
+            if (abs(slope) <= level) cycle
+            call log%warning("a contact patch is " // real_text(point(1)) // " mm ahead of the axle of the roller, where the &
+               &surfaces are inclined by " // real_text(slope) // " rad along the track; patches are level along the track, so &
+               &that this share of the normal force is missing from FX(TR)")
+            return
+         end associate
+      end do
+   end subroutine warn_of_slope
 
    !> Set the previous time step, according to the relation to the previous case
    subroutine begin_step(problem, memory, log)

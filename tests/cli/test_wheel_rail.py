@@ -319,6 +319,48 @@ class Statements(Case):
         self.assertAlmostEqual(heights[3], heights[0], delta=1e-5)
         self.assertEqual([case["converged"] for case in results], [True, False, False, True])
 
+    def test_why_there_is_no_contact(self):
+        """Beside the track, in front of a roller, or on a rail that its springs let go"""
+        roller = self.case(side=5, vs=40.0)
+        springs = {"force": 3, "y": 0.0}
+        pushed = self.case(**springs).replace("\n 0 0 0 0 0 0\n", "\n 0 0 0 0 0 0\n 1000 3e5 1e5 2000\n", 1)
+        apart, ahead, deflected, free = self.solve(
+            self.case(y=300.0), roller.replace("\n 0 0 60000", "\n 1200 0 60000"), pushed,
+            pushed.replace("1203130 CPBTNFS", "1203030 CPBTNFS").replace("\n 0 0 60000", "\n 0 0 0.5"))[0]
+        self.assertTrue(apart["reason"].endswith("their lateral positions are apart"), apart["reason"])
+        self.assertIn("the wheel is 1200 mm ahead of the axle of the roller, whose radius is 500 mm", ahead["reason"])
+        self.assertIn("their lateral positions are apart, with a rail on springs at DY_DEFL = 300 mm", deflected["reason"])
+        # at a given height the springs carry what is prescribed, and nothing is missed
+        self.assertEqual(free["status"], "solved")
+        self.assertAlmostEqual(free["totals"]["dy_defl"]["value"], 300.0, delta=1e-3)
+        self.assertAlmostEqual(free["totals"]["dz_defl"]["value"], 0.02, delta=1e-9)
+
+    def test_sliding_without_rolling(self):
+        """The limit of slow rolling: full sliding; it had no friction, without a message"""
+        for side, vs in ((1, 1e-3), (0, 1e-3), (5, 2e-6)):
+            for location in (2, 3, 4):
+                cases = [self.case(side=side, vs=speed, vpitch=-speed/500.0, vy=100.0, location=location) for speed in (vs, 0.0)]
+                slow, standing = self.solve(*cases)[0]
+                for name in ("fx_tr", "fy_tr", "fz_tr"):
+                    a, b = (case["totals"][name]["value"] for case in (slow, standing))
+                    self.assertAlmostEqual(a, b, delta=60.0, msg=f"{side} {location} {name}")
+                self.assertGreater(standing["totals"]["fy_tr"]["value"], 15000.0)
+        _, out = self.solve(self.case(vs=0.0, vpitch=0.0), self.case(vs=0.0, vpitch=0.0, tang=1))
+        self.assertEqual(len(re.findall("rolling without a rolling velocity, VS = 0 and VPITCH = 0", out)), 1)
+
+    def test_contact_beside_the_top_of_a_roller(self):
+        """Patches are level along the track: FX(TR) lacks a share of the normal force"""
+        roller = self.case(side=5, vs=40.0)
+        _, out = self.solve(roller)
+        self.assertNotIn("inclined by", out)
+        results, out = self.solve(roller.replace("\n 0 0 60000", "\n 40 0 60000"))
+        ahead, slope = map(float, re.search(r"patch is ([\d.]+) mm ahead of the axle of the roller, where the\s+surfaces are "
+                                            r"inclined by ([\d.]+) rad", out).groups())
+        patch = results[0]["patches"][0]["totals"]
+        self.assertAlmostEqual(ahead, patch["xcp_tr"]["value"], delta=1e-3)
+        # the common normal goes through both axles
+        self.assertAlmostEqual(math.sin(slope), 40.0/(NOMRADR + NOMRADW), delta=2e-4)
+
     def test_damping(self):
         """M2 = 2: the damping forces of module 1 are printed in .out, with the sign of the side"""
         lateral = []
