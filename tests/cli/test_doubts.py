@@ -67,6 +67,21 @@ class Program(unittest.TestCase):
         return cases, [line for line in out.split("\n") if line.startswith(" Warning:")], out
 
 
+class Strips(Program):
+    def test_gap_in_a_contact_area(self):
+        """FaStrip takes two parts, one beside the other, for one ellipse: its force is too small by more than a tenth"""
+        for gap in (0.0, 0.3, 0.6):
+            force, warned = [], []
+            for digit, more in ((0, ""), (3, "\n1 1 1"), (5, "\n1 1 1")):
+                text = ball("1\n45 45 -2.25 -2.25 0.1 0.1", f"1 3\n0.5 0 0.5 0 0 0\n-3 3 -3 {-gap} -3 3 {gap} 3", cksi=0.2)
+                cases, warnings, _ = self.run_text(text.replace("0022020", f"0022{digit}20").replace(
+                    "0.28 0.28 1 1\n", f"0.28 0.28 1 1{more}\n"))
+                force.append(cases[0]["patches"][0]["totals"]["fx"]["value"])
+                warned.append(any("FaStrip on a contact area with a gap" in line for line in warnings))
+            self.assertEqual(warned, [False, False, gap > 0.0])
+            self.assertEqual(abs(force[2] - force[0]) > 0.1*abs(force[0]), gap > 0.0)
+
+
 class Border(Program):
     def alarms(self, text):
         cases, warnings, _ = self.run_text(text)
