@@ -66,9 +66,12 @@ contains
          if (allocated(error)) return
          residual = unbalanced()
          if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
-         call result%status%record_missed_force("lateral force of the rail's spring", spring_force(), spring_force() + residual, &
-            & trim(merge("it jumps where contact patches appear, join or separate", &
-            &            "no deflection balances them                            ", search%bracketed)))
+         associate (s => side_sign(problem%spec))
+            call result%status%record_missed_force("lateral force of the rail's spring", s*spring_force(), &
+               & s*(spring_force() + residual) + 0.0_wp, &  ! no negative zero
+               & trim(merge("it jumps where contact patches appear, join or separate", &
+               &            "no deflection balances them                            ", search%bracketed)))
+         end associate
          call log%warning(result%status%reason)
       end associate
 

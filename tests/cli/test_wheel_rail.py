@@ -335,6 +335,13 @@ class Statements(Case):
         self.assertAlmostEqual(free["totals"]["dy_defl"]["value"], 300.0, delta=1e-3)
         self.assertAlmostEqual(free["totals"]["dz_defl"]["value"], 0.02, delta=1e-9)
 
+    def test_spring_without_balance(self):
+        """Forces of messages have the signs of the side: a rail without a spring, pushed to the outside"""
+        for side, push in ((1, 1000), (0, -1000)):
+            pushed = self.case(side=side, force=3).replace("\n 0 0 0 0 0 0\n", f"\n 0 0 0 0 0 0\n 0 {push} 1e5 0\n", 1)
+            reason = self.solve(pushed)[0][0]["reason"]
+            self.assertIn("requested lateral force of the rail's spring %s N, found 0.00000 N" % ("%.2f" % -push), reason)
+
     def test_sliding_without_rolling(self):
         """The limit of slow rolling: full sliding; it had no friction, without a message"""
         for side, vs in ((1, 1e-3), (0, 1e-3), (5, 2e-6)):
