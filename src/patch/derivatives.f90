@@ -15,7 +15,7 @@ module contact_patch_derivatives
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
    use contact_tangential_nested, only : traction_adjoint
-   use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_problem, only : slip_of, tangential_problem
    use contact_tangential_second_order, only : is_known
    implicit none (type, external)
    private
@@ -170,7 +170,7 @@ contains
       integer, parameter :: row(3) = [fx, fy, mz]
       type(bounding_box) :: box
       real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
-      real(wp), allocatable :: slip(:, :, :), gap(:, :)
+      real(wp), allocatable :: slip(:, :, :), gap(:, :), at(:, :, :), by_angle(:, :, :), angle(:, :)
       real(wp), allocatable :: x(:), y(:)
       real(wp) :: area, reached, offset, s(2), sums(3)
       integer :: j, k, ix, iy
@@ -184,8 +184,8 @@ contains
       y = [(problem%grid%y(iy), iy=box%iy0, box%iy1)] - (problem%spin_centre(2) - offset*sin(problem%chi))
       associate (t => workspace%tangential, solution => workspace%solution)
          allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
-         allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
-         if (allocated(t%second)) allocate(slip(t%mx, t%my, 2), gap(t%mx, t%my))
+         allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), by_angle(t%mx, t%my, 3), pressure(t%mx, t%my))
+         if (allocated(t%second)) allocate(slip(t%mx, t%my, 2), at(t%mx, t%my, 2), gap(t%mx, t%my), angle(t%mx, t%my))
          weight(:, :, 1, 1) = area
          weight(:, :, 2, 2) = area
          do iy = 1, t%my
@@ -195,8 +195,9 @@ contains
             end do
          end do
          call traction_adjoint(t, workspace%box, for_tractions, workspace%tangential_work, solution, weight, by_slip, by_bound, &
-            & reached)
+            & by_angle, reached)
          derivatives%reached = max(derivatives%reached, reached)
+         if (allocated(t%second)) call slip_of(t, workspace%box, solution%p, solution%creep, at)
          do j = 1, 3
             associate (c => derivatives%by_creepage(row(j), :))
                do iy = 1, t%my
@@ -223,10 +224,11 @@ contains
             end do
             if (.not. allocated(t%second)) cycle
             call gap_changes(response(:, :, k), box, t, workspace%window, gap)
-            call edge_slip(problem, t, workspace%box%diagonal(2), solution%p, result%pn(box%ix0:box%ix1, box%iy0:box%iy1), &
-               & pressure, gap, slip)
+            call edge_slip(problem, t, workspace%box%diagonal(2), solution%p, at, &
+               & result%pn(box%ix0:box%ix1, box%iy0:box%iy1), pressure, gap, slip, angle)
             do j = 1, 3
-               derivatives%by_distance(row(j), k) = derivatives%by_distance(row(j), k) + sum(by_slip(:, :, :, j)*slip)
+               derivatives%by_distance(row(j), k) = derivatives%by_distance(row(j), k) + sum(by_slip(:, :, :, j)*slip) &
+                  & + sum(by_angle(:, :, j)*angle)
             end do
          end do
       end associate

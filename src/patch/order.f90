@@ -175,8 +175,9 @@ contains
       end associate
    end subroutine find_gaps
 
-   !> Derivative of the slip of the leading elements due to the change of their edge terms with the pressures
-   subroutine edge_slip(problem, tangential, diagonal, p, pressure, change, gap_change, slip)
+   !> Derivatives of the slip of elements near the edge, and of the angles by which it is turned, due to the change of edge terms
+   !> and of the parts of neighbours with the pressures
+   subroutine edge_slip(problem, tangential, diagonal, p, at, pressure, change, gap_change, slip, angle)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
       !> Tangential problem with edge terms at the current pressures
@@ -185,17 +186,22 @@ contains
       real(wp), intent(in) :: diagonal
       !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :)
+      !> Slip per step [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: at(:, :, :)
       !> Pressures [N/mm2] and their derivatives with respect to some input, shape (mx, my)
       real(wp), intent(in) :: pressure(:, :), change(:, :)
       !> Derivatives of the distances in the elements ahead [mm per unit], zero where these are unknown, shape (mx, my)
       real(wp), intent(in) :: gap_change(:, :)
       !> [mm per unit of the input], shape (mx, my, 2)
       real(wp), intent(out) :: slip(:, :, :)
+      !> [rad per unit of the input], shape (mx, my)
+      real(wp), intent(out) :: angle(:, :)
       type(second_order) :: terms(2)
-      real(wp) :: step, side, c(3)
-      integer :: k
+      real(wp) :: step, side, c(3), turn(2, 2)
+      integer :: ix, iy, k
 
       slip = 0.0_wp
+      angle = 0.0_wp
       if (.not. any(abs(change) > 0.0_wp)) return
       step = step_of(pressure, change, tangential%second)
       do k = 1, 2
@@ -210,6 +216,15 @@ contains
             slip(ix, iy, 1) = c(1)*p(ix, iy, 1) + c(3)*p(ix, iy, 2)
             slip(ix, iy, 2) = c(3)*p(ix, iy, 1) + c(2)*p(ix, iy, 2)
          end associate
+      end do
+      do iy = 1, tangential%my
+         do ix = 1, tangential%mx
+            if (.not. any(abs(terms(2)%part(:, ix, iy) - terms(1)%part(:, ix, iy)) > 0.0_wp)) cycle
+            do k = 1, 2
+               turn(:, k) = terms(k)%turn_of(tangential%mx, tangential%my, tangential%direction, at, ix, iy)
+            end do
+            angle(ix, iy) = (turn(1, 1)*turn(2, 2) - turn(2, 1)*turn(1, 2))/(2.0_wp*step)
+         end do
       end do
    end subroutine edge_slip
 

@@ -121,7 +121,8 @@ contains
    end subroutine traction_derivative
 
    !> Derivatives of weighted sums of tractions at a solution found by any method; see newton_adjoint
-   subroutine traction_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
+   subroutine traction_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, by_angle, &
+      & reached)
       !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
@@ -138,11 +139,14 @@ contains
       real(wp), contiguous, intent(inout) :: by_slip(:, :, :, :)
       !> Derivatives with respect to the traction bound, shape (mx, my, sums)
       real(wp), contiguous, intent(inout) :: by_bound(:, :, :)
+      !> Derivatives with respect to the angle by which the slip of an element is turned, shape (mx, my, sums)
+      real(wp), contiguous, intent(inout) :: by_angle(:, :, :)
       !> Largest relative residual [-]
       real(wp), intent(out) :: reached
 
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
-      call newton_adjoint(problem, operator, tolerance, workspace%level(1)%newton, solution, weight, by_slip, by_bound, reached)
+      call newton_adjoint(problem, operator, tolerance, workspace%level(1)%newton, solution, weight, by_slip, by_bound, &
+         & by_angle, reached)
    end subroutine traction_adjoint
 
    !> Free the plans of all levels

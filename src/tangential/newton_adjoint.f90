@@ -44,7 +44,8 @@ contains
    !> Derivatives of weighted sums of tractions with respect to the rigid slip and the bound of each element, at a solution
    !>
    !> Not for prescribed forces and yield limits with a slope, which have other systems.
-   subroutine newton_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
+   subroutine newton_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, by_angle, &
+      & reached)
       !> Problem that was solved, with given creepages
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem; the same for all elements, without memory
@@ -62,6 +63,9 @@ contains
       real(wp), contiguous, intent(inout) :: by_slip(:, :, :, :)
       !> Derivatives with respect to the traction bound, unit of the weights, shape (mx, my, sums)
       real(wp), contiguous, intent(inout) :: by_bound(:, :, :)
+      !> Derivatives with respect to the angle by which the slip of an element is turned, unit of the weights times N/mm2, shape
+      !> (mx, my, sums)
+      real(wp), contiguous, intent(inout) :: by_angle(:, :, :)
       !> Largest relative residual
       real(wp), intent(out) :: reached
       type(linear_system) :: system
@@ -69,10 +73,11 @@ contains
       type(tangential_solution) :: at
       type(tangential_problem) :: turned
       real(wp) :: left
-      integer :: j, mx, my
+      integer :: j, k, mx, my
 
       by_slip = 0.0_wp
       by_bound = 0.0_wp
+      by_angle = 0.0_wp
       reached = 0.0_wp
       if (.not. any(problem%bound > 0.0_wp)) return
       mx = problem%mx
@@ -100,7 +105,14 @@ contains
          ! l = c + e - r B e, turned back; e has no part along tractions of elements in slip
          call add_along_tractions(space, mx*my, workspace%x, workspace%best_slip, workspace%residual)
          by_bound(:, :, j) = workspace%residual(mx:1:-1, my:1:-1, 1)
-         if (allocated(turned%second)) call workspace%turns%apply_transposed(workspace%step)
+         if (allocated(turned%second)) then
+            call workspace%turns%apply_transposed(workspace%step)
+            do k = 1, workspace%turns%n
+               associate (i => workspace%turns%at(2, k) - 1)
+                  by_angle(mx - mod(i, mx), my - i/mx, j) = -system%r*workspace%turns%angle(k)
+               end associate
+            end do
+         end if
          by_slip(:, :, :, j) = -system%r*workspace%step(mx:1:-1, my:1:-1, :)
       end do
    end subroutine newton_adjoint

@@ -122,8 +122,8 @@ contains
       end if
       call copy_long(size(solution%slip), solution%slip, workspace%trial_slip)
       if (allocated(problem%second)) then
-         call workspace%turns%linearise(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
-            & problem%direction, solution%p, problem%bound, solution%slip, system%r)
+         call workspace%turns%linearise(problem%mx, problem%my, problem%second%weight, problem%second%part, problem%second%turns, &
+            & problem%contact, problem%direction, solution%p, problem%bound, solution%slip, system%r)
          call workspace%turns%act(workspace%trial_slip)
       end if
       call linearise_projection(problem%mx*problem%my, problem%contact, problem%bound, solution%p, workspace%trial_slip, system%r, &

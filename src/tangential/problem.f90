@@ -235,8 +235,8 @@ contains
       if (problem%hardens()) then
          call add_yielding(problem, p, slip, r, total, scale)
       else if (allocated(problem%second)) then
-         total = turned_residual(problem%mx, problem%my, problem%second%weight, problem%second%turns, problem%contact, &
-            & problem%direction, p, problem%bound, slip, r)
+         total = turned_residual(problem%mx, problem%my, problem%second%weight, problem%second%part, problem%second%turns, &
+            & problem%contact, problem%direction, p, problem%bound, slip, r)
          scale = sum(problem%bound**2, mask=problem%contact)
       else
          call squares(problem%mx*problem%my, problem%contact, problem%bound, p, slip, r, sums)

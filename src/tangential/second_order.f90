@@ -12,6 +12,7 @@
 module contact_tangential_second_order
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_tangential_edge_neighbours, only : edge_slope, find_parts
    use contact_tangential_slip_means, only : local_mean, mean_length, mean_slip
    use contact_tangential_slip_turns, only : turn_between
    implicit none (type, external)
@@ -31,6 +32,8 @@ module contact_tangential_second_order
       logical, allocatable :: stiff(:)
       !> Weight of a row of the equations [-], shape (mx, my)
       real(wp), allocatable :: weight(:, :)
+      !> Parts of the neighbours behind and ahead and of the bend of directions in the mean of the slip [-], shape (3, mx, my)
+      real(wp), allocatable :: part(:, :, :)
       !> Is the slip turned? Not while a solution is far off
       logical :: turns = .true.
    contains
@@ -38,6 +41,8 @@ module contact_tangential_second_order
       procedure :: add_terms
       !> Before and behind the approximate inverse of the operator: stiff elements left out
       procedure :: leave_stiff, keep_stiff
+      !> Cosine and sine of the turn of the slip of an element
+      procedure :: turn_of
       !> Slip in the middle of elements in place of that half a step ahead
       procedure :: centre_slip
       !> Half a turn of the contact
@@ -57,8 +62,8 @@ module contact_tangential_second_order
    real(wp), parameter :: usual_place = 0.5_wp
    !> Bounds for pressures that are not roots of a distance: of the term, of the position and of the other end; chosen
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
-   !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
-   real(wp), parameter :: outermost = 1.7_wp
+   !> Passes of positions of edges from gaps, which need slopes, and of slopes from positions; chosen
+   integer, parameter :: slope_passes = 2
    !> Maximum term behind an oblique edge relative to the compliance of an element: elements that are short along the direction of
    !> rolling are beyond the fit, and equations with a larger negative term need not have a solution; chosen
    real(wp), parameter :: largest_oblique = 0.5_wp
@@ -97,15 +102,17 @@ contains
       real(wp), intent(in) :: layer
       !> Gets terms and weights
       type(second_order), intent(inout) :: second
-      !> Row, element and position of each edge, in elements ahead of the first column; term relative to that of the kernel
+      !> Row, element and position of each edge, in elements ahead of the first column; term relative to that of the kernel, by the
+      !> gap that of a straight edge; number of elements of the stretch behind it, and the sum of its pressures
       integer, allocatable :: at(:, :), first(:)
       integer, allocatable :: length(:)
-      real(wp), allocatable :: place(:), share(:)
-      real(wp) :: slope, nx, ny, flexibility, scale, excess, unit, mean, part(2), oblique(3)
-      integer :: ix, iy, k, n, last, behind, j
+      real(wp), allocatable :: place(:), share(:), load(:), by_gap(:)
+      real(wp) :: slope, nx, ny, flexibility, scale, excess, unit, mean, ahead, part(2), oblique(3)
+      integer :: ix, iy, k, n, last, behind, j, pass
 
       n = count_edges(contact, direction)
-      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), length(n))
+      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), length(n), load(n), by_gap(n))
+      call fit_fields(second, size(contact, 1), size(contact, 2))
       n = 0
       do iy = 1, size(contact, 2)
          first(iy) = n + 1
@@ -123,8 +130,12 @@ contains
             n = n + 1
             at(:, n) = [ix, iy]
             length(n) = abs(ix - last)
+            call find_parts(pn(:, iy), ix, length(n), direction, 1.0_wp/plain_ratio, second%part(:, :, iy), load(n))
             share(n) = 0.0_wp
-            if (is_root) then
+            if (is_known(gap(ix, iy))) then
+               by_gap(n) = gap(ix, iy)*gg/((1.0_wp - nu)*pn(ix, iy)*2.0_wp*dx*e0)
+               share(n) = by_gap(n)
+            else if (is_root) then
                share(n) = root_share(pn(ix:last + direction:-direction, iy))
             else if (length(n) > 1) then
                share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), length(n))
@@ -135,13 +146,22 @@ contains
       end do
       first(size(contact, 2) + 1) = n + 1
 
-      call fit(second, size(contact, 1), size(contact, 2), n + count(length > 1) + count(length > 2))
+      do pass = 1, slope_passes
+         do k = 1, n
+            if (.not. is_known(gap(at(1, k), at(2, k)))) cycle
+            slope = edge_slope(place, load, first, at(2, k), k)
+            share(k) = by_gap(k)*sqrt(1.0_wp + (slope*dx/dy)**2)
+         end do
+         place = direction*at(1, :) + d0 - share/(1.0_wp + share)
+      end do
+
+      call fit(second, n + count(length > 1) + count(length > 2))
       second%gap = gap
       behind = n
       do k = 1, n
          ix = at(1, k)
          iy = at(2, k)
-         slope = edge_slope(place, first, iy, place(k))
+         slope = edge_slope(place, load, first, iy, k)
          nx = 1.0_wp/sqrt(1.0_wp + (slope*dx/dy)**2)
          ny = -slope*dx/dy*nx
          flexibility = 2.0_wp/gg*dx*nx
@@ -157,7 +177,8 @@ contains
          oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
          ! next to a layer the bodies do not see the steps of the edge
          oblique = bounded(oblique/(1.0_wp + layer/flexibility), diagonal)
-         if (layer > 0.0_wp) second%kappa(:, k) = layer_terms(scale/unit, flexibility, nu, layer, [nx, direction*ny])
+         ahead = d0 - scale/(unit + scale)
+         if (layer > 0.0_wp) second%kappa(:, k) = layer_terms(ahead, flexibility, nu, layer, [nx, direction*ny], -huge(1.0_wp))
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
          second%weight(ix, iy) = diagonal/(diagonal + max(mean, 0.0_wp))
@@ -168,39 +189,41 @@ contains
             behind = behind + 1
             second%at(:, behind) = [ix - j*direction, iy]
             second%kappa(:, behind) = part(j)*oblique
+            ! next to a layer tractions begin farther ahead of an element than the edge lies where another one enters
+            if (j == 1 .and. layer > 0.0_wp) second%kappa(:, behind) = second%kappa(:, behind) &
+               & + layer_terms(ahead + 1.0_wp, flexibility, nu, layer, [nx, direction*ny], 0.0_wp)
             second%stiff(behind) = .false.
          end do
       end do
    end subroutine find_edge_terms
 
-   !> Terms xx, yy, xy of a leading element where there is a layer between the bodies [mm/(N/mm2)]
+   !> Terms xx, yy, xy of an element by its distance from the edge, where there is a layer between the bodies [mm/(N/mm2)]
    !>
    !> With E + 2 r |sin(theta/2)| in place of the even factor E, r the flexibility of the layer relative to that of an element, the
    !> factorisation gives terms P f, f = t/(1 - t), t = Z - place, with P and Z in place of e0 and d0. Along and across the edge r
    !> is different.
-   pure function layer_terms(share, flexibility, nu, layer, normal) result(terms)
-      !> Term without layer relative to that of the kernel [-], which determines the position of the edge
-      real(wp), intent(in) :: share
+   pure function layer_terms(place, flexibility, nu, layer, normal, least) result(terms)
+      !> Distance of the edge ahead of the centre of the element [elements]
+      real(wp), intent(in) :: place
       !> Of an element to tractions along the edge, 2/G h n_x [mm/(N/mm2)]; to those across it 1 - nu times that
       real(wp), intent(in) :: flexibility, nu
       !> Displacement of the layer per unit traction [mm/(N/mm2)]
       real(wp), intent(in) :: layer
-      !> Normal of the edge [-]
-      real(wp), intent(in) :: normal(2)
+      !> Normal of the edge [-], and the least part of an element by which a term moves the edge
+      real(wp), intent(in) :: normal(2), least
       real(wp) :: terms(3)
       !> Across and along the edge
       real(wp) :: flexible(2), term(2)
-      real(wp) :: place, ratio, scale, pole
+      real(wp) :: ratio, scale, pole
       integer :: k
 
-      place = d0 - share/(1.0_wp + share)
       flexible = flexibility*[1.0_wp - nu, 1.0_wp]
       do k = 1, 2
          ratio = layer/flexible(k)
          scale = e0 + ratio &
             & + log(1.0_wp + ratio*(layer_scale(1) + layer_scale(2)/(1.0_wp + layer_scale(3)*ratio**layer_scale(4))))/pi
          pole = (1.0_wp - d0)/(1.0_wp + layer_place(1)*ratio**layer_place(2))
-         term(k) = flexible(k)*scale*(1.0_wp - pole - place)/max(place + pole, nearest_pole)
+         term(k) = flexible(k)*scale*max(1.0_wp - pole - place, least)/max(place + pole, nearest_pole)
       end do
       terms = [term(1)*normal(1)**2 + term(2)*normal(2)**2, term(1)*normal(2)**2 + term(2)*normal(1)**2, &
          & (term(1) - term(2))*normal(1)*normal(2)]
@@ -244,22 +267,30 @@ contains
       terms(2) = -terms(1)
    end function oblique_terms
 
-   !> Arrays for this number of terms; weights of 1
-   subroutine fit(second, mx, my, n)
+   !> Arrays for this number of terms
+   subroutine fit(second, n)
       type(second_order), intent(inout) :: second
-      integer, intent(in) :: mx, my, n
+      integer, intent(in) :: n
 
       if (allocated(second%at)) then
          if (size(second%stiff) /= n) deallocate(second%at, second%kappa, second%stiff)
       end if
       if (.not. allocated(second%at)) allocate(second%at(2, n), second%kappa(3, n), second%stiff(n))
-      if (allocated(second%weight)) then
-         if (any(shape(second%weight) /= [mx, my])) deallocate(second%weight)
-      end if
-      if (.not. allocated(second%weight)) allocate(second%weight(mx, my))
-      second%weight = 1.0_wp
       second%turns = .true.
    end subroutine fit
+
+   !> Fields of this size; weights of 1
+   subroutine fit_fields(second, mx, my)
+      type(second_order), intent(inout) :: second
+      integer, intent(in) :: mx, my
+
+      if (allocated(second%weight)) then
+         if (any(shape(second%weight) /= [mx, my])) deallocate(second%weight, second%part)
+      end if
+      if (.not. allocated(second%weight)) allocate(second%weight(mx, my), second%part(3, mx, my))
+      second%weight = 1.0_wp
+      second%part = 0.0_wp
+   end subroutine fit_fields
 
    !> Rows may have several stretches of contact, each with an edge
    pure integer function count_edges(contact, direction) result(n)
@@ -318,34 +349,6 @@ contains
       share = (d0 - place)/(1.0_wp - d0 + place)
    end function root_share
 
-   !> Slope of the edge, elements along x per row: mean of the differences to the nearest edges of both neighbouring rows
-   pure real(wp) function edge_slope(place, first, iy, here) result(slope)
-      !> Positions of all edges, and the index of the first one of each row; one more row has none
-      real(wp), intent(in) :: place(:)
-      integer, intent(in) :: first(:)
-      !> Row and position of this edge
-      integer, intent(in) :: iy
-      real(wp), intent(in) :: here
-      real(wp) :: nearest
-      integer :: side, row, k, n
-
-      slope = 0.0_wp
-      n = 0
-      do side = -1, 1, 2
-         row = iy + side
-         if (row < 1 .or. row > size(first) - 1) cycle
-         if (first(row) == first(row + 1)) cycle
-         nearest = place(first(row))
-         do k = first(row) + 1, first(row + 1) - 1
-            if (abs(place(k) - here) < abs(nearest - here)) nearest = place(k)
-         end do
-         slope = slope + (nearest - here)*side
-         n = n + 1
-      end do
-      if (n == 1) slope = outermost*slope
-      if (n == 2) slope = slope/n
-   end function edge_slope
-
    pure subroutine add_terms(self, p, u)
       class(second_order), intent(in) :: self
       !> Tractions [N/mm2], shape (mx, my, 2)
@@ -394,8 +397,24 @@ contains
       self%at(1, :) = mx + 1 - self%at(1, :)
       self%at(2, :) = my + 1 - self%at(2, :)
       self%weight = self%weight(mx:1:-1, my:1:-1)
+      self%part = self%part(:, mx:1:-1, my:1:-1)
       self%gap = self%gap(mx:1:-1, my:1:-1)
    end subroutine turn_round
+
+   pure function turn_of(self, mx, my, direction, slip, ix, iy) result(turn)
+      class(second_order), intent(in) :: self
+      !> Size of the window; rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: mx, my, direction
+      !> Slip per step [mm]
+      real(wp), intent(in) :: slip(mx, my, 2)
+      !> The element
+      integer, intent(in) :: ix, iy
+      real(wp) :: turn(2)
+      type(local_mean) :: mean
+
+      mean = mean_slip(mx, my, self%part(:, ix, iy), direction, slip, ix, iy)
+      turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
+   end function turn_of
 
    !> In slip as long as the mean over the element, against its tractions
    pure subroutine centre_slip(self, contact, slips, direction, slip)
@@ -416,7 +435,7 @@ contains
          do ix = 1, size(contact, 1)
             if (.not. slips(ix, iy)) cycle
             w = ahead(ix, iy, :)
-            mean = mean_slip(size(contact, 1), size(contact, 2), contact, direction, ahead, ix, iy)
+            mean = mean_slip(size(contact, 1), size(contact, 2), self%part(:, ix, iy), direction, ahead, ix, iy)
             if (.not. any(abs(w) > 0.0_wp)) cycle
             turn = [1.0_wp, 0.0_wp]
             if (self%turns) turn = turn_between(w, mean%value)

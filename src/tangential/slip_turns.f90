@@ -97,11 +97,13 @@ contains
    end subroutine differentiate_turn
 
    !> Sum of |p - P_g(p - r S)|**2 over the contact, S the acting slip: weighted, and turned in elements that slip [(N/mm2)2]
-   real(wp) function turned_residual(mx, my, weight, is_turned, contact, direction, p, bound, slip, r) result(total)
+   real(wp) function turned_residual(mx, my, weight, part, is_turned, contact, direction, p, bound, slip, r) result(total)
       !> Size of the window
       integer, intent(in) :: mx, my
       !> Weights of the rows of the equations [-]
       real(wp), intent(in) :: weight(mx, my)
+      !> Parts by which the neighbours of an element behind and ahead and the bend of directions count [-]
+      real(wp), intent(in) :: part(3, mx, my)
       !> Is slip turned?
       logical, intent(in) :: is_turned
       !> Elements in contact
@@ -112,7 +114,7 @@ contains
       real(wp), intent(in) :: p(mx, my, 2), bound(mx, my)
       !> Slip per step [mm], and its scale [(N/mm2)/mm]
       real(wp), intent(in) :: slip(mx, my, 2), r
-      real(wp) :: part(most_pieces)
+      real(wp) :: total_of(most_pieces)
       integer :: k
 
       if (pieces_of(mx*my) == 1) then
@@ -121,10 +123,10 @@ contains
       end if
       !$omp parallel do
       do k = 1, most_pieces
-         part(k) = residual_of_rows(first_row(my, k), first_row(my, k + 1) - 1)
+         total_of(k) = residual_of_rows(first_row(my, k), first_row(my, k + 1) - 1)
       end do
       !$omp end parallel do
-      total = sum(part)
+      total = sum(total_of)
 
    contains
 
@@ -146,7 +148,7 @@ contains
                   cycle
                end if
                if (is_turned) then
-                  mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
+                  mean = mean_slip(mx, my, part(:, ix, iy), direction, slip, ix, iy)
                   turn = turn_between([slip(ix, iy, 1), slip(ix, iy, 2)], mean%value)
                   z = [p(ix, iy, 1) - (turn(1)*w(1) - turn(2)*w(2)), p(ix, iy, 2) - (turn(2)*w(1) + turn(1)*w(2))]
                end if
@@ -173,12 +175,14 @@ contains
       leaves = z(1)**2 + z(2)**2 > bound**2
    end function leaves_disc
 
-   subroutine linearise_turns(self, mx, my, weight, is_turned, contact, direction, p, bound, slip, r)
+   subroutine linearise_turns(self, mx, my, weight, part, is_turned, contact, direction, p, bound, slip, r)
       class(slip_turns), intent(inout) :: self
       !> Size of the window
       integer, intent(in) :: mx, my
       !> Weights of the rows of the equations [-]
       real(wp), intent(in) :: weight(mx, my)
+      !> Parts by which the neighbours of an element behind and ahead and the bend of directions count [-]
+      real(wp), intent(in) :: part(3, mx, my)
       !> Is slip turned?
       logical, intent(in) :: is_turned
       !> Elements in contact
@@ -241,7 +245,7 @@ contains
                self%row(:, k) = [weight(ix, iy), 0.0_wp]
                self%across(:, k) = 0.0_wp
                self%by(:, :, k) = 0.0_wp
-               if (slips) call linearise_element(mx, my, contact, direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
+               if (slips) call linearise_element(mx, my, part(:, ix, iy), direction, slip, ix, iy, self%at(:, k), self%row(:, k), &
                   & self%across(:, k), self%by(:, :, k))
             end do
          end do
@@ -292,10 +296,10 @@ contains
    end subroutine turn_one
 
    !> Turn of an element in slip, and what it changes by
-   pure subroutine linearise_element(mx, my, contact, direction, slip, ix, iy, at, row, across, by)
+   pure subroutine linearise_element(mx, my, part, direction, slip, ix, iy, at, row, across, by)
       !> As in turned_residual
       integer, intent(in) :: mx, my
-      logical, intent(in) :: contact(mx, my)
+      real(wp), intent(in) :: part(3)
       integer, intent(in) :: direction
       real(wp), intent(in) :: slip(mx, my, 2)
       !> The element
@@ -306,7 +310,7 @@ contains
       type(local_mean) :: mean
       real(wp) :: w(2), turn(2), by_slip(2), to_mean(2), length
 
-      mean = mean_slip(mx, my, contact, direction, slip, ix, iy)
+      mean = mean_slip(mx, my, part, direction, slip, ix, iy)
       w = [slip(ix, iy, 1), slip(ix, iy, 2)]
       length = product_of_lengths(w, mean%value)
       if (.not. length > 0.0_wp) return
@@ -318,7 +322,7 @@ contains
       by(:, 1) = mean%share(1)*to_mean
       by(:, 2) = mean%share(2)*to_mean + by_slip
       by(:, 3) = mean%share(3)*to_mean
-      if (mean%of_behind > 0.0_wp) call add_by_shares(mean, to_mean, [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)], w, &
+      if (any(mean%part(1:2) > 0.0_wp)) call add_by_shares(mean, to_mean, [slip(mean%behind, iy, 1), slip(mean%behind, iy, 2)], w, &
          & [slip(mean%ahead, iy, 1), slip(mean%ahead, iy, 2)], by)
    end subroutine linearise_element
 

@@ -14,8 +14,9 @@ program test_edge_slip
    type(test_suite) :: suite
    type(patch_problem) :: problem
    type(tangential_problem) :: tangential
-   !> Pressures [N/mm2] and their changes, gaps [mm] and theirs, tractions [N/mm2] and slip [mm]
-   real(wp) :: pressure(mx, my), change(mx, my), gap(mx, my), gap_change(mx, my), p(mx, my, 2), slip(mx, my, 2)
+   !> Pressures [N/mm2] and their changes, gaps [mm] and theirs, tractions [N/mm2], slip and its change [mm], change of the turns
+   real(wp) :: pressure(mx, my), change(mx, my), gap(mx, my), gap_change(mx, my), p(mx, my, 2), at(mx, my, 2), slip(mx, my, 2)
+   real(wp) :: angle(mx, my)
 
    problem%model%material%nu = nu
    problem%model%material%gg = gg
@@ -24,6 +25,8 @@ program test_edge_slip
    tangential%dx = dx
    tangential%dy = dy
    allocate(tangential%contact(mx, my), tangential%second)
+   at(:, :, 1) = 1.0e-4_wp
+   at(:, :, 2) = 0.0_wp
 
    call suite%start("edge slip")
    call straight_edge()
@@ -61,7 +64,8 @@ contains
    subroutine find_slip()
       call find_edge_terms(tangential%contact, pressure, gap, .false., dx, dy, tangential%direction, nu, gg, diagonal, &
          & problem%model%layer, tangential%second)
-      call edge_slip(problem, tangential, diagonal, p, pressure, change, gap_change, slip)
+      call edge_slip(problem, tangential, diagonal, p, at, pressure, change, gap_change, slip, angle)
+      call suite%check(maxval(abs(angle)) <= epsilon(angle), "uniform slip is not turned")
    end subroutine find_slip
 
    !> A straight edge across, gaps of zero, of nearly zero and larger ones: derivatives of gap/((1 - nu) pn) times the tractions
