@@ -354,12 +354,14 @@ class Placed:
         """Velocities of the material points of rail and wheel that are now at these positions, and their angular velocity
 
         The bodies are moved to where they are a little earlier and later. Along the track the wheelset moves past the
-        rail; a roller turns about its axle.
+        rail; a roller turns about its axle. In a curve both yaw about the centre of the track.
         """
         speed = case["speed"]  # VS or RPITCH, VY, VZ, VROLL, VYAW, VPITCH
         flex = (case.get("flexible") or [0.0] * 12)[6:]
         deviation = case.get("deviation", [0.0] * 6)[3:]
-        rates = np.abs(np.array([1e-9, *speed[3:], flex[3], flex[4], flex[5], deviation[2], speed[0] if self.roller else 0.0]))
+        yaw_rate = -curvature * speed[0] * (self.roller or 1.0)
+        rates = np.abs(np.array([1e-9, *speed[3:], flex[3], flex[4], flex[5], deviation[2], speed[0] if self.roller else 0.0,
+                                 yaw_rate]))
         dt = 1e-4 / rates.max()
         inverse = self.wheel_axes.T @ (at_wheel - self.wheel_origin)
         result = []
@@ -384,7 +386,9 @@ class Placed:
             own_turn = turn(0, deviation[2] * t)
             origin = self.rail_origin
             rail = rail + (own_turn - np.eye(3)) @ (at_rail - origin) + t * np.array([0.0, deviation[0], deviation[1]])
-            result.append((rail, wheel, own_turn @ rail_turn, wheel_axes @ self.wheel_axes.T))
+            curve_turn = turn(2, yaw_rate * t)
+            rail = rail + (curve_turn - np.eye(3)) @ at_rail
+            result.append((rail, wheel, curve_turn @ own_turn @ rail_turn, wheel_axes @ self.wheel_axes.T))
         (ra, wa, rta, wta), (rb, wb, rtb, wtb) = result
         return (rb - ra) / (2 * dt), (wb - wa) / (2 * dt), _turning(rta, rtb, dt), _turning(wta, wtb, dt)
 

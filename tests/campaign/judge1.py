@@ -278,7 +278,7 @@ def motion(scene, case, placed, totals, patches, findings):
         axes = geometry1.turn(0, patch["deltcp_tr"])
         at_rail = np.array([patch["xcp_tr"], patch["ycp_tr"], patch["zcp_tr"]])
         at_wheel = at_rail + patch["pen"] * axes[:, 2]
-        v_rail, v_wheel, turn_rail, turn_wheel = placed.velocities(moved, at_rail, at_wheel)
+        v_rail, v_wheel, turn_rail, turn_wheel = placed.velocities(moved, at_rail, at_wheel, scene.get("curve", 0.0))
         v_rail, v_wheel = axes.T @ v_rail, axes.T @ v_wheel
         spin = (axes.T @ (turn_rail - turn_wheel))[2]
         if scene["digits"]["T"] == 1:
@@ -373,6 +373,8 @@ def scale(scene, tools, run, cases, findings):
     track[:3] = [2.0 * track[0], 2.0 * track[1], 2.0 * track[2]]
     large["pair"]["wheelset"] = [2.0 * value for value in pair["wheelset"]]
     large["roller"] = 2.0 * scene["roller"]
+    if "curve" in large:
+        large["curve"] *= 0.5
     large["grid"] = [2.0 * value if k in (0, 1, 4, 5) else value for k, value in enumerate(scene["grid"])]
     if "springs" in large:  # forces grow by four, deflections by two
         large["springs"] = [2.0 * value for value in large["springs"]]

@@ -10,11 +10,13 @@ A scene is a dictionary for the right-hand picture: `text` writes it for the rig
     friction   the coefficient without slip, and a smaller one for laws that fall
     materials  POISS 1, 2, GG 1, 2
     springs    KYRAIL FYRAIL KZRAIL FZRAIL, with F = 3
+    curve      curvature of the track, positive to the right; or none
     cases      one after the other: s y z fz roll yaw pitch, speed (6), p, deviation (6), flexible (12) or none, fx with F = 1
     relation   which of the relations is judged beside the results themselves
 """
 import copy
 import math
+import random
 
 import geometry1
 import profiles
@@ -83,7 +85,21 @@ def generate(rng):
     if digits["N"] == 0:
         _give_heights(rng, scene)
     scene["relation"] = rng.choice(RELATIONS)
+    _curve_and_roller(random.Random(rng.random()), scene)
     return scene
+
+
+def _curve_and_roller(rng, scene):
+    """A curve of the track, and deviations of a roller; drawn apart, so that all other numbers of a seed stay the same"""
+    size = scene["pair"]["wheelset"][2] / profiles.RADIUS
+    if rng.random() < 0.25 and scene["relation"] != "library":  # pair.set_track has no curvature
+        scene["curve"] = float("%.3g" % (rng.choice([-1.0, 1.0]) * 10.0**rng.uniform(-7.0, -5.0) / size))
+    if scene["roller"] and scene["digits"]["N"] and rng.random() < 0.5:
+        fast = 0.0 if scene["digits"]["T"] == 1 else 20000.0 * size
+        deviation = [_gauss(rng, 0.5 * size), _gauss(rng, 0.5 * size), _gauss(rng, 0.003), _gauss(rng, 0.0005 * fast),
+                     _gauss(rng, 0.0005 * fast), _gauss(rng, 0.01) if fast else 0.0]
+        for case in scene["cases"]:
+            case["deviation"] = list(deviation)
 
 
 def _case(rng, scene, wide, size):
@@ -206,7 +222,8 @@ def text(scene, side=None):
             track = pair["track"]
             y_rail = track[1] if track[0] > 0.0 else sign * track[1]
             last = scene["roller"] or track[3]
-            lines.append(" %.12g %.12g %.12g %.12g    GAUGHT ..." % (track[0], y_rail, track[2], last))
+            lines.append(" %.12g %.12g %.12g %.12g %.12g    GAUGHT ..." % (track[0], y_rail, track[2], last,
+                                                                         sign * scene.get("curve", 0.0)))
             lines.append(rail)
         lines.append(_words(case["deviation"], "deviation", sign) + "    DY DZ ROLL VY VZ VROLL")
         if digits["F"] == 3:
@@ -279,6 +296,7 @@ def reduce(scene):
             yield from changed(lambda s, k=k: (s["cases"].pop(k), s["cases"][0].update(p=2)))
     if scene["relation"] != "none":
         yield from changed(lambda s: s.update(relation="none"))
+    yield from changed(lambda s: s.pop("curve", None))
     for name, value in (("T", 0), ("F", 0), ("B", 0), ("M", 0), ("L", 0), ("V", 0), ("C", 2), ("D", 2)):
         if scene["digits"][name] != value and not (name == "C" and scene["digits"]["D"] == 4 and value == 4):
             yield from changed(lambda s, name=name, value=value: s["digits"].update({name: value}))
