@@ -25,9 +25,9 @@ contains
    !> A row counts by its load. With one neighbour that counts the difference is multiplied, as an edge that closes like a root is
    !> steeper than its chord. Of several edges in a row the nearest prevails.
    pure real(wp) function edge_slope(place, load, first, iy, here) result(slope)
-      !> Positions of all edges, loads of the stretches behind them, and the index of the first one of each row; one more row has
-      !> none
+      !> Positions of all edges [elements], and loads of the stretches behind them [N/mm2]
       real(wp), intent(in) :: place(:), load(:)
+      !> Index of the first edge of each row, and of one more row, which has none
       integer, intent(in) :: first(:)
       !> Row and index of this edge
       integer, intent(in) :: iy, here

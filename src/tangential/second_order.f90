@@ -76,6 +76,17 @@ module contact_tangential_second_order
    !> Distance from the pole of the term of a layer below which it does not grow any more [elements]: the first traction vanishes
    real(wp), parameter :: nearest_pole = 1.0e-3_wp
 
+   !> Edges at the leading ends of all stretches of contact, row by row
+   type :: edge_list
+      !> Column and row of the leading elements, shape (2, edges); index of the first edge of each row, and of one more row
+      integer, allocatable :: at(:, :), first(:)
+      !> Numbers of elements of the stretches, and the sums of their pressures [N/mm2]
+      integer, allocatable :: length(:)
+      real(wp), allocatable :: load(:)
+      !> Positions along the rolling direction [elements]; terms of the leading elements relative to that of the kernel [-]
+      real(wp), allocatable :: place(:), share(:)
+   end type edge_list
+
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
@@ -102,77 +113,29 @@ contains
       real(wp), intent(in) :: layer
       !> Gets terms and weights
       type(second_order), intent(inout) :: second
-      !> Row, element and position of each edge, in elements ahead of the first column; term relative to that of the kernel, by the
-      !> gap that of a straight edge; number of elements of the stretch behind it, and the sum of its pressures
-      integer, allocatable :: at(:, :), first(:)
-      integer, allocatable :: length(:)
-      real(wp), allocatable :: place(:), share(:), load(:), by_gap(:)
+      type(edge_list) :: edges
       real(wp) :: slope, nx, ny, flexibility, scale, excess, unit, mean, ahead, part(2), oblique(3)
-      integer :: ix, iy, k, n, last, behind, j, pass
+      integer :: ix, iy, k, behind, j
 
-      n = count_edges(contact, direction)
-      allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n), length(n), load(n), by_gap(n))
-      call fit_fields(second, size(contact, 1), size(contact, 2))
-      n = 0
-      do iy = 1, size(contact, 2)
-         first(iy) = n + 1
-         ix = merge(size(contact, 1), 1, direction > 0)
-         do while (ix >= 1 .and. ix <= size(contact, 1))
-            if (.not. contact(ix, iy)) then
-               ix = ix - direction
-               cycle
-            end if
-            last = ix
-            do while (last >= 1 .and. last <= size(contact, 1))
-               if (.not. contact(last, iy)) exit
-               last = last - direction
-            end do
-            n = n + 1
-            at(:, n) = [ix, iy]
-            length(n) = abs(ix - last)
-            call find_parts(pn(:, iy), ix, length(n), direction, 1.0_wp/plain_ratio, second%part(:, :, iy), load(n))
-            share(n) = 0.0_wp
-            if (is_known(gap(ix, iy))) then
-               by_gap(n) = gap(ix, iy)*gg/((1.0_wp - nu)*pn(ix, iy)*2.0_wp*dx*e0)
-               share(n) = by_gap(n)
-            else if (is_root) then
-               share(n) = root_share(pn(ix:last + direction:-direction, iy))
-            else if (length(n) > 1) then
-               share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), length(n))
-            end if
-            place(n) = direction*ix + d0 - share(n)/(1.0_wp + share(n))
-            ix = last
-         end do
-      end do
-      first(size(contact, 2) + 1) = n + 1
-
-      do pass = 1, slope_passes
-         do k = 1, n
-            if (.not. is_known(gap(at(1, k), at(2, k)))) cycle
-            slope = edge_slope(place, load, first, at(2, k), k)
-            share(k) = by_gap(k)*sqrt(1.0_wp + (slope*dx/dy)**2)
-         end do
-         place = direction*at(1, :) + d0 - share/(1.0_wp + share)
-      end do
-
-      call fit(second, n + count(length > 1) + count(length > 2))
+      call find_edges(contact, pn, gap, is_root, dx, dy, direction, (1.0_wp - nu)/gg, second, edges)
+      call fit(second, size(edges%place) + count(edges%length > 1) + count(edges%length > 2))
       second%gap = gap
-      behind = n
-      do k = 1, n
-         ix = at(1, k)
-         iy = at(2, k)
-         slope = edge_slope(place, load, first, iy, k)
+      behind = size(edges%place)
+      do k = 1, size(edges%place)
+         ix = edges%at(1, k)
+         iy = edges%at(2, k)
+         slope = edge_slope(edges%place, edges%load, edges%first, iy, k)
          nx = 1.0_wp/sqrt(1.0_wp + (slope*dx/dy)**2)
          ny = -slope*dx/dy*nx
          flexibility = 2.0_wp/gg*dx*nx
          unit = flexibility*e0
-         scale = unit*share(k)
+         scale = unit*edges%share(k)
          excess = max(scale, 0.0_wp)
          if (is_known(gap(ix, iy))) then
             scale = gap(ix, iy)/((1.0_wp - nu)*pn(ix, iy))
             excess = scale
          end if
-         second%at(:, k) = at(:, k)
+         second%at(:, k) = edges%at(:, k)
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          oblique = 2.0_wp/gg*dx*nu*oblique_terms(slope, dx/dy)*[1, 1, direction]
          ! next to a layer the bodies do not see the steps of the edge
@@ -185,7 +148,7 @@ contains
          ! the terms behind move from element to element as the edge does, so that forces are continuous
          part(1) = unit/(unit + excess)
          part(2) = 1.0_wp - part(1)
-         do j = 1, min(2, length(k) - 1)
+         do j = 1, min(2, edges%length(k) - 1)
             behind = behind + 1
             second%at(:, behind) = [ix - j*direction, iy]
             second%kappa(:, behind) = part(j)*oblique
@@ -196,6 +159,79 @@ contains
          end do
       end do
    end subroutine find_edge_terms
+
+   !> Find the leading elements of all rows, the parts of neighbours, and where the edge of contact lies
+   subroutine find_edges(contact, pn, gap, is_root, dx, dy, direction, compliance, second, edges)
+      !> Elements in contact, shape (mx, my)
+      logical, intent(in) :: contact(:, :)
+      !> Their pressures [N/mm2], and the distances of the surfaces in the elements ahead [mm], see find_edge_terms, shape (mx, my)
+      real(wp), intent(in) :: pn(:, :), gap(:, :)
+      !> Are pressures a semi-ellipse in each row?
+      logical, intent(in) :: is_root
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
+      !> (1 - nu)/G that the edge feels [mm2/N]
+      real(wp), intent(in) :: compliance
+      !> Gets the parts of neighbours
+      type(second_order), intent(inout) :: second
+      !> The edges, row by row
+      type(edge_list), intent(out) :: edges
+      !> Terms by the gap of a straight edge, relative to that of the kernel [-]
+      real(wp), allocatable :: by_gap(:)
+      real(wp) :: slope
+      integer :: ix, iy, k, n, last, pass
+
+      n = count_edges(contact, direction)
+      allocate(edges%at(2, n), edges%first(size(contact, 2) + 1), edges%place(n), edges%share(n), edges%length(n), edges%load(n), &
+         & by_gap(n))
+      call fit_fields(second, size(contact, 1), size(contact, 2))
+      associate (at => edges%at, first => edges%first, place => edges%place, share => edges%share, length => edges%length, &
+         & load => edges%load)
+         n = 0
+         do iy = 1, size(contact, 2)
+            first(iy) = n + 1
+            ix = merge(size(contact, 1), 1, direction > 0)
+            do while (ix >= 1 .and. ix <= size(contact, 1))
+               if (.not. contact(ix, iy)) then
+                  ix = ix - direction
+                  cycle
+               end if
+               last = ix
+               do while (last >= 1 .and. last <= size(contact, 1))
+                  if (.not. contact(last, iy)) exit
+                  last = last - direction
+               end do
+               n = n + 1
+               at(:, n) = [ix, iy]
+               length(n) = abs(ix - last)
+               call find_parts(pn(:, iy), ix, length(n), direction, 1.0_wp/plain_ratio, second%part(:, :, iy), load(n))
+               share(n) = 0.0_wp
+               if (is_known(gap(ix, iy))) then
+                  by_gap(n) = gap(ix, iy)/(compliance*pn(ix, iy)*2.0_wp*dx*e0)
+                  share(n) = by_gap(n)
+               else if (is_root) then
+                  share(n) = root_share(pn(ix:last + direction:-direction, iy))
+               else if (length(n) > 1) then
+                  share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), length(n))
+               end if
+               place(n) = direction*ix + d0 - share(n)/(1.0_wp + share(n))
+               ix = last
+            end do
+         end do
+         first(size(contact, 2) + 1) = n + 1
+
+         do pass = 1, slope_passes
+            do k = 1, n
+               if (.not. is_known(gap(at(1, k), at(2, k)))) cycle
+               slope = edge_slope(place, load, first, at(2, k), k)
+               share(k) = by_gap(k)*sqrt(1.0_wp + (slope*dx/dy)**2)
+            end do
+            place = direction*at(1, :) + d0 - share/(1.0_wp + share)
+         end do
+      end associate
+   end subroutine find_edges
 
    !> Terms xx, yy, xy of an element by its distance from the edge, where there is a layer between the bodies [mm/(N/mm2)]
    !>

@@ -176,37 +176,43 @@ def oblique_edges():
     check(np.log2(size[20] / size[80]) / 2 >= 1.8, f"Poisson's ratio 0.48: order {np.log2(size[20] / size[80]) / 2:.2f}")
 
 
+def jumps(creep, nu, direction, layer):
+    """Where an element enters or leaves the contact on a path of the grid: position, numbers of elements, jump of the forces"""
+    path = np.array([0.5, 0.37])
+
+    def solved(place):
+        result = hertz(8, place * path, creep, 2, eps=1e-11, direction=direction, nu=nu, layer=layer)
+        return result.state > 0, forces(result)
+
+    following = solved(0.0)
+    for end in np.arange(1, 6) / 8:
+        low, high, before = end - 1 / 8, end, following
+        following = after = solved(end)
+        if np.array_equal(before[0], after[0]):
+            continue
+        while high - low > 1e-6:
+            middle = (low + high) / 2
+            found = solved(middle)
+            if np.array_equal(found[0], before[0]):
+                low, before = middle, found
+            else:
+                high, after = middle, found
+        yield high, before[0].sum(), after[0].sum(), np.abs(after[1] - before[1]).max()
+
+
 def entering_elements():
     """Forces do not jump where an element enters or leaves the contact, at the leading or trailing edge or in a row of its own
 
     The grid moves; where the contact has changed the position is bisected.
     """
-    path, eps = np.array([0.5, 0.37]), 1e-11
     for creep, nu, direction, layer in (((5e-4, 2e-4, 3e-4), 0.48, 0.0, None), ((1e-4, -8e-4, 1e-3), NU, np.pi, None),
                                         ((1e-3, 4e-4, 6e-4), NU, 0.0, [820.0, 2e-3, 0.0, 0.0])):
-        def solved(place):
-            result = hertz(8, place * path, creep, 2, eps=eps, direction=direction, nu=nu, layer=layer)
-            return result.state > 0, forces(result)
-
-        count, previous = 0, solved(0.0)
-        for end in np.arange(1, 6) / 8:
-            begin, following = end - 1 / 8, solved(end)
-            low, high, before, after = begin, end, previous, following
-            previous = following
-            if np.array_equal(before[0], after[0]):
-                continue
-            while high - low > 1e-6:
-                middle = (low + high) / 2
-                found = solved(middle)
-                if np.array_equal(found[0], before[0]):
-                    low, before = middle, found
-                else:
-                    high, after = middle, found
+        count = 0
+        for place, before, after, jump in jumps(creep, nu, direction, layer):
             count += 1
-            jump = np.abs(after[1] - before[1]).max()
             # forces change by less than 0.1 from one to the other end of the path
-            check(jump < 0.1 * 1e-6, f"creepages {creep}, nu {nu}, position {high:.7f}: {before[0].sum()} to "
-                  f"{after[0].sum()} elements, forces jump by {jump:.1e}")
+            check(jump < 0.1 * 1e-6, f"creepages {creep}, nu {nu}, position {place:.7f}: {before} to {after} elements, forces "
+                  f"jump by {jump:.1e}")
         check(count >= 3, f"creepages {creep}, nu {nu}: {count} elements enter or leave")
 
 
