@@ -75,6 +75,8 @@ module contact_patch_error_scales
       !> Moment of the force across the rolling direction with an arm of one element, in rolling, over that of the friction bound
       !> [-]
       real(wp) :: arm = 0.0_wp
+      !> Change of the lateral creepage by the spin along a step, over the larger creepage, in steady rolling [-]
+      real(wp) :: spin_step = 0.0_wp
       !> Root of the ratio of the sides of the contact: arms of the longer one exceed the radius of the area by this factor [-]
       real(wp) :: slender = 1.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
@@ -210,6 +212,7 @@ contains
          & = sqrt(max(0.0_wp, scale%used**2 - (result%fx**2 + result%fy**2)/scale%force**2))
       if (problem%motion == motion%steady_rolling .and. scale%force > 0.0_wp) then
          scale%arm = abs(result%fy*cos(problem%chi) - result%fx*sin(problem%chi))*result%dq/max(scale%moment, tiny(extent))
+         scale%spin_step = abs(result%cphi)*result%dq/max(scale%creep, tiny(extent))
       end if
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)

@@ -56,9 +56,9 @@ PEAK_BOUNDS = {"pmax": (0.3, 12.0, 0.6)}
 #: Sliding wheels with errors of forces down to 1e-5, by the first order: seeds, counts, numbers, bounds against the same rms
 SLIDING_WHEELS = ((62001, 30, (0, 2, 10, 16, 18, 23, 29)),)
 SLIDING_BOUNDS = {"forces": (0.2, 5.0, 0.95)}
-#: Further contacts of two tests, among the 400 of a campaign: seed, numbers, order. Creepages for forces next to the bound, by the
-#: first order; temperatures in a narrow slip area, by the second
-ADDED = {"first": (99511, (51,), "1"), "coupled": (99513, (141,), "2")}
+#: Further contacts of two tests, among the 400 of a campaign: seed, numbers, order. Creepages for forces next to the bound, and
+#: with spin, by the first order; temperatures in a narrow slip area, by the second
+ADDED = {"first": ((99511, (51,), "1"), (99873, (87, 159, 231), "1")), "coupled": ((99513, (141,), "2"),)}
 #: Stresses next to adhesion, in transient rolling and with layers, sliding viscoelastic bodies, the energy of layers by the first
 #: order; energy of dissimilar bodies, and sliding wheels, by the second: order, seed, numbers among those of a campaign
 MARGINS = (("1", 99711, (10, 19, 22, 32, 43, 94, 200, 262, 394)), ("2", 99712, (112, 184)))
@@ -420,8 +420,7 @@ def main():
                 "peaks": PEAK_CONTACTS}.get(asked.check, ())
         rows = (judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order, asked.places, only)
                 if asked.count else [])
-        if asked.check in ADDED:
-            seed, numbers, order = ADDED[asked.check]
+        for seed, numbers, order in ADDED.get(asked.check, ()):
             rows += judge(program, seed, ACCEPTANCE[0], list(CHANGES), limits, Path(name), ("--order", order), asked.places,
                           numbers)
         if asked.check == "margins":
