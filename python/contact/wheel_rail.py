@@ -244,7 +244,7 @@ class WheelRail(Element):
         fail_if(state != 0, state, f"The profile of the {what} cannot be used (detail {detail})", self.number)
 
     def set_track(self, gauge_height: float, gauge_width: float, cant: float = 0.0, *, gauge_sequence: int = 0,
-                  roller_radius: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
+                  roller_radius: float = 0.0, curvature: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
         """Track dimensions, with the rail placed by its gauge point.
 
         Parameters
@@ -259,22 +259,29 @@ class WheelRail(Element):
             Number of the gauge face; read and not used.
         roller_radius
             Nominal radius of a roller [L].
+        curvature
+            Curvature of the track, positive to the right [1/L]; turns the rail with the rate -vs times curvature.
         deviation
             dy, dz [L], roll [A] of the rail and their rates [V], [V], [A/T].
         """
         if not gauge_height > 0.0:
             raise ValueError("gauge_height has to be positive; set_rail_position places a rail without gauge point")
         self._do(cntc.settrackdimensions, self.number, 3,
-                 [gauge_height, gauge_sequence, gauge_width, cant, roller_radius, *deviation])
+                 [gauge_height, gauge_sequence, gauge_width, cant, roller_radius, curvature, *deviation])
 
     def set_rail_position(self, y: float, z: float, cant: float = 0.0, *, roller_radius: float = 0.0,
-                          deviation: Sequence[float] = (0.0,) * 6) -> None:
-        """Track, with the origin of the rail profile placed at y, z [L] of the track system."""
-        self._do(cntc.settrackdimensions, self.number, 3, [-1.0, y, z, cant, roller_radius, *deviation])
+                          curvature: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
+        """Track, with the origin of the rail profile placed at y, z [L] of the track system; otherwise as `set_track`."""
+        self._do(cntc.settrackdimensions, self.number, 3, [-1.0, y, z, cant, roller_radius, curvature, *deviation])
 
-    def set_wheelset(self, flange_back: float, flange_back_position: float, radius: float) -> None:
-        """Distance between the backs of the flanges, lateral coordinate of the back in the profile, radius [L]."""
-        self._do(cntc.setwheelsetdimensions, self.number, 3, [flange_back, flange_back_position, radius])
+    def set_wheelset(self, flange_back: float, flange_back_position: float, radius: float, *, tape: float | None = None) -> None:
+        """Distance between the backs of the flanges, lateral coordinate of the back in the profile, radius [L].
+
+        The radius is that at the lateral coordinate `tape` of the profile [L]; without it at the origin.
+        """
+        # 999 mm or more means the origin
+        self._do(cntc.setwheelsetdimensions, self.number, 3,
+                 [flange_back, flange_back_position, radius, 1000.0 if tape is None else tape])
 
     def set_position(self, s: float = 0.0, y: float = 0.0, z: float | None = None, roll: float = 0.0,
                      yaw: float = 0.0, pitch: float = 0.0) -> None:

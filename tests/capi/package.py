@@ -309,6 +309,39 @@ def wheel_on_rail():
     raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
 
 
+def curve_and_tape():
+    """A curve turns the rail about the centre of the track, mirrored on the left; a radius may be given at a tape circle"""
+    curvature, rail_y, found = 2e-6, 753.0, {}
+    for side, sign in (("right", 1.0), ("left", -1.0)):
+        with contact.WheelRail(side) as pair:
+            wheel(pair)
+            pair.set_position(y=2.0 * sign, yaw=0.0048 * sign)
+            for curve in (0.0, curvature):
+                pair.set_rail_position(rail_y * sign, 0.0, cant=0.025, curvature=curve * sign)
+                found[side, curve] = pair.solve()
+            pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025, curvature=curvature * sign)
+            found[side, "gauge"] = pair.solve()
+    for case in (0.0, curvature, "gauge"):
+        close(found["left", case].forces.track.force, found["right", case].forces.track.force * [1, -1, 1], 1e-3, "mirrored curve")
+    contacts = [found["right", curve].patches[0] for curve in (0.0, curvature)]
+    # the contact is a few millimetres beside the origin of the rail
+    close(abs(contacts[1].cksi - contacts[0].cksi), rail_y * curvature, 0.02 * rail_y * curvature, "creepage of the curve")
+
+    with open(os.path.join(PROFILES, "S1002.prw"), encoding="utf-8") as file:
+        points = np.array(re.findall(r"^ +(-?\d+\.\d+) +(-?\d+\.\d+)$", file.read(), re.MULTILINE), dtype=float)
+    points = points[np.argsort(points[:, 0])]
+    height = np.interp(20.0, *points.T)
+    check(abs(height) > 0.1, "the radius varies across the wheel")
+    with contact.WheelRail() as pair:
+        wheel(pair)
+        results = []
+        for radius, tape in ((460.0, 20.0), (460.0 - height, None), (460.0, None)):
+            pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=radius, tape=tape)
+            results.append(pair.solve())
+    close(results[0].forces.track.force, results[1].forces.track.force, 5.0, "radius at a tape circle or at the origin")
+    check(abs(results[2].patches[0].cksi - results[0].patches[0].cksi) > 1e-4, "the tape circle acts, and is forgotten")
+
+
 def profiles():
     """Warnings about a profile reach the caller that sets it: a flange on the outer side, z upwards"""
     with open(os.path.join(PROFILES, "S1002.prw"), encoding="utf-8") as file:
@@ -620,6 +653,7 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, arrays, dissimilar_bodies, prescribed_and_transient, errors, many, threads, wheel_on_rail,
+                 curve_and_tape,
                  profiles, thin_sheet, older_scripts, documents, doubts, temperatures, estimated_errors, places, checked_only,
                  no_points, output):
         part()
