@@ -1,7 +1,7 @@
 !> Time of a case with a prescribed accuracy: expected time per element, and grids for which there is time before the deadline
 !>
-!> Times were measured with random contacts and wheels by tests/accuracy/cost.py (seed 99821, falling friction with 88111 and 88112,
-!> 1e-2 to 2e-4), for the first case of its size in a process, including the plans of transforms, with the build of 2026-11-27, on
+!> Times were measured with random contacts and wheels by tests/accuracy/cost.py (seeds 99821, 99991 and 99992, falling friction
+!> with 88111 and 88112, 1e-2 to 2e-4), for the first case of its size in a process, including the plans of transforms, with the build of 2026-11-27, on
 !> the machine whose speed is the unit of contact_cases_machine_pace. Single contacts take half or twice the time.
 module contact_cases_accuracy_time
    use contact_base_choices, only : force_control, material_model, motion
@@ -17,9 +17,9 @@ module contact_cases_accuracy_time
 
    !> All grids of a case, time per element of the last one [s]: pressures; with tractions of a shift; in rolling; of a wheel, whose
    !> height is searched
-   real(wp), parameter :: with_pressures = 1.1e-6_wp, with_shift = 2.2e-6_wp, with_rolling = 2.9e-6_wp, with_wheel = 4.6e-6_wp
+   real(wp), parameter :: with_pressures = 0.8e-6_wp, with_shift = 1.7e-6_wp, with_rolling = 2.4e-6_wp, with_wheel = 4.3e-6_wp
    !> Time of each case, of files of profiles, of each value of a profile, and of coefficients of viscoelastic bodies [s]
-   real(wp), parameter :: each_case = 1.5e-3_wp, each_files = 3.5e-3_wp, each_value = 1.75e-6_wp, each_memory = 1.3e-3_wp
+   real(wp), parameter :: each_case = 1.1e-3_wp, each_files = 3.5e-3_wp, each_value = 1.75e-6_wp, each_memory = 1.0e-3_wp
    !> Factors of the time: outer iterations; viscoelastic bodies; trials for prescribed forces; friction that varies with slip; an
    !> interfacial layer, which needs few iterations; potential contacts of profiles, of which contact covers a smaller part
    real(wp), parameter :: outer_iterations = 1.8_wp, remembering = 1.3_wp, trials = 1.1_wp, changing_friction = 1.5_wp, &
