@@ -1,8 +1,9 @@
 !> Time of a case with a prescribed accuracy: expected time per element, and grids for which there is time before the deadline
 !>
 !> Times were measured with random contacts and wheels by tests/accuracy/cost.py (seeds 99821, 99991 and 99992, falling friction
-!> with 88111 and 88112, 1e-2 to 2e-4), for the first case of its size in a process, including the plans of transforms, with the build of 2026-11-27, on
-!> the machine whose speed is the unit of contact_cases_machine_pace. Single contacts take half or twice the time.
+!> with 88111 and 88112, 1e-2 to 2e-4), for the first case of its size in a process, including the plans of transforms, with the
+!> build of 2026-11-27, on the machine whose speed is the unit of contact_cases_machine_pace. Single contacts take half or twice
+!> the time.
 module contact_cases_accuracy_time
    use contact_base_choices, only : force_control, material_model, motion
    use contact_base_kinds, only : wp
