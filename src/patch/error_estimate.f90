@@ -171,7 +171,8 @@ contains
       call compare_directions(problem, result, level, load, scale)
       result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
-         if (.not. is_on_both(k)) cycle
+         difference = difference_of(fine, coarse, k)
+         if (difference < 0.0_wp) cycle
          if (fine%rows(k)%law == error_law%normal) scale%irregular = max(scale%irregular, &
             & irregularity(fine%rows(k), difference, scale))
          if (fine%rows(k)%law /= error_law%friction) cycle
@@ -184,7 +185,8 @@ contains
       result%errors%cancelled = scale%cancelled
       do k = 1, fine%length
          if (is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
-         if (.not. is_on_both(k)) cycle
+         difference = difference_of(fine, coarse, k)
+         if (difference < 0.0_wp) cycle
          if (fine%rows(k)%name == "pmax") then
             result%errors%value(k) = error_of_peak(problem, result, scale, &
                & load**power_of_load(fine%rows(k))*peak_of(level%result%pn), details)
@@ -192,22 +194,21 @@ contains
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if
       end do
-
-   contains
-
-      !> Has a total with errors a value on both levels? Sets their difference; the coarse level has fewer totals, without damping
-      logical function is_on_both(row) result(is_there)
-         !> Index in the list of the finer level
-         integer, intent(in) :: row
-         integer :: place
-
-         is_there = .false.
-         if (fine%rows(row)%law == error_law%none) return
-         place = coarse%place_of(fine%rows(row)%name, row)
-         is_there = coarse%rows(place)%name == fine%rows(row)%name
-         difference = abs(fine%rows(row)%value - coarse%rows(place)%value)
-      end function is_on_both
    end subroutine compare_levels
+
+   !> Difference of a total between the levels, in its unit; -1: it has no error, or the coarse level lacks it, as it has no damping
+   pure real(wp) function difference_of(fine, coarse, row) result(difference)
+      !> Totals of both levels
+      type(total_list), intent(in) :: fine, coarse
+      !> Index in the list of the finer level
+      integer, intent(in) :: row
+      integer :: place
+
+      difference = -1.0_wp
+      if (fine%rows(row)%law == error_law%none) return
+      place = coarse%place_of(fine%rows(row)%name, row)
+      if (coarse%rows(place)%name == fine%rows(row)%name) difference = abs(fine%rows(row)%value - coarse%rows(place)%value)
+   end function difference_of
 
    !> Power of the motion on both levels, compared with frictional power, in steady rolling
    pure subroutine compare_powers(problem, result, level, load, scale)

@@ -123,10 +123,14 @@ contains
       type(scale_type), intent(in) :: scale
       !> Relative contributions to the error: solvers and window
       type(error_estimate), intent(in) :: errors
-      real(wp) :: floor, stopping, unit
+      !> Lower bound relative to the reference value [-], and one in the unit of the total, whose value may be zero
+      real(wp) :: floor, least
+      real(wp) :: stopping, unit
 
       stopping = maxval(errors%stopping)
       unit = scale_of(row, scale)
+      floor = 0.0_wp
+      least = 0.0_wp
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
@@ -136,19 +140,18 @@ contains
          call bound_friction(row, difference, unit, scale, e, floor)
       case (error_law%power)
          e = error_of_power(scale, difference, unit)
-         floor = power_of_roughness(scale)*max(1.0_wp, scale%power/max(unit, tiny(unit)))
+         least = power_of_roughness(scale)*max(scale%power, unit)
       case (error_law%energy)
          e = error_of_energy(scale) + (stopping + errors%window)*unit
          return
       case (error_law%peak)
-         call bound_temperature(row, difference, scale, e, floor)
-         floor = floor/max(unit, tiny(unit))
+         call bound_temperature(row, difference, scale, e, least)
       case default
          e = difference/(coarsening**jump_order - 1.0_wp)
          floor = area_floor/scale%across
       end select
       if (scale%across < resolved) floor = max(floor, floor_of_few(row, scale))
-      e = max(e, floor*unit) + (stopping + errors%window)*unit
+      e = max(e, floor*unit, least) + (stopping + errors%window)*unit
    end function error_of
 
    !> Error of the highest temperature by the levels, and its lower bound [degC]

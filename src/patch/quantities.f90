@@ -225,7 +225,7 @@ contains
       if (.not. self%only_judges) self%rows(self%length)%is_count = .true.
    end subroutine count
 
-   !> Index of the row with a given name, which must exist
+   !> Index of the row with a given name; of the last row if there is none
    pure integer function place_of(self, name, guess) result(k)
       class(total_list), intent(in) :: self
       !> Name of a row, see total

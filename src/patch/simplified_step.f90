@@ -43,7 +43,7 @@ contains
       call set_window(problem, state, box, result, workspace%simplified)
       if (is_fastrip(problem%simplified%choice)) then
          if (has_gap(workspace%simplified%contact)) call log%warning("FaStrip on a contact area with a gap across its rows: its &
-            &strips are those of one ellipse, and tangential forces are 15 to 40 % too small; the parts should be separate &
+            &strips are those of one ellipse, and tangential forces are 15 to 42 % too small; the parts should be separate &
             &contacts, or solved by Fastsim")
       end if
       associate (solution => workspace%simplified_solution, report => result%tangential, ix0 => box%ix0, ix1 => box%ix1, &

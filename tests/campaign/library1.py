@@ -50,10 +50,11 @@ def track(pair, scene, case):
     if scene["roller"]:
         cant = 0.0  # the input of a roller has none
     deviation = scene1.signed(case["deviation"], "deviation", sign)
+    more = {"roller_radius": scene["roller"], "curvature": sign * scene.get("curve", 0.0), "deviation": deviation}
     if height > 0.0:
-        pair.set_track(height, second, cant, gauge_sequence=0, roller_radius=scene["roller"], deviation=deviation)
+        pair.set_track(height, second, cant, gauge_sequence=0, **more)
     else:
-        pair.set_rail_position(sign * first, second, cant, roller_radius=scene["roller"], deviation=deviation)
+        pair.set_rail_position(sign * first, second, cant, **more)
 
 
 def main():

@@ -92,7 +92,7 @@ def generate(rng):
 def _curve_and_roller(rng, scene):
     """A curve of the track, and deviations of a roller; drawn apart, so that all other numbers of a seed stay the same"""
     size = scene["pair"]["wheelset"][2] / profiles.RADIUS
-    if rng.random() < 0.25 and scene["relation"] != "library":  # pair.set_track has no curvature
+    if rng.random() < 0.25:
         scene["curve"] = float("%.3g" % (rng.choice([-1.0, 1.0]) * 10.0**rng.uniform(-7.0, -5.0) / size))
     if scene["roller"] and scene["digits"]["N"] and rng.random() < 0.5:
         fast = 0.0 if scene["digits"]["T"] == 1 else 20000.0 * size
