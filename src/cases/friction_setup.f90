@@ -5,7 +5,7 @@ module contact_cases_friction_setup
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, heat_spec
-   use contact_friction_law, only : friction_driver, friction_law
+   use contact_friction_law, only : friction_driver, friction_law, friction_set
    use contact_friction_memory, only : friction_memory
    use contact_friction_new_law, only : is_varying_law, new_friction_law
    use contact_patch_problem, only : patch_problem
@@ -24,6 +24,7 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
       class(friction_law), allocatable :: law
+      type(friction_set) :: set
       logical :: by_row, has_law
       integer :: iy
 
@@ -61,7 +62,14 @@ contains
          end if
          problem%remembers_friction = .true.
       end if
-      problem%static_mu = law%sets([(law%set_of_row(iy), iy=1, problem%grid%my)])%fstat
+      if (allocated(problem%static_mu)) then
+         if (size(problem%static_mu) /= problem%grid%my) deallocate(problem%static_mu)
+      end if
+      if (.not. allocated(problem%static_mu)) allocate(problem%static_mu(problem%grid%my))
+      do iy = 1, problem%grid%my
+         set = law%set_of_row(iy)
+         problem%static_mu(iy) = set%fstat
+      end do
       call move_alloc(law, problem%friction)
    end subroutine set_friction
 

@@ -43,13 +43,13 @@ contains
       class(heated_law), intent(in) :: self
       real(wp), contiguous, intent(in) :: cause(:, :)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%fstat + (set%fkin - set%fstat) &
-               & *min(1.0_wp, max(0.0_wp, (cause(:, iy) - set%tref)/set%dtheat))
-         end associate
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fstat + (set%fkin - set%fstat) &
+            & *min(1.0_wp, max(0.0_wp, (cause(:, iy) - set%tref)/set%dtheat))
       end do
    end subroutine coefficient
 
@@ -66,17 +66,17 @@ contains
       !> Weight of the coefficient that particles had before, 0...1, and this coefficient [-]
       real(wp), intent(in) :: theta, mu_before
       real(wp) :: change, slope
+      type(friction_set) :: set
 
-      associate (set => self%sets(self%set_of_row(iy)))
-         mu = theta*mu_before + (1.0_wp - theta)*set%fstat
-         if (temperature + rise*mu <= set%tref) return
-         change = (1.0_wp - theta)*(set%fkin - set%fstat)
-         slope = change/set%dtheat
-         if (temperature + rise*(mu + change) >= set%tref + set%dtheat) then
-            mu = mu + change
-         else
-            mu = (mu + slope*(temperature - set%tref))/(1.0_wp - slope*rise)
-         end if
-      end associate
+      set = self%set_of_row(iy)
+      mu = theta*mu_before + (1.0_wp - theta)*set%fstat
+      if (temperature + rise*mu <= set%tref) return
+      change = (1.0_wp - theta)*(set%fkin - set%fstat)
+      slope = change/set%dtheat
+      if (temperature + rise*(mu + change) >= set%tref + set%dtheat) then
+         mu = mu + change
+      else
+         mu = (mu + slope*(temperature - set%tref))/(1.0_wp - slope*rise)
+      end if
    end function self_heated
 end module contact_friction_heated

@@ -50,7 +50,7 @@ module contact_friction_law
       procedure, nopass :: fault => no_fault
       !> Coefficient of each element at rest and in the cold state
       procedure, non_overridable :: at_rest
-      !> Index of the set of a row
+      !> Parameters of a row
       procedure, non_overridable :: set_of_row
       !> Does friction differ between rows?
       procedure, non_overridable :: varies_by_row
@@ -120,12 +120,13 @@ contains
       end associate
    end function no_fault
 
-   !> Index of the set of a row
-   pure integer function set_of_row(self, iy) result(number)
+   !> Parameters of a row: its own, or those of the only set
+   pure function set_of_row(self, iy) result(set)
       class(friction_law), intent(in) :: self
       !> Row of the grid, from 1
       integer, intent(in) :: iy
-      number = min(iy, size(self%sets))
+      type(friction_set) :: set
+      set = self%sets(min(iy, size(self%sets)))
    end function set_of_row
 
    !> Coefficient without slip and in the cold state
@@ -133,10 +134,12 @@ contains
       class(friction_law), intent(in) :: self
       !> [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         mu(:, iy) = self%sets(self%set_of_row(iy))%fstat
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fstat
       end do
    end subroutine at_rest
 

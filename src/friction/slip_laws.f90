@@ -59,13 +59,13 @@ contains
       class(linear_law), intent(in) :: self
       real(wp), contiguous, intent(in) :: cause(:, :)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%fkin + set%coef1*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh1) &
-               & + set%coef2*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh2)
-         end associate
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fkin + set%coef1*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh1) &
+            & + set%coef2*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh2)
       end do
    end subroutine linear_coefficient
 
@@ -78,13 +78,13 @@ contains
       class(rational_law), intent(in) :: self
       real(wp), contiguous, intent(in) :: cause(:, :)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%fkin + set%coef1/(1.0_wp + cause(:, iy)/set%sabsh1) &
-               & + set%coef2/(1.0_wp + (cause(:, iy)/set%sabsh2)**2)
-         end associate
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fkin + set%coef1/(1.0_wp + cause(:, iy)/set%sabsh1) &
+            & + set%coef2/(1.0_wp + (cause(:, iy)/set%sabsh2)**2)
       end do
    end subroutine rational_coefficient
 
@@ -97,13 +97,13 @@ contains
       class(exponential_law), intent(in) :: self
       real(wp), contiguous, intent(in) :: cause(:, :)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%fkin + set%coef1*2.0_wp**(-cause(:, iy)/set%sabsh1) &
-               & + set%coef2*2.0_wp**(-cause(:, iy)/set%sabsh2)
-         end associate
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fkin + set%coef1*2.0_wp**(-cause(:, iy)/set%sabsh1) &
+            & + set%coef2*2.0_wp**(-cause(:, iy)/set%sabsh2)
       end do
    end subroutine exponential_coefficient
 

@@ -13,6 +13,7 @@ module contact_temperature_flash_heating
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_friction_heated, only : heated_law
+   use contact_friction_law, only : friction_set
    use contact_friction_memory, only : friction_memory
    implicit none (type, external)
    private
@@ -182,6 +183,7 @@ contains
       real(wp), intent(in) :: dt
       !> Coefficients [-] and temperatures of body 1 [degC], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :), t1(:, :)
+      type(friction_set) :: set
       real(wp), allocatable :: weight(:), rise(:), t2(:, :)
       real(wp) :: before, own, given, released, per_heat, cold, theta
       integer :: ix, iy, jx, m, first, last
@@ -196,7 +198,8 @@ contains
       last = m + 1 - first
       do iy = 1, size(pn, 2)
          rise = 0.0_wp
-         before = law%sets(law%set_of_row(iy))%fstat
+         set = law%set_of_row(iy)
+         before = set%fstat
          jx = 0
          do ix = first, last, -self%direction
             jx = jx + 1

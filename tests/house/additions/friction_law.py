@@ -27,12 +27,12 @@ EDITS = [
       class(stribeck_law), intent(in) :: self
       real(wp), contiguous, intent(in) :: cause(:, :)
       real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(friction_set) :: set
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%fkin + set%coef1*exp(-(cause(:, iy)/set%sabsh1)**2)
-         end associate
+         set = self%set_of_row(iy)
+         mu(:, iy) = set%fkin + set%coef1*exp(-(cause(:, iy)/set%sabsh1)**2)
       end do
    end subroutine stribeck_coefficient
 """),
