@@ -13,7 +13,7 @@ log=$work/log
 failures=0
 finish() {
   umount "$root/proc" "$root/dev" 2> /dev/null || true
-  rm -rf "$work"
+  rm -rf --one-file-system "$work"
 }
 trap finish EXIT
 # shellcheck source=/dev/null

@@ -18,7 +18,7 @@ fail() { printf '%s\n' "$*" >&2; exit 1; }
 # systems the plain name is an older version, and newer ones have the version in their names.
 choose_compiler() {
   [ -n "${FC:-}" ] && return 0
-  for candidate in gfortran gfortran-15 gfortran-14 gfortran-13 gfortran-12; do
+  for candidate in gfortran gfortran-16 gfortran-15 gfortran-14 gfortran-13 gfortran-12; do
     major=$("$candidate" -dumpversion 2>/dev/null | cut -d. -f1)
     if [ "${major:-0}" -ge 12 ]; then
       FC=$candidate
