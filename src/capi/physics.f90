@@ -7,8 +7,8 @@ module contact_capi_physics
    use contact_capi_caller, only : caller, min_value
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet, visit_wear
-   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, wear_spec
-   use contact_cases_whole_case, only : difference_parameter, quasi_identical
+   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, &
+      & quasi_identical, wear_spec
    use contact_control_digits, only : choice_of, digit_of
    use contact_friction_new_law, only : friction_model, is_friction_law
    use contact_text_words, only : integer_text
@@ -97,7 +97,7 @@ contains
       end associate
    end subroutine set_materials
 
-   !> Use an outer iteration for dissimilar bodies, and none for quasi-identical ones
+   !> Use an outer iteration for dissimilar bodies
    pure subroutine set_outer_iteration(model, material, iteration)
       !> Member of material_model
       integer, intent(in) :: model
@@ -105,9 +105,8 @@ contains
       type(iteration_spec), intent(inout) :: iteration
       logical :: unlike
 
-      unlike = abs(difference_parameter(material)) >= quasi_identical
+      unlike = abs(material%difference_parameter()) >= quasi_identical
       if (model == material_model%viscoelastic) unlike = unlike .or. material%relaxes_apart()
-      if (iteration%maxout >= 2 .and. .not. unlike) iteration%maxout = 1
       if (iteration%maxout <= 1 .and. unlike) iteration%maxout = 10
    end subroutine set_outer_iteration
 

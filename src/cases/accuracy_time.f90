@@ -71,7 +71,7 @@ contains
       type(combined_material) :: material
 
       material = combine(spec%material%poiss, spec%material%gg)
-      has_outer_iterations = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
+      has_outer_iterations = material%coupled() .and. spec%motion /= motion%none .and. spec%outer_iterations() > 1
    end function has_outer_iterations
 
    !> Maximum number of elements of the first grid, so that it ends before the deadline also on a slow machine; huge without one

@@ -21,6 +21,8 @@ module contact_cases_given
       logical :: pitch_rate = .false., longitudinal_force = .false., speed = .false., roller_rate = .false.
       !> Are the velocities given last displacements and rotations of a shift?
       logical :: are_shifts = .false.
+      !> Was it judged whether the number of outer iterations suits the bodies? Without friction it does not matter
+      logical :: outer_iterations_judged = .false.
    end type given_numbers
 
 contains

@@ -125,6 +125,7 @@ contains
       problem%solver = spec%solver
       problem%classical = spec%classical
       problem%settings = spec%iteration%solver_settings
+      problem%settings%maxout = spec%outer_iterations()
       problem%deadline = spec%limits%deadline
       problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
    end subroutine set_method

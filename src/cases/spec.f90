@@ -3,11 +3,12 @@
 !> The reader starts from the complete specification of the previous case and overwrites the groups that are read; values that a
 !> "keep" digit leaves unchanged are therefore already there, and no room below `input` needs to know about it.
 module contact_cases_spec
-   use contact_base_choices, only : grid_form, heat_source, material_model
+   use contact_base_choices, only : grid_form, heat_source, kernel_model, material_model, motion
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_base_solver_settings, only : solver_settings
    use contact_cases_given, only : given_numbers
+   use contact_elastic_material, only : combine, combined_material
    use contact_friction_law, only : friction_set
    use contact_patch_wear, only : wear_spec
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -103,6 +104,8 @@ module contact_cases_spec
    contains
       !> Do the late responses of viscoelastic bodies differ so much that pressures and tangential tractions are coupled?
       procedure :: relaxes_apart
+      !> Kalker's difference parameter K of two bodies [-]
+      procedure :: difference_parameter
    end type material_spec
 
    !> Force-based damping
@@ -205,7 +208,12 @@ module contact_cases_spec
       procedure :: has_plasticity
       !> Does the case give a grid or an undeformed distance, or form one from the values in store?
       procedure :: has_new_geometry
+      !> Maximum number of outer iterations of this case, which is 1 for bodies that do not need them
+      procedure :: outer_iterations
    end type case_spec
+
+   !> Difference parameters below this value are treated as zero [-]
+   real(wp), parameter, public :: quasi_identical = 1.0e-4_wp
 
    !> Yield limits outside these bounds mean that there is no plasticity [N/mm2]
    real(wp), parameter :: min_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
@@ -249,6 +257,27 @@ contains
       relaxes_apart = abs(at_once(1) - at_once(2)) > small .or. abs(late(1) - late(2)) > small .or. &
          & (abs(self%tc(1) - self%tc(2)) > alike*maxval(self%tc) .and. maxval(late) > small)
    end function relaxes_apart
+
+   pure real(wp) function difference_parameter(self)
+      class(material_spec), intent(in) :: self
+      type(combined_material) :: both
+
+      both = combine(self%poiss, self%gg)
+      difference_parameter = both%ak
+   end function difference_parameter
+
+   pure integer function outer_iterations(self)
+      class(case_spec), intent(in) :: self
+      logical :: affect_each_other
+
+      outer_iterations = self%iteration%maxout
+      if (outer_iterations <= 1 .or. self%motion == motion%none) return
+      affect_each_other = self%kernel == kernel_model%conformal .or. self%kernel == kernel_model%tabulated
+      if (.not. affect_each_other) affect_each_other = abs(self%material%difference_parameter()) >= quasi_identical
+      if (.not. affect_each_other .and. self%material_model == material_model%viscoelastic) &
+         & affect_each_other = self%material%relaxes_apart()
+      if (.not. affect_each_other) outer_iterations = 1
+   end function outer_iterations
 
    pure logical function has_new_geometry(self)
       class(case_spec), intent(in) :: self

@@ -12,9 +12,9 @@ module contact_cases_whole_case
    use contact_cases_own_keys, only : visit_own_heat, visit_own_iteration
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
       & visit_search, visit_springs, visit_track, visit_velocity
-   use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
+   use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, part_source, quasi_identical
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
-   use contact_elastic_material, only : combine, combined_material, coupling_threshold
+   use contact_elastic_material, only : coupling_threshold
    use contact_profile_prepare, only : is_slices_file
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -22,10 +22,7 @@ module contact_cases_whole_case
    implicit none (type, external)
    private
 
-   public :: difference_parameter, visit_case
-
-   !> Difference parameters below this value are treated as zero [-]
-   real(wp), parameter, public :: quasi_identical = 1.0e-4_wp
+   public :: visit_case
 
 contains
 
@@ -33,20 +30,24 @@ contains
    subroutine visit_case(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout), target :: spec
-      logical :: is_wheel_rail
+      logical :: is_wheel_rail, keeps_materials
 
       is_wheel_rail = allocated(spec%wheel_rail)
       associate (parts => spec%parts)
+         keeps_materials = parts%material /= part_source%given
          if (parts%iteration == part_source%given) then
             call a%open_group("iteration")
             ! module 3 may give a maximum number of elements, which has no effect there
             call visit_own_iteration(a, spec%iteration)
             call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
+            if (a%is_reading .and. a%is_good .and. keeps_materials) call doubt_outer_iteration(a, spec)
             call a%close_group()
          end if
          if (.not. is_wheel_rail) then
             call a%open_group("kinematics")
             call visit_kinematics(a, spec%kinematics, spec%normal, spec%force)
+            if (a%is_reading .and. a%is_good .and. keeps_materials .and. .not. spec%given%outer_iterations_judged) &
+               & call doubt_outer_iteration(a, spec)
             call a%close_group()
          end if
          if (parts%friction == part_source%given .and. spec%variation /= variation%by_row) then
@@ -131,56 +132,42 @@ contains
       call visit_material_model(a, spec%material_model, spec%material)
       if (a%is_reading .and. a%is_good) then
          call note_materials(spec%given, spec%pressure, spec%material_model)
-         call set_outer_iteration(a, spec)
+         call doubt_outer_iteration(a, spec)
       end if
       call a%close_group()
    end subroutine visit_materials
 
-   !> Set the maximum number of outer iterations: dissimilar bodies need them, similar bodies do not
-   subroutine set_outer_iteration(a, spec)
+   !> Warn of a maximum number of outer iterations that does not suit the bodies
+   !>
+   !> Called once for each choice of bodies and iterations, in the group that completes it: the materials, the iterations if the
+   !> case keeps its materials, or the kinematics if it keeps both and is the first one with friction.
+   subroutine doubt_outer_iteration(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
       real(wp) :: ak
-      logical :: is_dissimilar_shape, relaxes_apart
       character(len=:), allocatable :: given
 
+      spec%given%outer_iterations_judged = spec%motion /= motion%none
       if (spec%motion == motion%none) return
-      associate (material => spec%material)
-         ! invalid values have been reported already
-         if (.not. (minval(material%gg) >= 1.0e-5_wp .and. minval([material%fg, material%tc]) >= 0.0_wp)) return
-         ak = difference_parameter(material)
-         relaxes_apart = .false.
-         if (spec%material_model == material_model%viscoelastic) relaxes_apart = material%relaxes_apart()
-      end associate
-      is_dissimilar_shape = spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated
+      ! invalid values have been reported already
+      if (.not. (minval(spec%material%gg) >= 1.0e-5_wp .and. minval([spec%material%fg, spec%material%tc]) >= 0.0_wp)) return
+      ak = spec%material%difference_parameter()
       given = "MAXOUT = " // integer_text(spec%iteration%maxout)
       if (spec%iteration%maxout >= 2) then
-         if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
          ! without any coupling of pressures and tractions, one iteration is sufficient
-         if (abs(ak) >= coupling_threshold) call a%warn_of_group(given // " is replaced by 1: the bodies are " &
-            & // "quasi-identical, AK = " // real_text(ak))
-         spec%iteration%maxout = 1
+         if (spec%outer_iterations() == 1 .and. abs(ak) >= coupling_threshold) call a%warn_of_group(given // &
+            & " is replaced by 1: the bodies are quasi-identical, AK = " // real_text(ak))
       else if (abs(ak) >= quasi_identical) then
          call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar materials, AK = " // &
             & real_text(ak) // "; MAXOUT = 10 or more is recommended")
-      else if (is_dissimilar_shape) then
+      else if (spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated) then
          call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar shapes, see their " // &
             & "influence coefficients; MAXOUT = 10 or more is recommended")
-      else if (relaxes_apart) then
-         call a%warn_of_group(given // " means no outer iteration, but the viscoelastic bodies relax differently; " // &
-            & "MAXOUT = 10 or more is recommended")
+      else if (spec%material_model == material_model%viscoelastic) then
+         if (spec%material%relaxes_apart()) call a%warn_of_group(given // &
+            & " means no outer iteration, but the viscoelastic bodies relax differently; MAXOUT = 10 or more is recommended")
       end if
-   end subroutine set_outer_iteration
-
-   !> Kalker's difference parameter K of two bodies [-]
-   pure real(wp) function difference_parameter(material)
-      !> Material of both bodies
-      type(material_spec), intent(in) :: material
-      type(combined_material) :: both
-
-      both = combine(material%poiss, material%gg)
-      difference_parameter = both%ak
-   end function difference_parameter
+   end subroutine doubt_outer_iteration
 
    !> Damping; cleared if there is none
    subroutine visit_damping_group(a, spec)

@@ -130,7 +130,7 @@ contains
       case (force_control%fx_and_ceta); call log%result(" X-FORCE,  Y-CREEPAGE PRESCRIBED")
       case default; call log%result(" TANGENTIAL FORCE PRESCRIBED")
       end select
-      call write_outer_iteration(log, spec%iteration%maxout)
+      call write_outer_iteration(log, spec%outer_iterations())
    end subroutine write_problem
 
    !> Prescribed quantity of the normal problem

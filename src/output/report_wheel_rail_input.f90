@@ -102,7 +102,7 @@ contains
          if (spec%material%if_meth == 1) text = ", VARYING CURVATURE"
          call log%result(" USING CONFORMAL IF-CORRECTION: BLANCO(v" // whole(spec%material%variant, 1) // ")" // text)
       end if
-      call write_outer_iteration(log, spec%iteration%maxout)
+      call write_outer_iteration(log, spec%outer_iterations())
    end subroutine write_problem
 
    !> Write material constants, damping, heat, and the thin sheet between the bodies

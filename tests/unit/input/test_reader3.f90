@@ -715,13 +715,21 @@ contains
       call right(suite, "4=100 100 30 10 1e-5")
       call dubious(suite, "4=100 100 30 10 1e-5|8=.3 .3001 1 1", "MAXOUT = 10 is replaced by 1")
       call read_one("4=100 100 30 10 1e-5", spec, problems, error)
-      call suite%check(spec%iteration%maxout == 1, "MAXOUT becomes 1 for similar bodies")
+      call suite%check(spec%outer_iterations() == 1, "one outer iteration for similar bodies")
+      call read_two("4=100 100 30 7 1e-5", "3=0100001|4=|8=.3 .4 1 1", spec, problems, error)
+      call suite%check(spec%outer_iterations() == 7, "MAXOUT is kept while bodies are similar")
       call dubious(suite, "8=.3 .4 1 1", "dissimilar materials, AK = 0.05;")
       call right(suite, "4=100 100 30 10 1e-5|8=.3 .4 1 1")
       call dubious(suite, "8=.4 .3 1 1", "dissimilar materials, AK = -0.05;")
       call right(suite, "4=100 100 30 10 1e-5|8=.4 .3 1 1")
       call dubious(suite, "2=0024020|8=0 1 1;0 0;.3 .3 1 1", "dissimilar shapes")
       call right(suite, "1=200100|4=100 100 30 10 1e-5|7=")
+      ! one of materials, iterations and motion is new, the others are kept
+      call dubious_second(suite, "4=100 100 30 10 1e-5|8=.3 .4 1 1", "2=0020020|7=|8=", "dissimilar materials, AK = 0.05;")
+      call right_second(suite, "8=.3 .4 1 1", "2=0020020|3=0100001|4=|7=|8=")
+      call right(suite, "1=200100|7=|8=.3 .4 1 1")
+      call dubious_second(suite, "1=200100|7=|8=.3 .4 1 1", "1=201100|2=0020020|3=0100001|4=|7=|8=", &
+         & "dissimilar materials, AK = 0.05;")
    end subroutine outer_iteration
 
    !> Text that cannot be read
