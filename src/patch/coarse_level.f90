@@ -85,7 +85,7 @@ contains
       call choose_axis(fine%grid%my, box%iy0, box%iy1, y)
       continues = has_history(fine) .and. link /= time_link%initiate
       if (continues .and. coarse_state%started) then
-         if (link == time_link%repeat_step .and. coarse_state%before%grid%mx > 0) then
+         if (link == time_link%repeat_step .and. coarse_state%before%grid%mx > 0 .and. .not. coarse_state%is_steady) then
             call align_with_previous(fine, coarse_state%before, x, y)
          else
             call align_with_previous(fine, coarse_state%now, x, y)

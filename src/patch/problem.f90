@@ -156,8 +156,8 @@ module contact_patch_problem
 
    !> State of the physics that is kept from case to case
    type :: patch_state
-      !> Has a case been solved?
-      logical :: started = .false.
+      !> Has a case been solved? Was the last one steady rolling?
+      logical :: started = .false., is_steady = .false.
       !> Present and previous time step
       type(traction_fields) :: now, before
       !> Solution of the case before the last one, in a loop over time, for extrapolations; not used if its grid is empty

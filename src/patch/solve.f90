@@ -108,6 +108,7 @@ contains
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, log, result)
       state%started = .true.
+      state%is_steady = problem%motion == motion%steady_rolling
       if (any(problem%motion == [motion%transient_rolling, motion%steady_rolling])) call warn_of_creepages(result, log)
    end subroutine solve_patch
 

@@ -27,15 +27,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       ! values of particles without history, for the quantity in turn
       real(wp), allocatable :: fresh(:)
-      integer :: kind, kx, ky
+      integer :: kind, kx, ky, actual
       logical :: linked
 
+      ! in steady rolling the previous tractions are the present ones: a repeated step behind it continues from these
+      actual = link
+      if (link == time_link%repeat_step .and. state%is_steady .and. state%started) actual = time_link%continue_all
       kx = 0
       ky = 0
       linked = state%started .and. (link /= time_link%initiate .or. problem%estimate /= estimate_choice%fresh)
       if (linked) then
          call offset_of(state%now%grid, problem%grid, kx, ky, error)
-         if (.not. allocated(error) .and. link /= time_link%initiate) call check_lost_contact(state, problem%grid, link, error)
+         if (.not. allocated(error) .and. link /= time_link%initiate) call check_lost_contact(state, problem%grid, actual, error)
          if (allocated(error)) return
          call move_window(state%now, problem%grid, kx, ky)
          if (state%before%grid%mx > 0) call move_window(state%before, problem%grid, kx, ky)
@@ -43,11 +46,16 @@ contains
          call clear_time_step(state%now, problem%grid)
          state%creep = 0.0_wp
       end if
-      select case (link)
+      select case (actual)
       case (time_link%repeat_step)
          if (.not. state%before%grid%mx > 0) call clear_time_step(state%before, problem%grid)
       case (time_link%continue_all)
-         call copy_fields(state%now, state%before)
+         if (actual == link) then
+            call copy_fields(state%now, state%before)
+         else
+            ! damping forces of a repeated step are relative to the step before
+            call copy_tractions(state%now, state%before)
+         end if
       case (time_link%continue_normal)
          call copy_fields(state%now, state%before)
          call clear_long(size(state%before%px), state%before%px)
@@ -60,7 +68,7 @@ contains
          if (problem%carries(kind)) then
             if (.not. allocated(fresh)) allocate(fresh(problem%grid%my))
             call problem%fill_fresh(kind, fresh)
-            call hand_over(problem, link, linked, kx, ky, fresh, state%now%memory(kind), state%before%memory(kind))
+            call hand_over(problem, actual, linked, kx, ky, fresh, state%now%memory(kind), state%before%memory(kind))
          else
             state%now%memory(kind) = memory_field()
             state%before%memory(kind) = memory_field()
@@ -349,11 +357,23 @@ contains
       fields%force = 0.0_wp
    end subroutine clear_time_step
 
-   !> Copy of the fields of a time step
+   !> Copy of the fields of a time step, and of its forces
    subroutine copy_fields(from, to)
       !> Solved time step
       type(traction_fields), intent(in) :: from
       !> Copy, without derivative and quantities of the particles; arrays of equal size are reused
+      type(traction_fields), intent(inout) :: to
+
+      call copy_tractions(from, to)
+      to%is_solved = from%is_solved
+      to%force = from%force
+   end subroutine copy_fields
+
+   !> Copy of the grid, the tractions and the approach of a time step
+   subroutine copy_tractions(from, to)
+      !> Solved time step
+      type(traction_fields), intent(in) :: from
+      !> Its forces stay; arrays of equal size are reused
       type(traction_fields), intent(inout) :: to
 
       call fit_fields(to, from%grid%mx, from%grid%my)
@@ -363,9 +383,7 @@ contains
       call copy_long(size(to%px), from%px, to%px)
       call copy_long(size(to%py), from%py, to%py)
       to%pen = from%pen
-      to%is_solved = from%is_solved
-      to%force = from%force
-   end subroutine copy_fields
+   end subroutine copy_tractions
 
    !> Fields of a time step on a grid, without values if new; arrays of equal size are reused
    subroutine fit_fields(fields, grid_mx, grid_my)

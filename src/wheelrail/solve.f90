@@ -229,7 +229,9 @@ contains
             call geometry%before%clear()
             geometry%before%travel = 0.0_wp
          case (time_link%repeat_step)
-            continue
+            ! in steady rolling the previous tractions are the present ones
+            if (memory%motion == motion%steady_rolling .and. any(problem%template%motion == [motion%shift, &
+               & motion%transient_rolling])) geometry%before = memory%last
          case default
             geometry%before = memory%last
             if (problem%link == time_link%continue_normal) call geometry%before%drop_tangential()
