@@ -130,7 +130,8 @@ TARGET static void OF(nodes)(int n, const double *y, const double *z, const doub
     if (roller > 0.0) {
       const four slope = r * READ_FOUR(lean + i), top = zero + roller;
       OF(along_roller)(&zero, &r, &local, &slope, &top, radius, roller, lowest, origin, axes, &along);
-      const four before = along, deep = ROOTS(r * r - before * before);
+      // steep pieces of a yawed wheel are beyond its ends
+      const four before = CHOOSE(along > most, most, CHOOSE(along < -most, -most, along)), deep = ROOTS(r * r - before * before);
       OF(along_roller)(&before, &deep, &local, &slope, &top, radius, roller, lowest, origin, axes, &along);
     }
     along = CHOOSE(along > most, most, CHOOSE(along < -most, -most, along));

@@ -32,6 +32,7 @@ program test_search
    call sphere_on_plane(suite)
    call mirrored_wheel(suite)
    call locus_on_roller(suite)
+   call back_of_flange(suite)
    call benchmark(suite)
    call suite%finish()
 
@@ -284,6 +285,48 @@ contains
          & .and. all(right%rail%origin == left%rail%origin) .and. all(right%rail%axes == left%rail%axes), &
          & "mirrored input gives the same pair, to the last bit")
    end subroutine mirrored_wheel
+
+   !> A rail below the steep back of the flange, or beside the wheel: estimates of the gap are finite, and the smallest one is right
+   subroutine back_of_flange(suite)
+      type(test_suite), intent(inout) :: suite
+      !> Yaw [rad]; radii of rollers [mm], 0 for a track
+      real(wp), parameter :: yaw(3) = [0.0_wp, 8.0e-3_wp, -3.0e-2_wp], radius(2) = [0.0_wp, 500.0_wp]
+      !> Least element [mm]; gaps over flanks are accurate to some 1e-10 mm
+      real(wp), parameter :: side = 1.0_wp, on_flank = 1.0e-9_wp
+      type(profile_curve) :: rail, wheel, in_track
+      type(error_type), allocatable :: error
+      type(wheel_rail_spec) :: pair
+      type(wheel_rail_placement) :: placement
+      type(gap_curve) :: whole, surveyed
+      character(len=48) :: what
+      real(wp) :: top_z, gauge_y
+      integer :: i, j, k
+
+      call profile_of(environment("CONTACT_SOURCE") // "/examples/profiles/60E1.prr", profile_side%rail, rail, error)
+      if (.not. allocated(error)) call profile_of(environment("CONTACT_SOURCE") // "/examples/profiles/S1002.prw", &
+         & profile_side%wheel, wheel, error)
+      call suite%check(.not. allocated(error), "profiles of the examples")
+      if (allocated(error)) return
+      call gauge_point(rail, 0.0_wp, 14.0_wp, top_z, gauge_y)
+      pair%wheelset%z = 0.0_wp
+      do j = 1, size(radius)
+         pair%roller = radius(j) > 0.0_wp
+         pair%track%nomradr = radius(j)
+         do k = 1, size(yaw)
+            pair%wheelset%yaw = yaw(k)
+            do i = 0, 14
+               pair%wheelset%y = -140.0_wp + 20.0_wp*i
+               write(what, "(a,f6.0,a,f7.3,a,f5.0)") "y =", pair%wheelset%y, " mm, yaw", yaw(k), " rad, roller", radius(j)
+               call place_wheel_rail(pair, wheel, top_z, gauge_y, -60.0_wp, [0.0_wp, 0.0_wp], placement)
+               in_track = rail_in_track(rail, placement)
+               call measure_gap(in_track, wheel, placement, side, whole)
+               call measure_gap(in_track, wheel, placement, side, surveyed, reach=0.2_wp)
+               call suite%check(all(surveyed%gap <= no_surface), what // ": estimates are numbers")
+               call suite%close_to(smallest_gap(surveyed), smallest_gap(whole), on_flank, what // ": smallest gap")
+            end do
+         end do
+      end do
+   end subroutine back_of_flange
 
    subroutine benchmark(suite)
       type(test_suite), intent(inout) :: suite
