@@ -22,8 +22,22 @@ module contact_profile_miniprof
    integer, parameter :: max_messages = 4
    !> Permitted columns: lateral, vertical, angle, curvature, number, yield strength
    character(len=*), parameter :: column_letters = "XYACNK"
+   !> Keys of the header that matter
+   character(len=*), parameter :: known_keys(5) = [character(len=9) :: "ColumnDef", "XOffset", "YOffset", "Units", "Tilt"]
 
 contains
+
+   !> A word with small letters in place of capital ones
+   pure function small_letters(word) result(small)
+      character(len=*), intent(in) :: word
+      character(len=len(word)) :: small
+      integer :: k
+
+      small = word
+      do k = 1, len(word)
+         if (word(k:k) >= "A" .and. word(k:k) <= "Z") small(k:k) = achar(iachar(word(k:k)) + 32)
+      end do
+   end function small_letters
 
    !> Read the points, and what the header prescribes
    !>
@@ -142,8 +156,21 @@ contains
             if (.not. allocated(error) .and. abs(row(1)) > 0.0_wp) call log%warning(text%file // ", line " // &
                & integer_text(place%line) // ": Tilt = " // printable(value) // " is not applied; points are used as given &
                &(rotate a rail by CANT or ROLL).")
+         case default
+            call warn_of_spelling()
          end select
       end subroutine read_key
+
+      !> Warn of a key that differs from one of those above in capital and small letters only: it is ignored
+      subroutine warn_of_spelling()
+         integer :: k
+
+         do k = 1, size(known_keys)
+            if (small_letters(key) == small_letters(trim(known_keys(k)))) call log%warning(text%file // ", line " // &
+               & integer_text(place%line) // ": the key " // printable(key) // " is unknown and ignored; it is spelled " // &
+               & trim(known_keys(k)) // ".")
+         end do
+      end subroutine warn_of_spelling
 
       subroutine read_offset(offset)
          real(wp), intent(inout) :: offset

@@ -345,6 +345,10 @@ contains
          & nl // "0 0" // &
          & nl // "5 1" // nl // "10 3" // nl // "20 10", curve, "text after columns", warnings=1)
       call is_roof(suite, curve, "text after columns")
+      ! keys with other capital letters, as in the established program, are ignored, with a warning
+      call read_text(suite, request, "columndef=Y,X" // nl // "xoffset=1" // nl // "yOffset=1" // nl // "UNITS=inch" // nl // &
+         & "tilt=1" // nl // "gauge=1" // nl // nl // roof, curve, "spelling of keys", warnings=5)
+      call is_roof(suite, curve, "spelling of keys")
       ! unit and tilt of the file
       call read_text(suite, request, "Units=mm" // nl // "Tilt=0.0" // nl // nl // roof, curve, "units and tilt")
       call read_text(suite, request, "Tilt=0.5" // nl // nl // roof, curve, "tilt", warnings=1)
