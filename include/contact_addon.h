@@ -155,7 +155,8 @@ void cntc_setpotcontact(const int *ire, const int *icp, const int *ipotcn, const
 void cntc_settangentialforces(const int *ire, const int *icp, const double *fx, const double *fy);
 
 /* Take the settings of wheel and rail from the first case of an input file.
- *   inp_type: CNTC_inp_modul1 or CNTC_inp_spck
+ *   inp_type: CNTC_inp_modul1; or CNTC_inp_spck: MODULE = 0 or 11, Z and E = 0 or 3; C1, P, N,
+ *       F, H, S and I keep their values
  *   c_fname: name of the file; with CNTC_inp_modul1 .inp or .toml, the readable format
  *   ierror: 0, or a negative code CNTC_err_* */
 void cntc_readinpfile(const int *ire, const int *inp_type, const char *c_fname,

@@ -4,7 +4,8 @@ function [ ierror ] = cntc_readinpfile( ire, inp_type, fname )
 %   ierror = cntc_readinpfile( ire, inp_type, fname )
 %
 %   ire       result element of a wheel-rail problem (default 1)
-%   inp_type  CNTC.inp_modul1 or CNTC.inp_spck
+%   inp_type  CNTC.inp_modul1; or CNTC.inp_spck: MODULE = 0 or 11, Z and E = 0 or 3; C1, P, N, F, H, S and I keep
+%             their values
 %   fname     name of the file; with CNTC.inp_modul1 .inp or .toml, the readable format
 %   ierror    0, or a negative code CNTC.err_*
 %

@@ -9,6 +9,7 @@ module contact_capi_input_file
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : read_given_profile
    use contact_capi_registry, only : enter, leave, scope
+   use contact_cases_given, only : all_given
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_value, put_digit
    use contact_control_library_codes, only : input_type, library_code
@@ -114,6 +115,8 @@ contains
       previous%wheel_rail%left = spec%wheel_rail%left
       previous%wheel_rail%roller = spec%wheel_rail%roller
       previous%normal = spec%normal
+      ! what the file keeps are settings of the caller
+      previous%given = all_given(spec%motion)
       call read_simpack_case(file, previous, spec, found, problems, error)
       if (.not. allocated(error)) call problems%first_failure(error)
       if (allocated(error)) return

@@ -7,7 +7,7 @@ module contact_cases_given
    implicit none (type, external)
    private
 
-   public :: given_numbers, note_materials, note_velocity
+   public :: all_given, given_numbers, note_materials, note_velocity
 
    !> What the cases of a sequence have given so far
    type :: given_numbers
@@ -61,4 +61,15 @@ contains
       given%pitch_rate = given%pitch_rate .or. force /= force_control%longitudinal_force
       given%are_shifts = moves == motion%shift
    end subroutine note_velocity
+
+   !> Everything was given: settings of a caller replace initial values that are documented
+   pure function all_given(moves) result(given)
+      !> Motion to which the velocities belong, member of motion
+      integer, intent(in) :: moves
+      type(given_numbers) :: given
+
+      given = given_numbers(sheet=.true., viscoelastic=.true., slopes=.true., flexibility=.true., layer=.true., rolling=.true., &
+         & springs=.true., cant=.true., roller_radius=.true., pitch_rate=.true., longitudinal_force=.true., speed=.true., &
+         & roller_rate=.true., are_shifts=moves == motion%shift)
+   end function all_given
 end module contact_cases_given

@@ -531,9 +531,42 @@ def from_inputs():
     same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "an unknown kind")
 
 
+def simpack_file():
+    """A file of the Simpack user routine: what it gives acts as the same settings by routines, what it keeps are those before it"""
+    rail, wheel = profiles()
+    head = " 0 MODULE\n 1203000  C-P-B-T-N-F-S\n 00220{}  V-L-D-C-M-Z-E\n 0000001  H-G-I-A-O-W-R\n 999 100 30 1 1e-5\n 0.2 0.2\n" \
+           " 0.28 0.28 82000 82000\n 0.6 0.6 1 90d 8 4\n"
+    track = f" 14 0 1435 0.02\n '{rail}' 0 1 0\n 0.5 0 0 0 0 0\n"
+    wheelset = f" 1360 -70 460\n '{wheel}' 0 1 0\n 0 1.5 0.2 0 0.003 0\n 2000 0 0 0 0 -4.34\n"
+    for side, digits in ((1, "00"), (1, "03"), (1, "30"), (1, "33"), (0, "00"), (5, "00")):
+        label = f"C1 = {side}, Z and E {digits}"
+        with open("spck.inp", "w", encoding="utf-8") as file:
+            file.write(head.replace("{}", digits) + track * (digits[0] == "3") + wheelset * (digits[1] == "3"))
+        for ire in (1, 2):
+            set_up(ire, 1 if side == 5 else side)
+            if side == 5:
+                cntc.setflags(ire, -1, [CNTC["ic_config"]], [side])
+                cntc.settrackdimensions(ire, 3, [14.0, 0.0, 1435.0, 0.02, 500.0] + 7 * [0.0])
+                cntc.setwheelsetvelocity(ire, 2, [4.0, 0, 0, 0, 0, -4.3459197])
+        same(cntc.readinpfile(1, CNTC["inp_spck"], "spck.inp"), 0, f"{label}: readinpfile ({last_error(1, -1)[1]})")
+        cntc.setfrictionmethod(2, -1, 0, [0.2, 0.2])
+        cntc.setpotcontact(2, -1, -1, [0.6, 0.6, np.pi / 2, 8, 4])
+        if digits[0] == "3":
+            cntc.settrackdimensions(2, 3, [14.0, 0.0, 1435.0, 0.02, 0.0, 0.5] + 5 * [0.0])
+        if digits[1] == "3":
+            cntc.setwheelsetposition(2, 1, [0, 1.5, 0, 0, 0.003, 0])
+            cntc.setwheelsetvelocity(2, 2, [2000, 0, 0, 0, 0, -4.34])
+        forces = []
+        for ire in (1, 2):
+            same(cntc.calculate(ire, -1), 0, f"{label}: error code of element {ire}")
+            forces.append(cntc.getglobalforces(ire, -1)[:3])
+            same(list(cntc.getflags(ire, -1, [CNTC["ic_config"], CNTC["ic_norm"]])), [side, 1], f"{label}: kept digits")
+        close(forces[0], forces[1], 0.1, f"{label}: forces")
+
+
 if __name__ == "__main__":
     scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying,
-                 from_inputs)
+                 from_inputs, simpack_file)
     chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
