@@ -30,8 +30,8 @@ module contact_patch_error_estimate
    implicit none (type, external)
    private
 
-   public :: coarse_level, compare_levels, error_of_forces, estimate_errors, normal_stiffness, release_coarse_level, &
-      & solve_coarse_level
+   public :: add_error_of_load, coarse_level, compare_levels, error_of_forces, estimate_errors, normal_stiffness, &
+      & release_coarse_level, solve_coarse_level
 
    !> The coarse level, kept from case to case for its arrays and spectra
    type :: coarse_level
@@ -272,6 +272,23 @@ contains
       stiffness = result%sensitivity(1, 1)
       if (.not. stiffness > 0.0_wp) stiffness = hertz_power*result%fn/max(result%pen - minval(result%h), tiny(stiffness))
    end function normal_stiffness
+
+   !> Add the effect of an error of the normal force of a patch that the balance of forces causes, an independent error of all totals
+   subroutine add_error_of_load(load, result)
+      !> Relative error of the normal force [-]
+      real(wp), intent(in) :: load
+      !> Values in `errors` are increased, except that of the approach, whose error is known
+      type(patch_result), intent(inout) :: result
+      type(total_list) :: list
+      integer :: k
+
+      call result%totals(list)
+      do k = 1, list%length
+         if (list%rows(k)%name == "pen") cycle
+         ! without estimate it remains so
+         result%errors%value(k) = hypot(result%errors%value(k), load*power_of_load(list%rows(k))*list%rows(k)%value)
+      end do
+   end subroutine add_error_of_load
 
    !> Exponent of the normal force to which a total is proportional, by Hertz's theory with fixed creepages [-]
    pure real(wp) function power_of_load(row) result(power)

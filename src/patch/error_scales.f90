@@ -5,6 +5,7 @@ module contact_patch_error_scales
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_numeric_elliptic, only : complete_elliptic, elliptic_integrals
    use contact_patch_edge_slip, only : edge_slip_error
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -12,16 +13,16 @@ module contact_patch_error_scales
    implicit none (type, external)
    private
 
-   public :: first_order, mean_friction, normal_order, resolved, scale_type, scales, unresolved_floor
+   public :: first_order, mean_friction, normal_order, resolved, scale_type, scales, unseen
 
    !> Order of the normal problem
    real(wp), parameter :: normal_order = 2.0_wp
    !> Orders of forces in steady rolling for both schemes; the order of the second one is observed from 15 to 45 elements, with
    !> scatter
    real(wp), parameter :: first_order = 1.0_wp, second_order = 1.6_wp
-   !> Contact of fewer elements across is not resolved, and is not coarsened in that direction: relative error of any total, times
-   !> n^-2, of the hard cases of tests/stability
-   real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp
+   !> Contact of fewer elements across is not coarsened in that direction, so that the levels do not show its error: factor of the
+   !> lower bounds there, which are about half of the usual errors
+   real(wp), parameter :: resolved = 6.0_wp, usual = 2.0_wp
    !> Order of the maximum of a field whose peak is resolved; order of temperatures that count the heat of an element twice at its
    !> centre: its contribution decreases with the square root of the element length
    real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp
@@ -67,6 +68,8 @@ module contact_patch_error_scales
       logical :: in_pair = .false.
       !> Are both tangential forces prescribed, so that only the moment has an error?
       logical :: is_moment_alone = .false.
+      !> FX and FY over the tangential force, magnitudes [-]
+      real(wp) :: direction(2) = 0.0_wp
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
       !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady
@@ -79,6 +82,8 @@ module contact_patch_error_scales
       real(wp) :: spin_step = 0.0_wp
       !> Root of the ratio of the sides of the contact: arms of the longer one exceed the radius of the area by this factor [-]
       real(wp) :: slender = 1.0_wp
+      !> Approach by the pressures of the narrow width alone, over that of the whole contact, relative to a circle: K(0)/K [-]
+      real(wp) :: width_share = 1.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Is it transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
@@ -108,6 +113,8 @@ module contact_patch_error_scales
       real(wp) :: driven = 0.0_wp
       !> Geometric mean of the number of elements across the contact in both directions
       real(wp) :: mean_across = 1.0_wp
+      !> Square of the number of elements that counts for errors of second order of tractions: the narrower direction times the mean
+      real(wp) :: squared = 1.0_wp
       !> Error of the forces by slip at the leading edge of unlike bodies, by the second order [-]; is it known?
       real(wp) :: edge_slip = 0.0_wp
       logical :: has_edge_slip = .false.
@@ -136,6 +143,13 @@ module contact_patch_error_scales
 
 contains
 
+   !> Factor of lower bounds for errors that the levels do not show, as a direction has few elements [-]
+   pure real(wp) function unseen(scale)
+      type(scale_type), intent(in) :: scale
+
+      unseen = merge(usual, 1.0_wp, scale%across < resolved)
+   end function unseen
+
    !> Mean coefficient of friction, weighted with pressure [-]
    pure real(wp) function mean_friction(result) result(mu)
       !> Solution, with contact
@@ -162,6 +176,7 @@ contains
       type(patch_result), intent(in) :: result
       type(scale_type) :: scale
       type(bounding_box) :: box
+      type(elliptic_integrals) :: integrals
       real(wp) :: extent(2)
       integer :: across(2)
 
@@ -179,6 +194,11 @@ contains
          scale%across = across(2)
          scale%mean_across = scale%across
       end if
+      if (result%grid%mx >= 3 .and. result%grid%my >= 3) then
+         integrals = complete_elliptic(minval(extent)/maxval(extent))
+         scale%width_share = 0.5_wp*pi/integrals%k
+      end if
+      scale%squared = scale%across*scale%mean_across
       scale%force = result%grid%dx*result%grid%dy*sum(result%mu*result%pn)
       scale%moment = scale%force*sqrt(result%contact_area()/pi)
       scale%creep = max(abs(result%cksi), abs(result%ceta))
@@ -207,6 +227,7 @@ contains
          if (scale%coupling > 0.0_wp) scale%gain = reversal_gain*min(1.0_wp, scale%across*result%grid%dx*result%grid%dy &
             & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
       end if
+      scale%direction = abs([result%fx, result%fy])/max(hypot(result%fx, result%fy), tiny(extent))
       scale%is_moment_alone = problem%n_forces == 2
       if (any(problem%motion == [motion%steady_rolling, motion%shift]) .and. scale%force > 0.0_wp) scale%cancelled &
          & = sqrt(max(0.0_wp, scale%used**2 - (result%fx**2 + result%fy**2)/scale%force**2))

@@ -4,7 +4,7 @@
 module contact_patch_level_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
-   use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unresolved_floor
+   use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unseen
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_result, only : error_estimate
    use contact_patch_step_errors, only : energy_of_forces, energy_of_steps, power_error
@@ -21,10 +21,6 @@ module contact_patch_level_errors
    !> Order of frictional power with the first-order scheme: its error decreases to 1/(1 + 1.65) with elements of a third; median of
    !> tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
-   !> Contact of fewer elements than `resolved`: relative error of normal force and approach, times n^-2, of second patches of
-   !> wheels with 3 to 5 elements across (seed 31101). That of forces is `unresolved_floor` times the root of the fraction in
-   !> adhesion, which is taken as at least the last
-   real(wp), parameter :: unresolved_normal = 0.2_wp, unresolved_adhesion = 0.1_wp
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1. Energy of tractions with a layer: factor of the root of the fraction in adhesion times n^-1; half of the usual error
    !> from 2 to 95 % in adhesion (seeds 99711 and 99713)
@@ -134,7 +130,7 @@ contains
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
-         floor = max(normal_floor/scale%across**2 + rough_floor(1)*scale%roughness, scale%hidden)
+         floor = max(normal_floor*scale%width_share/scale%across**2 + rough_floor(1)*scale%roughness, scale%hidden)
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          call bound_friction(row, difference, unit, scale, e, floor)
@@ -146,11 +142,11 @@ contains
          return
       case (error_law%peak)
          call bound_temperature(row, difference, scale, e, least)
+         least = unseen(scale)*least
       case default
          e = difference/(coarsening**jump_order - 1.0_wp)
-         floor = area_floor/scale%across
+         floor = unseen(scale)*area_floor/scale%across
       end select
-      if (scale%across < resolved) floor = max(floor, floor_of_few(row, scale))
       e = max(e, floor*unit, least) + (stopping + errors%window)*unit
    end function error_of
 
@@ -178,22 +174,6 @@ contains
          & temperature_floor(1)/slipping, scale%jumps)
       e = difference/(coarsening**merge(normal_order, scale%heat_order, scale%jumps .and. scale%heat_order >= first_order) - 1.0_wp)
    end subroutine bound_temperature
-
-   !> Relative error of a total if contact is few elements wide
-   pure real(wp) function floor_of_few(row, scale) result(floor)
-      !> Total of the finer level
-      type(total), intent(in) :: row
-      type(scale_type), intent(in) :: scale
-
-      floor = unresolved_floor
-      if (row%law == error_law%normal) floor = unresolved_normal
-      if (row%law == error_law%friction) floor = floor*sqrt(max(unresolved_adhesion, scale%sticking))
-      if (is_turning(scale)) then
-         if (row%law == error_law%friction .and. row%scale /= error_scale%moment) floor = turned_forces(scale)
-         if (row%law == error_law%power) floor = turned_power(scale)
-      end if
-      floor = floor/scale%across**2
-   end function floor_of_few
 
    !> General error of frictional power in full sliding by the second order, times n^2, relative to it
    pure real(wp) function turned_power(scale) result(floor)
@@ -224,7 +204,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       ratio = max(1.0_wp, difference/(coarsening**normal_order - 1.0_wp)*scale%across**2 &
-         & /(normal_floor*max(scale_of(row, scale), tiny(ratio))))
+         & /(normal_floor*scale%width_share*max(scale_of(row, scale), tiny(ratio))))
    end function irregularity
 
    !> Error of frictional power or work without contributions of solvers and window, in its unit
@@ -282,7 +262,7 @@ contains
 
       slipping = max(1.0_wp, scale%mean_across*(1.0_wp - scale%sticking))
       usual = (relaxing_power(1) + relaxing_power(2)*scale%turning + relaxing_power(3)*scale%sticking**relaxing_power(4) &
-         & *max(1.0_wp, narrow_slip/slipping)**2)/scale%mean_across**2
+         & *max(1.0_wp, narrow_slip/slipping)**2)/scale%squared
       e = max(usual*max(relaxing_ratio, part_of(scale, scale%order)*difference/usual)**relaxing_trust, &
          & sqrt(scale%adhesion)*unrelaxed(scale))
    end function error_of_relaxing
@@ -316,9 +296,9 @@ contains
       real(wp) :: floor, by_levels
 
       if (is_turning(scale)) then
-         floor = turned_power(scale)/scale%mean_across**2
+         floor = turned_power(scale)/scale%squared
       else
-         floor = hypot(friction_floor(scale, scale%adhesion, .true.), turning_power_floor*scale%turning/scale%mean_across**2)
+         floor = hypot(friction_floor(scale, scale%adhesion, .true.), turning_power_floor*scale%turning/scale%squared)
       end if
       floor = floor*max(scale%power, unit)
       by_levels = part_of(scale, order_of(scale))*abs(scale%motion_change)
@@ -326,7 +306,7 @@ contains
       e = hypot(scale%surplus - sign(signed*by_levels, scale%motion_change), max(floor, unsigned*by_levels))
       ! a surplus that jumps with the offset of the grid may be small by chance: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, trusted(part_of(scale, order_of(scale))*abs(scale%coarse_surplus), floor, trust_in(scale)), &
-         & sticking_power(1)*scale%sticking**sticking_power(2)/scale%mean_across**2*max(scale%power, unit))
+         & sticking_power(1)*scale%sticking**sticking_power(2)/scale%squared*max(scale%power, unit))
    end function error_by_balance
 
    !> Error of the elastic energy without contributions of solvers and window [J]

@@ -7,7 +7,7 @@ module contact_patch_peak_errors
    use contact_numeric_vectors, only : largest_of
    use contact_patch_between_rows, only : section_details
    use contact_patch_coarse_level, only : coarsening
-   use contact_patch_error_scales, only : normal_order, resolved, scale_type, unresolved_floor
+   use contact_patch_error_scales, only : normal_order, resolved, scale_type, unseen
    use contact_patch_peak, only : peak_of, place_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -89,7 +89,7 @@ contains
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
       if (scale%coupling > 0.0_wp) floor = max(floor, coupled_floor*scale%coupling/scale%across**2, &
          & coupled_bend*scale%coupling*bend_of_tractions(result, at)/result%pmax)
-      if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
+      floor = unseen(scale)*floor
       e = max(e, floor, unresolved*cusp, hidden_peak(problem, result)/result%pmax - 1.0_wp)
       if (scale%roughness > usual_roughness) e = max(e, rough_peak*(scale%roughness - usual_roughness)*scale%across &
          & *part_of_noise(problem%h, result%pn))

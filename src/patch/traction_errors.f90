@@ -139,16 +139,17 @@ contains
       if (is_moment .and. scale%order > first_order) adhesion = max(least_adhesion, adhesion)
       if ((is_force .or. scale%is_moment_alone) .and. is_first(scale)) adhesion = max(adhesion, turned_share*scale%cancelled)
       floor = driven_floor(scale, adhesion)
-      turned = turned_forces(scale, is_moment)/scale%mean_across**2
-      ! independent errors; those of the moment have the same cause, the pressures
-      floor = merge(floor + turned, hypot(floor, turned), is_moment)
+      turned = turned_forces(scale, is_moment)/scale%squared
+      ! independent errors
+      floor = hypot(floor, turned)
+      if (is_force .and. is_turning(scale)) floor = floor*across_force(row, scale)
       if (is_moment .and. scale%order > first_order .and. .not. scale%is_line) floor = floor*scale%slender/usual_slender
       if (scale%is_moment_alone .and. is_force) floor = floor*merge(sqrt(min(1.0_wp, scale%used)), moment_alone, is_first(scale))
       if (is_moment .and. is_first(scale)) floor = max(floor, displaced*sqrt(scale%sticking)*scale%arm)
       if (scale%is_moment_alone .and. .not. is_force .and. is_first(scale)) &
          & floor = floor*max(1.0_wp, change_of_creepage(scale%used))
       if (row%name == "ceta" .and. is_first(scale)) floor = max(floor, displaced_spin*scale%spin_step)
-      if (.not. is_force .and. scale%jumps) floor = floor + creepage_floor*sqrt(scale%adhesion)/scale%mean_across**2
+      if (.not. is_force .and. scale%jumps) floor = floor + creepage_floor*sqrt(scale%adhesion)/scale%squared
       if (scale%jumps) then
          e = unit*trusted(e/max(unit, tiny(unit)), floor, trust_in(scale))
       else if (is_force .and. is_first(scale)) then
@@ -189,6 +190,19 @@ contains
       ratio = 1.0_wp/(3.0_wp*root**2*(1.0_wp - root))
    end function change_of_creepage
 
+   !> Part of the error of the direction of the force that FX or FY has in full sliding, as the force itself is the friction bound: it
+   !> is perpendicular to the force. 1 for the moment
+   pure real(wp) function across_force(row, scale) result(part)
+      !> Force or moment
+      type(total), intent(in) :: row
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      part = 1.0_wp
+      if (any(row%name == ["fx    ", "fx_rel"])) part = max(other_component, scale%direction(2))
+      if (any(row%name == ["fy    ", "fy_rel"])) part = max(other_component, scale%direction(1))
+   end function across_force
+
    !> Error of a force or moment in full sliding of like elastic bodies in steady rolling by the first order, and its lower bound
    pure subroutine bound_sliding(row, unit, scale, e, floor)
       !> Total of the finer level
@@ -210,9 +224,10 @@ contains
       case default
          e = errors(3)
       end select
-      floor = max(sliding_floor/scale%mean_across**2, other_component*maxval(errors), scale%reversal*share_of_reversal(scale), &
-         & rough_floor(2)*scale%roughness)
-      if (row%scale == error_scale%moment) floor = max(floor, displaced_centre*scale%irregular/scale%across**2)
+      floor = max(across_force(row, scale)*max(sliding_floor/scale%squared, norm2(errors(1:2))), &
+         & scale%reversal*share_of_reversal(scale), rough_floor(2)*scale%roughness)
+      if (row%scale == error_scale%moment) floor = max(other_component*maxval(errors), &
+         & displaced_centre*scale%irregular/scale%across**2)
       e = e*unit
    end subroutine bound_sliding
 
@@ -272,10 +287,10 @@ contains
       else
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)
          if (in_power) floor = balance_floor
-         floor = floor/scale%mean_across**2
+         floor = floor/scale%squared
       end if
       floor = max(sqrt(adhesion)*floor, sqrt(scale%adhesion)*unrelaxed(scale))
-      if (scale%order > first_order) floor = hypot(floor, falling_floor*scale%falling/scale%mean_across**2)
+      if (scale%order > first_order) floor = hypot(floor, falling_floor*scale%falling/scale%squared)
       if (is_unseen(scale)) floor = floor*scale%irregular
    end function friction_floor
 

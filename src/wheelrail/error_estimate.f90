@@ -6,11 +6,11 @@
 !> the angles of patches, see contact_wheelrail_section_distance; other errors of profiles and positions of patches are not.
 module contact_wheelrail_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
-   use contact_base_choices, only : motion, time_link
+   use contact_base_choices, only : force_control, motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_patch_between_rows, only : section_details
-   use contact_patch_error_estimate, only : compare_levels, normal_stiffness, solve_coarse_level
+   use contact_patch_error_estimate, only : add_error_of_load, compare_levels, normal_stiffness, solve_coarse_level
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_wheelrail_carry_over, only : max_patches
@@ -27,6 +27,8 @@ module contact_wheelrail_error_estimate
    type :: pair_error
       !> Of the force on the rail [N], and of the moments about the reference of the rail and of the wheel [N mm]
       real(wp), dimension(3) :: force = 0.0_wp, on_rail = 0.0_wp, on_wheel = 0.0_wp
+      !> Of the normal forces by errors of friction and of angles, as the vertical force is prescribed; relative [-]
+      real(wp) :: load(max_patches) = 0.0_wp
    contains
       !> Add an independent error
       procedure :: add
@@ -119,7 +121,7 @@ contains
    !> Errors of forces and moments of all patches
    subroutine add_up(problem, memory, turn, result)
       type(wheel_rail_problem), intent(in) :: problem
-      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Errors of the angles of the patches [rad]
       real(wp), intent(in) :: turn(:)
       type(wheel_rail_result), intent(inout) :: result
@@ -156,18 +158,49 @@ contains
             end associate
          end associate
       end do
+      do k = 1, memory%used
+         if (e%load(k) > 0.0_wp) call add_error_of_load(e%load(k), memory%slot(k)%result)
+      end do
       call result%totals(problem%spec, pair)
       first = pair%place_of("fx_tr")
       result%errors(first:first + 1) = e%force(1:2)
       if (.not. problem%force_prescribed) result%errors(first + 2) = e%force(3)
       first = pair%place_of("fx_ws")
       result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%force)
+      if (keeps_longitudinal_force(problem)) call omit_given_force(memory, result%errors(first))
       first = pair%place_of("mx_r_tr")
       result%errors(first:first + 2) = e%on_rail
       first = pair%place_of("mx_w_ws")
       result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%on_wheel)
       if (problem%force_prescribed .and. total > 0.0_wp) result%errors(pair%place_of("z_ws")) = height/total
    end subroutine add_up
+
+   !> Is the longitudinal force prescribed, so that errors change the pitch rate instead?
+   pure logical function keeps_longitudinal_force(problem) result(keeps)
+      type(wheel_rail_problem), intent(in) :: problem
+
+      keeps = problem%force == force_control%longitudinal_force
+   end function keeps_longitudinal_force
+
+   !> A prescribed longitudinal force has no error; that of a single patch follows from its lateral force
+   subroutine omit_given_force(memory, error)
+      !> Errors of a single patch are changed
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Error of the prescribed force: not known [N]
+      real(wp), intent(out) :: error
+      type(total_list) :: patch
+      real(wp) :: along(3)
+
+      error = ieee_value(error, ieee_quiet_nan)
+      if (memory%used /= 1) return
+      associate (slot => memory%slot(1))
+         along = abs(matmul(memory%geometry%placement%wheelset%axes(:, 1), slot%plane%axes))
+         call slot%result%totals(patch)
+         associate (value => slot%result%errors%value)
+            value(patch%place_of("fx")) = along(2)/along(1)*value(patch%place_of("fy"))
+         end associate
+      end associate
+   end subroutine omit_given_force
 
    !> Change of the force on the rail if a patch turns about the track's direction [N]
    pure function turned_force(slot, turn) result(change)
@@ -182,7 +215,7 @@ contains
    !> Add the effect of an error of the angle of a patch
    pure subroutine add_turn(problem, memory, k, turn, e)
       type(wheel_rail_problem), intent(in) :: problem
-      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Patch, and error [rad]
       integer, intent(in) :: k
       real(wp), intent(in) :: turn
@@ -191,7 +224,7 @@ contains
 
       change = 0.0_wp
       change(:, k) = turned_force(memory%slot(k), turn)
-      call add_change(problem, memory, change, e)
+      call add_change(problem, memory, change, .true., e)
    end subroutine add_turn
 
    !> Add the effect of an error of one force of a patch
@@ -212,20 +245,23 @@ contains
          if (problem%force_prescribed .and. component == 3 .and. slot%result%fn > 0.0_wp) &
             & change(:, k) = error*matmul(slot%plane%axes, slot%force/slot%result%fn)
       end associate
-      call add_change(problem, memory, change, e)
+      call add_change(problem, memory, change, component /= 3, e)
    end subroutine add_force
 
    !> Add the effect of errors of the forces of patches. If the vertical force is prescribed, the height changes until all patches
    !> carry it again, so that other patches are loaded or unloaded; a single patch keeps its normal force but for the vertical
-   !> part of friction
-   pure subroutine add_change(problem, memory, error, e)
+   !> part of friction. If the longitudinal force is prescribed, the pitch rate changes until it is reached
+   pure subroutine add_change(problem, memory, error, loads, e)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
       !> Errors of the forces on the rail [N], shape (3, patches)
       real(wp), intent(in) :: error(:, :)
+      !> Do changes of the normal forces count? Errors of normal forces include them
+      logical, intent(in) :: loads
       type(pair_error), intent(inout) :: e
       real(wp), dimension(3, memory%used) :: change, per_height
       real(wp), dimension(3) :: force, on_rail, on_wheel
+      real(wp) :: height, normal
       integer :: m
 
       change = error
@@ -238,7 +274,24 @@ contains
                   & *matmul(slot%plane%axes, slot%force/slot%result%fn)
             end associate
          end do
-         if (sum(per_height(3, :)) > 0.0_wp) change = change - sum(change(3, :))/sum(per_height(3, :))*per_height
+         height = 0.0_wp
+         if (sum(per_height(3, :)) > 0.0_wp) height = -sum(change(3, :))/sum(per_height(3, :))
+         change = change + height*per_height
+         do m = 1, memory%used
+            associate (slot => memory%slot(m))
+               if (loads .and. slot%result%fn > 0.0_wp) e%load(m) = hypot(e%load(m), &
+                  & height*normal_stiffness(slot%result)*slot%plane%axes(3, 3)/slot%result%fn)
+            end associate
+         end do
+      end if
+      if (keeps_longitudinal_force(problem)) then
+         normal = sum([(memory%slot(m)%result%fn, m=1, memory%used)])
+         associate (along => memory%geometry%placement%wheelset%axes(:, 1))
+            force = dot_product(sum(change, dim=2), along)*along
+            do m = 1, memory%used
+               change(:, m) = change(:, m) - memory%slot(m)%result%fn/normal*force
+            end do
+         end associate
       end if
       on_rail = 0.0_wp
       on_wheel = 0.0_wp

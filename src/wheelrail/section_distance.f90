@@ -56,7 +56,7 @@ contains
             slot%plane = plane
          end associate
       end do
-      if (any(details(:memory%used)%known)) call find_turns(problem, memory, turn)
+      call find_turns(problem, memory, turn)
       memory%geometry%placement = placement
    end subroutine find_details
 

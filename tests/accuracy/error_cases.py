@@ -297,15 +297,52 @@ def wheel(random):
             "normal": "force", "dx": random.uniform(0.3, 0.7)}
 
 
+#: Pairs of rails and wheels in examples/profiles, and of files that tests/stability/worn_profiles.py writes; smoothed where rough
+PAIRS = {"new": ("60E1.prr", "S1002.prw"), "both worn": ("60E1_worn.prr", "S1002_worn.prw"),
+         "worn rail": ("60E1_worn.prr", "S1002.prw"), "worn wheel": ("60E1.prr", "S1002_worn.prw"),
+         "hollow": ("worn.prr", "hollow.prw"), "deep": ("new.prr", "deep.prw"), "conformal": ("worn.prr", "deep.prw"),
+         "flat": ("flat.prr", "new.prw"), "mirrored": ("mirrored_rail.txt", "mirrored_wheel.txt"),
+         "smoothed": ("rough.ban", "rough.whl")}
+
+
+def any_wheel(random, profiles):
+    """A wheel of any pair of profiles, from little creepage to sliding, on a track or a roller, some with a prescribed force."""
+    vs = 20000.0
+
+    def size(least, most):
+        return math.exp(random.uniform(math.log(least), math.log(most)))
+
+    pair = random.choice(sorted(PAIRS))
+    more = {"mirrored": {"mirrory": 1}, "smoothed": {"smooth": 3.0, "ismooth": 1}}.get(pair, {})
+    files = [({"file": str(profiles / name) if (profiles / name).exists() else name} | more) for name in PAIRS[pair]]
+    creep = random.uniform(-0.0012, 0.0012) if random.random() < 0.5 else random.choice([-1, 1]) * size(5e-5, 5e-3)
+    c = {"kind": pair, "steps": 1, "order": 1, "a": 1.0, "b": 1.0, "normal": "force", "vs": vs, "files": files,
+         "y": random.uniform(3.0, 9.5) if random.random() < 0.4 else random.uniform(-12.0, 6.0),
+         "yaw": random.choice([-1, 1]) * size(2e-4, 0.02), "fz": size(5000.0, 200000.0), "mu": random.uniform(0.1, 0.5),
+         "vpitch": -vs / 460.0 * (1.0 + creep), "cant": random.choice([0.0, 0.025, 0.05]), "dx": size(0.2, 1.0)}
+    c["place"], c["roller"] = ("roller" if random.random() < 0.2 else "track"), random.choice([300.0, 500.0, 1000.0])
+    if random.random() < 0.2:
+        c["tangential"], c["fx_ws"] = "longitudinal_force", random.uniform(-0.8, 0.8) * c["mu"] * c["fz"]
+    return c
+
+
 def wheel_text(c, factor, profiles):
-    """The case of a wheel with elements smaller by a factor."""
+    """The case of a wheel with elements smaller by a factor; profiles of the folder, or those with names of their own."""
     size = c["dx"] / factor
+    rail, tread = ("\n".join(f"{name} = {value!r}" for name, value in part.items())
+                   for part in c.get("files", ({"file": f"{profiles}/60E1.prr"}, {"file": f"{profiles}/S1002.prw"})))
+    rolling = c.get("tangential", "velocities") != "longitudinal_force"
+    given = f"vpitch = {c['vpitch']!r}" if rolling else f"fx_ws = {c['fx_ws']!r}"
+    on = c.get("place", "track")
+    track = f"gaught = 14.0\ngaugsq = 0.0\ngaugwd = 1435.0\ncant = {c['cant']!r}" if on == "track" else \
+        f"gaught = -1.0\nraily0 = 752.0\nrailz0 = 0.0\nnomradr = {c.get('roller')!r}"
+    speed = f"vs = {c['vs']!r}" if on == "track" else f"rpitch = {c['vs'] / c['roller']!r}"
     return f"""[[case]]
 module = "wheel_rail"
-configuration = "right_on_track"
+configuration = "right_on_{on}"
 motion = "steady_rolling"
 normal = "force"
-tangential = "velocities"
+tangential = "{c.get("tangential", "velocities")}"
 output_level = 0
 sequence = "initiate"
 estimate = "fresh"
@@ -332,24 +369,21 @@ ds = {size!r}
 a_sep = "90.0 deg"
 d_turn = 12.0
 [case.track]
-gaught = 14.0
-gaugsq = 0.0
-gaugwd = 1435.0
-cant = {c["cant"]!r}
+{track}
 [case.rail_profile]
-file = "{profiles}/60E1.prr"
+{rail}
 [case.deviations]
 [case.wheel_dimensions]
 fbdist = 1360.0
 fbpos = -70.0
 nomradw = 460.0
 [case.wheel_profile]
-file = "{profiles}/S1002.prw"
+{tread}
 [case.position]
 y_ws = {c["y"]!r}
 yaw = {c["yaw"]!r}
 fz = {c["fz"]!r}
 [case.velocity]
-vs = {c["vs"]!r}
-vpitch = {c["vpitch"]!r}
+{speed}
+{given}
 """
