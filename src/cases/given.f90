@@ -19,8 +19,8 @@ module contact_cases_given
       logical :: springs = .false., cant = .false., roller_radius = .false.
       !> Pitch rate of the wheelset, or the longitudinal force instead; speed along the track, or the pitch rate of a roller
       logical :: pitch_rate = .false., longitudinal_force = .false., speed = .false., roller_rate = .false.
-      !> Are the velocities given last displacements and rotations of a shift?
-      logical :: are_shifts = .false.
+      !> Has there been a case with friction, and are the velocities or creepages given last displacements and rotations of a shift?
+      logical :: has_motion = .false., are_shifts = .false.
       !> Was it judged whether the number of outer iterations suits the bodies? Without friction it does not matter
       logical :: outer_iterations_judged = .false.
    end type given_numbers

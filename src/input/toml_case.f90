@@ -15,6 +15,7 @@ module contact_input_toml_case
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
+   use contact_input_toml_kept, only : check_kept_creepages
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_nearest, only : unknown_word, words_of
@@ -89,6 +90,7 @@ contains
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
+            if (module_number == 3 .and. spec%motion /= motion%none) call check_kept_creepages(a, previous, spec)
             call check_case(words, a, previous, has_previous, coefficients, spec, problems)
             if (module_number == 3 .and. words%digits%c /= 0) coefficients = frame_of(spec%grid)
             if (.not. a%is_repeat) call a%refuse_unused(group_names)
@@ -214,7 +216,7 @@ contains
       logical, intent(in) :: has_previous
       !> Digits, of which those of choices are known
       type(control_words), intent(inout) :: words
-      logical :: renew(size(renewable)), has_renew, rolls, rolled
+      logical :: renew(size(renewable)), has_renew, rolls, rolled, starts_rolling
 
       call read_renew(a, renew, has_renew)
       call read_plain_keys(a, module_number, words)
@@ -239,7 +241,11 @@ contains
          if (.not. has_key("", "stresses")) digits%s = merge(1, 0, has_previous .and. previous%has_stress)
          if (a%has_group("stress_output")) digits%s = 2
          if (a%has_group("stress_points")) digits%s = 3
-         if (a%has_group("material") .or. a%has_group("influence") .or. a%has_group("rolling") .or. .not. has_previous) then
+         ! direction, step and velocity are those of the last case with rolling, also behind cases without it
+         starts_rolling = module_number == 3 .and. digits%t >= 2 .and. .not. previous%given%rolling
+         if (has_renew .and. .not. renew(3)) starts_rolling = .false.
+         if (a%has_group("material") .or. a%has_group("influence") .or. a%has_group("rolling") .or. .not. has_previous &
+            & .or. starts_rolling) then
             digits%c = or_kept(digits%c, "C", previous%kernel)
          else
             digits%c = merge(1, 0, module_number == 1)

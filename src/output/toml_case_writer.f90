@@ -3,7 +3,7 @@
 !> A case contains what differs from the previous one. Digits that the reader derives from the rest of the case are left out, see
 !> contact_input_toml_case.
 module contact_output_toml_case_writer
-   use contact_base_choices, only : estimate_choice, motion, slip_source, time_link, variation
+   use contact_base_choices, only : estimate_choice, is_rolling, motion, slip_source, time_link, variation
    use contact_base_kinds, only : wp
    use contact_cases_own_keys, only : visit_own_case
    use contact_cases_spec, only : case_spec, friction_set, part_source
@@ -75,6 +75,7 @@ contains
          call put_element(self, a, before)
          call put_choices(a, module_number, element%is_first, element%spec, spec)
          written = spec
+         if (module_number == 3 .and. .not. element%is_first) call complete_motion(a, element%spec, written)
          call visit_case(a, written)
          call put_ends(a, element%spec, spec, element%is_first)
          call self%text%add(a%case_text)
@@ -184,6 +185,23 @@ contains
       end if
       call put_renewal(a, is_first, old, spec)
    end subroutine put_choices
+
+   !> Give what the reader does not keep when the motion changes
+   subroutine complete_motion(a, old, written)
+      type(toml_writer), intent(inout) :: a
+      !> The previous case
+      type(case_spec), intent(in) :: old
+      !> The case; its numbers of rolling are given if they are not those of the last case with rolling
+      type(case_spec), intent(inout) :: written
+
+      if (is_rolling(written%motion) .and. .not. is_rolling(old%motion) .and. written%parts%material == part_source%renewed) &
+         & written%parts%rolling = part_source%given
+      if (written%motion == old%motion) return
+      ! creepages are no shifts
+      if (abs(written%kinematics%cksi) > 0.0_wp) call a%memory%keep("kinematics.cksi", "")
+      if (abs(written%kinematics%ceta) > 0.0_wp) call a%memory%keep("kinematics.ceta", "")
+      if (abs(written%kinematics%cphi) > 0.0_wp) call a%memory%keep("kinematics.cphi", "")
+   end subroutine complete_motion
 
    !> The earlier text of a choice that is kept by a separate rule is ignored
    subroutine forget(a, key)

@@ -121,6 +121,53 @@ class Readable(unittest.TestCase):
         errors = self.complaints(text + '[[case]]\n[case.heat]\nmodel = "none"\nbktemp = [20, 20]\n')
         self.assertIn('unknown key "bktemp", or one without meaning in this case; accepted: ', errors)
 
+    def test_motion_that_changes(self):
+        """Direction, step and velocity of rolling are kept through cases without it; creepages are not kept as shifts"""
+        law = 'law = "rational"\nfkin = 0.2\nfrat1 = 0.2\nsabsh1 = 20\nfrat2 = 0\nsabsh2 = 1\n'
+        rolling = HEAD.replace("shift", "steady_rolling") + REST.replace("fstat = 0.3\n", law)
+        rolling += '[case.rolling]\ndq = 0.6\nveloc = 20000\n'
+        shift, ceta = '[[case]]\nmotion = "shift"\n', "[case.kinematics]\nceta = 0\n"
+        again = '[[case]]\nmotion = "steady_rolling"\n[case.kinematics]\ncksi = 0.001\n'
+        for between in ('motion = "none"\n', 'motion = "shift"\n[case.kinematics]\ncksi = 0.01\n'):
+            text = rolling + "[[case]]\n" + between + again
+            (self.folder / "a.toml").write_text(text)
+            powers = []
+            for step in ("a.toml", "a.inp", "b.toml"):
+                if step == "a.inp":
+                    self.assertEqual(self.run_program("convert", "--force", "a.toml")[0], 0)
+                elif step == "b.toml":
+                    shutil.move(self.folder / "a.inp", self.folder / "b.inp")
+                    self.assertEqual(self.run_program("convert", "--force", "b.inp")[0], 0)
+                status, _, errors = self.run_program("--json", "--quiet", "--order", "2", "2", step)
+                self.assertEqual(status, 0, errors)
+                lines = (self.folder / step).with_suffix(".jsonl").read_text().splitlines()[:3]
+                totals = [json.loads(line)["patches"][0]["totals"] for line in lines]
+                powers += [totals[0]["friction_power"]["value"], totals[2]["friction_power"]["value"]]
+            # the iteration of friction ends within 1e-3
+            for power in powers[1:]:
+                self.assertAlmostEqual(power/powers[0], 1, 2, powers)
+            self.assertLess(powers[0], -1)
+        # never given
+        errors = self.complaints(HEAD + REST + '[[case]]\nmotion = "steady_rolling"\n[case.kinematics]\ncksi = 0.001\n')
+        self.assertIn("dq is missing", errors)
+        for text, kept in ((rolling + shift, "rolling"), (rolling + '[[case]]\nmotion = "none"\n' + shift + ceta, "rolling"),
+                           (HEAD + REST + '[[case]]\nmotion = "steady_rolling"\n[case.rolling]\ndq = 1\nveloc = 1\n', "a shift")):
+            self.assertIn(f"cksi = 0.001 is kept from {kept}, but", self.complaints(text))
+        self.assertEqual(self.check(rolling + '[[case]]\nmotion = "transient_rolling"\n')[0], 0)
+        # an input file that keeps what a shift has reset has the same values in the readable format
+        inp = ("3\n203100\n0022020\n0000201\n200 100 30 1 1e-6\n1000 0.001 0 0\n0.3 0.3\n0 0.6 20000\n0.28 0.28 82000 82000\n"
+               "-3\n11 11 3 3 1.2\n3\n201100\n0101000\n0000201\n200 100 30 1 1e-6\n1000 0.01 0 0\n"
+               "3\n202100\n0101000\n0000201\n200 100 30 1 1e-6\n1000 0.01 0 0\n0\n")
+        (self.folder / "c.inp").write_text(inp)
+        self.assertEqual(self.run_program("convert", "c.inp")[0], 0)
+        shutil.move(self.folder / "c.toml", self.folder / "d.toml")
+        found = []
+        for name in ("c", "d"):
+            self.assertEqual(self.run_program("--json", "--quiet", "2", name)[0], 0)
+            lines = (self.folder / (name + ".jsonl")).read_text().splitlines()[:3]
+            found.append([json.loads(line)["patches"][0]["totals"] for line in lines])
+        self.assertEqual(*found)
+
     def test_what_returns(self):
         """Choices that end and return with the numbers in store: E, H and S digits of both modules, all ways through 0 and 1"""
         first3 = ("203103\n0022029 2\n3002201\n200 100 30 1 1e-6\n1000 0.01 0 0\n0.3 0.3\n0 1 20000\n0.28 0.28 82000 82000\n"
