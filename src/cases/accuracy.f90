@@ -11,7 +11,7 @@ module contact_cases_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_grid, only : is_cut_off, is_worth, level_grid, next_counts, no_direction, &
+   use contact_cases_accuracy_grid, only : across_contact, is_cut_off, is_worth, level_grid, next_counts, no_direction, &
       & set_elements, stay_below
    use contact_cases_accuracy_level, only : first_grid, held_solution, keeps_axes, solve_level, use_curvatures
    use contact_cases_accuracy_plan, only : accuracy_law, acting_order, expected_law, first_order_alone, is_near_enough, &
@@ -32,7 +32,7 @@ module contact_cases_accuracy
    implicit none (type, external)
    private
 
-   public :: solve_contact_case
+   public :: refuse_contact, series_share, solve_contact_case
 
    !> A finer grid of a case that continues others is designed for this fraction of the accuracy: later cases may need it, and each
    !> repetition solves all cases again; chosen
@@ -235,7 +235,8 @@ contains
          if (near .and. .not. tightened) exit
          if (report%levels > 1 .and. .not. is_solved) exit
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) law = first_order_alone(law)
-         if (.not. near) call next_counts(result, report, observed_order(law, report%estimated, before, expected), &
+         if (.not. near) call next_counts([result%grid%dx, result%grid%dy], [result%grid%mx, result%grid%my], &
+            & across_contact(result), report%estimated, observed_order(law, report%estimated, before, expected), &
             & merge(series_share, 1.0_wp, has_history(spec))*law%share*report%required, fixed, next%counts)
          most = most_elements(spec%limits)
          ! whether the potential contact cuts off too much is decided on the second grid, which need not be much finer

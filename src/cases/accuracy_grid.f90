@@ -1,7 +1,6 @@
 !> Grids for a requested accuracy: numbers of elements along both sides of the potential contact, of the first grid and of the next
 !> ones
 module contact_cases_accuracy_grid
-   use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : grid_form
    use contact_base_kinds, only : wp
    use contact_cases_accuracy_plan, only : finer_across, shorten_aspect, sides_of_window
@@ -11,7 +10,7 @@ module contact_cases_accuracy_grid
    implicit none (type, external)
    private
 
-   public :: first_counts, is_cut_off, is_worth, level_grid, next_counts, no_direction, set_elements, stay_below
+   public :: across_contact, first_counts, is_cut_off, is_worth, level_grid, next_counts, no_direction, set_elements, stay_below
 
    !> A grid and its solver tolerance
    type :: level_grid
@@ -52,12 +51,16 @@ contains
       end if
    end subroutine first_counts
 
-   !> Numbers of elements of the next grid, from the position of the contact area
-   pure subroutine next_counts(result, report, order, required, fixed, counts)
-      !> Result on the present grid
-      type(patch_result), intent(in) :: result
-      !> Its estimated error
-      type(accuracy_report), intent(in) :: report
+   !> Numbers of elements of the next grid, from the size of the contact area
+   pure subroutine next_counts(size, present, contact, estimated, order, required, fixed, counts)
+      !> Sides of the present elements [mm]
+      real(wp), intent(in) :: size(2)
+      !> Their numbers along x and y
+      integer, intent(in) :: present(2)
+      !> Number of elements across the contact, along x and y
+      real(wp), intent(in) :: contact(2)
+      !> Estimated error of the present grid, negative for none [-]
+      real(wp), intent(in) :: estimated
       !> Order of the error
       real(wp), intent(in) :: order
       !> Accuracy for which it is designed [-]
@@ -66,24 +69,32 @@ contains
       integer, intent(in) :: fixed(2)
       !> Numbers of elements along x and y
       integer, intent(out) :: counts(2)
-      type(bounding_box) :: box
-      real(wp) :: across(2), sides(2), size(2)
+      real(wp) :: across(2), sides(2)
 
       counts = fixed
       if (all(fixed > 0)) return
-      across = real([result%grid%mx, result%grid%my], wp)
-      size = [result%grid%dx, result%grid%dy]
-      if (result%ncon > 0) then
-         box = contact_box(result%division)
-         across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
-      end if
+      across = contact
       if (any(fixed > 0)) across = maxval(across, mask=fixed == 0)
-      call shorten_aspect(across*size, finer_across(minval(across), report%estimated, required, order), sides)
+      call shorten_aspect(across*size, finer_across(minval(across), estimated, required, order), sides)
       ! a direction with many elements keeps its number
       sides = min(sides, size)
-      counts = ceiling([result%grid%mx, result%grid%my]*size/sides)
+      counts = ceiling(present*size/sides)
       where (fixed > 0) counts = fixed
    end subroutine next_counts
+
+   !> Number of elements across the contact area of a solution, along x and y; those of the whole grid without contact
+   pure function across_contact(result) result(across)
+      !> Solution
+      type(patch_result), intent(in) :: result
+      !> Numbers of elements
+      real(wp) :: across(2)
+      type(bounding_box) :: box
+
+      across = real([result%grid%mx, result%grid%my], wp)
+      if (result%ncon == 0) return
+      box = contact_box(result%division)
+      across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
+   end function across_contact
 
    !> Does the potential contact area cut off so much of the contact that the finest grid cannot reach the accuracy?
    !>

@@ -69,8 +69,8 @@ contains
       grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
    end subroutine use_curvatures
 
-   !> The first grid of a search
-   subroutine first_grid(session, spec, law, fixed, grid)
+   !> The first grid of a search, or a coarser one
+   subroutine first_grid(session, spec, law, fixed, grid, most_across)
       !> With the grid of the cases that this one continues
       type(contact_session), intent(in) :: session
       type(case_spec), intent(in) :: spec
@@ -80,7 +80,9 @@ contains
       integer, intent(in) :: fixed(2)
       !> First grid, not finer than limits allow
       type(level_grid), intent(out) :: grid
-      real(wp) :: contact(2)
+      !> Maximum number of elements across the contact, without effect on cases that continue others; default no limit
+      real(wp), intent(in), optional :: most_across
+      real(wp) :: contact(2), across
 
       if (has_history(spec)) then
          grid = session%series%grid
@@ -88,7 +90,9 @@ contains
       else
          grid%eps = tolerance_of(spec)
          call contact_sides(spec, contact)
-         call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), contact, grid%lengths, grid%counts)
+         across = first_across(law, spec%iteration%accuracy)
+         if (present(most_across)) across = min(across, most_across)
+         call first_counts(spec%grid, across, contact, grid%lengths, grid%counts)
          where (fixed > 0) grid%counts = fixed
          call stay_below(most_in_time(spec), fixed, grid%counts)
       end if

@@ -10,13 +10,11 @@ module contact_cases_accuracy_plan
    use contact_base_limits, only : case_limits
    use contact_base_memory, only : bytes_per_element
    use contact_cases_distance, only : distance_form
-   use contact_cases_edge_guess, only : guess_edge
    use contact_cases_geometry, only : solve_hertz
    use contact_cases_grid_inputs, only : largest_grid
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_elastic_material, only : combine, combined_material
    use contact_friction_new_law, only : friction_model, is_varying_law
-   use contact_patch_edge_slip, only : expected_edge, expected_edge_error
    use contact_patch_result, only : hertz_result
    use contact_patch_traction_errors, only : coupled_friction_floor
    use contact_subsurface_points, only : point_selection
@@ -41,10 +39,9 @@ module contact_cases_accuracy_plan
 
    !> Typical estimate for n elements across the contact: factor times n^-order; order by which estimates of one contact decrease
    !> from grid to grid; lower bound of estimates, bound/n; part of the accuracy that estimates must meet, below 1 where they are
-   !> often smaller than the error, above 1 where they rarely are; errors at the leading edge, guessed, for the expected cost only
+   !> often smaller than the error, above 1 where they rarely are
    type :: accuracy_law
       real(wp) :: factor = 0.0_wp, order = 2.0_wp, falls = 2.0_wp, bound = 0.0_wp, share = 1.0_wp
-      type(expected_edge) :: edge
    end type accuracy_law
    !> Forces in steady rolling by the first and by the second order, and all other results; from tests/accuracy: upper quartiles of
    !> estimates, and medians of the orders of those that are too large on the first grid (seed 7101; factors of the second order
@@ -184,7 +181,7 @@ contains
    type(accuracy_law) function expected_law(spec) result(law)
       type(case_spec), intent(in) :: spec
       type(combined_material) :: material
-      real(wp) :: driven, sides(2)
+      real(wp) :: driven
 
       law = normal_order
       if (spec%motion == motion%transient_rolling) law = in_steps
@@ -212,11 +209,7 @@ contains
             law%falls = second_order%falls + (unlike%falls - second_order%falls)*min(1.0_wp, driven/mostly_driven)
          end if
       end if
-      if (.not. material%coupled()) return
-      law%bound = coupled_friction_floor*abs(material%ak)*driven
-      if (law%order <= first_order%order .or. spec%grid%is_line_contact()) return
-      call contact_sides(spec, sides)
-      law%edge = guess_edge(spec, sides, expected_friction(spec))
+      if (material%coupled()) law%bound = coupled_friction_floor*abs(material%ak)*driven
    end function expected_law
 
    !> Coefficient of friction of a case with a single constant one, the usual one for others [-]
@@ -326,30 +319,16 @@ contains
       across = usual_number(max(least_across, across))
    end function first_across
 
-   !> Number of elements across the contact of the grid that is expected to be sufficient
+   !> Number of elements across the contact of the grid that is sufficient for the typical error
    pure real(wp) function expected_across(law, required) result(across)
       !> Expected error
       type(accuracy_law), intent(in) :: law
       !> Accuracy [-]
       real(wp), intent(in) :: required
-      real(wp) :: goal, usual, e, before, expected, finer
-      integer :: level
+      real(wp) :: goal
 
-      goal = law%share*required
-      across = first_across(law, required)
-      usual = max(across, (law%factor/(aim*goal))**(1.0_wp/law%order), law%bound/(aim*goal))
-      ! grids of a search, whose errors are those at the leading edge
-      before = 0.0_wp
-      expected = 0.0_wp
-      do level = 1, most_levels
-         e = max(law%bound/across, expected_edge_error(law%edge, across))
-         if (is_near_enough(e, expected, required, law%share)) exit
-         finer = finer_across(across, e, goal, observed_order(law, e, before, expected))
-         expected = e*(across/finer)**law%falls
-         before = e
-         across = finer
-      end do
-      across = max(across, usual)
+      goal = aim*law%share*required
+      across = max(first_across(law, required), (law%factor/goal)**(1.0_wp/law%order), law%bound/goal)
    end function expected_across
 
    !> Is an estimate small enough? None above the accuracy is, whatever the share

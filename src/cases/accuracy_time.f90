@@ -14,7 +14,7 @@ module contact_cases_accuracy_time
    implicit none (type, external)
    private
 
-   public :: constant_time, has_outer_iterations, most_in_time, time_is_left, time_per_element
+   public :: constant_time, has_outer_iterations, input_time, most_in_time, time_is_left, time_per_element
 
    !> All grids of a case, time per element of the last one [s]: pressures; with tractions of a shift; in rolling; of a wheel, whose
    !> height is searched
@@ -58,11 +58,19 @@ contains
       !> Case with an accuracy
       type(case_spec), intent(in) :: spec
 
+      seconds = input_time(spec)
+      if (spec%material_model == material_model%viscoelastic) seconds = seconds + each_memory
+   end function constant_time
+
+   !> Expected time before and after the solutions [s]
+   pure real(wp) function input_time(spec) result(seconds)
+      !> Case with an accuracy
+      type(case_spec), intent(in) :: spec
+
       seconds = each_case
       if (allocated(spec%wheel_rail)) seconds = seconds + each_files
-      if (spec%material_model == material_model%viscoelastic) seconds = seconds + each_memory
       if (allocated(spec%geometry%profile)) seconds = seconds + each_value*size(spec%geometry%profile)
-   end function constant_time
+   end function input_time
 
    !> Are there several outer iterations, between pressures and tractions?
    pure logical function has_outer_iterations(spec)

@@ -32,6 +32,8 @@ module contact_cases_estimate
       logical :: beyond_most = .false.
       !> Memory [bytes] and processor time [s]
       real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
+      !> Where the cost of an accuracy is from, blank if not to be told
+      character(len=80) :: source = ""
    end type case_cost
 
    !> Constant time of a case, and of a search for its patches [s]
@@ -205,6 +207,7 @@ contains
       if (seconds >= 1.0_wp .and. seconds < 1.0e6_wp) write(time, "(I0)") nint(seconds)
       write(text, "(2A, I0, 5A)") trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
          & trim(memory), " MB, ", trim(adjustl(time)), " s"
+      if (cost%source /= "") text = trim(text) // ", " // cost%source
       if (cost%beyond_most) text = trim(text) // ": more elements than NPOT_MAX, which are not enlarged in shifts and transient &
          &rolling; larger DX and DS make it quick"
    end function cost_text

@@ -8,6 +8,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
+   use contact_cases_accuracy_grid, only : across_contact
    use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, first_order_alone, &
       & is_near_enough, most_elements, most_levels, not_converged, observed_order, prepare_level, &
       & refuse_case, shorten_aspect, solver_tolerance
@@ -17,7 +18,6 @@ module contact_cases_wheel_rail_accuracy
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
-   use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_error_estimate, only : error_of_forces
    use contact_patch_order, only : order_of_errors
    use contact_text_words, only : real_text
@@ -26,7 +26,7 @@ module contact_cases_wheel_rail_accuracy
    implicit none (type, external)
    private
 
-   public :: solve_wheel_on_rail
+   public :: error_of_pair, first_sides, is_worth_while, lowest_order_of_errors, smaller_sides, solve_wheel_on_rail
 
    !> Vertical force for the first size of elements if none is prescribed [N]
    real(wp), parameter :: usual_force = 6.0e4_wp
@@ -34,6 +34,8 @@ module contact_cases_wheel_rail_accuracy
    real(wp), parameter :: error_of_few = 0.3_wp
    !> Minimum ratio of old to new sides; smaller reductions are not tried
    real(wp), parameter :: worth = 1.15_wp
+   !> Ratio of the next sides to the present ones without any patch
+   real(wp), parameter :: without_patches = 0.4_wp
    !> Minimum ratio of the sides to the next ones, where limits allow it; chosen, above `worth`
    real(wp), parameter :: least_ratio = 1.2_wp
 
@@ -93,7 +95,7 @@ contains
       type(case_spec) :: level
       type(accuracy_law) :: law
       type(approximate_method) :: chosen
-      real(wp) :: sides(2), next(2), expected, before, began, force
+      real(wp) :: sides(2), next(2), expected, before, began
 
       report%required = spec%iteration%accuracy
       report%eps = solver_tolerance(report%required)
@@ -102,11 +104,7 @@ contains
       law = expected_law(spec)
       level = spec
       call prepare_level(report%eps, level)
-      force = usual_force
-      if (spec%normal == normal_control%force) force = spec%wheel_rail%wheelset%fz
-      sides = 2.0_wp*typical_half_side(spec, force)/min(first_across(law, report%required), &
-         & sqrt(most_in_time(spec))/usual_margin)
-      if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
+      sides = first_sides(spec, min(first_across(law, report%required), sqrt(most_in_time(spec))/usual_margin))
       expected = 0.0_wp
       before = -1.0_wp
       do while (report%levels < most_levels)
@@ -137,7 +135,7 @@ contains
          if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(session%memory) /= 2) law = first_order_alone(law)
          call next_sides(spec, session%memory, law%share*report%required, report%estimated, &
             & observed_order(law, report%estimated, before, expected), sides, next)
-         if (.not. product(sides/next) >= worth**2) then
+         if (.not. is_worth_while(sides, next)) then
             report%reason = "smaller elements would be more than NPOT_MAX or the limits allow"
             exit
          end if
@@ -160,6 +158,20 @@ contains
       end if
       call complete_report(spec, sides, result, report, solved, log)
    end subroutine refine
+
+   !> Sides of the elements of a grid before the first solution [mm]
+   pure function first_sides(spec, across) result(sides)
+      !> Case
+      type(case_spec), intent(in) :: spec
+      !> Number of elements across a typical contact
+      real(wp), intent(in) :: across
+      real(wp) :: sides(2), force
+
+      force = usual_force
+      if (spec%normal == normal_control%force) force = spec%wheel_rail%wheelset%fz
+      sides = 2.0_wp*typical_half_side(spec, force)/across
+      if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
+   end function first_sides
 
    !> Estimated relative error of all patches together, weighted by their loads; negative without contact
    pure real(wp) function error_of_pair(memory) result(e)
@@ -189,6 +201,7 @@ contains
 
    !> Lowest order of the errors of the patches
    pure integer function lowest_order_of_errors(memory) result(order)
+      !> Solved patches
       type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
@@ -211,32 +224,64 @@ contains
       real(wp), intent(in) :: sides(2)
       !> Next sides [mm]
       real(wp), intent(out) :: next(2)
-      type(bounding_box) :: box
-      real(wp) :: across(2), most, elements
+      real(wp) :: elements(memory%used), sizes(2, memory%used)
       integer :: k
 
-      next = 0.4_wp*sides
+      next = without_patches*sides
       if (memory%used == 0) return
-      k = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
-      next = sides
-      most = min(most_elements(spec%limits), real(spec%iteration%npot_max, wp))
-      associate (result => memory%slot(k)%result)
-         if (result%ncon == 0) return
-         box = contact_box(result%division)
-         across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
-         call shorten_aspect(across*[result%grid%dx, result%grid%dy], finer_across(minval(across), estimated, &
-            & required, order), next)
-         next = min(next, sides)
-      end associate
-      ! a few elements across need a small step in one direction only, which alone is not worth another grid
-      next = next*min(1.0_wp, sqrt(product(sides/next))/least_ratio)
       do k = 1, memory%used
          associate (grid => memory%slot(k)%result%grid)
-            elements = real(grid%npot(), wp)*product([grid%dx, grid%dy]/next)
-            if (elements > most) next = min(sides, next*sqrt(elements/most))
+            elements(k) = real(grid%npot(), wp)
+            sizes(:, k) = [grid%dx, grid%dy]
          end associate
       end do
+      k = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
+      next = sides
+      associate (result => memory%slot(k)%result)
+         if (result%ncon == 0) return
+         call smaller_sides(spec, k, across_contact(result), elements, sizes, required, estimated, order, sides, next)
+      end associate
    end subroutine next_sides
+
+   !> Are the next sides sufficiently smaller?
+   pure logical function is_worth_while(sides, next)
+      !> Present and next sides [mm]
+      real(wp), intent(in) :: sides(2), next(2)
+
+      is_worth_while = product(sides/next) >= worth**2
+   end function is_worth_while
+
+   !> The same as next_sides from sizes
+   pure subroutine smaller_sides(spec, main, across, elements, sizes, required, estimated, order, sides, next)
+      !> Case, with its limits
+      type(case_spec), intent(in) :: spec
+      !> Index of the patch with the largest normal force
+      integer, intent(in) :: main
+      !> Its number of elements across the contact along x and y
+      real(wp), intent(in) :: across(2)
+      !> Numbers of elements of all patches, and their sides [mm], shape (2, patches)
+      real(wp), intent(in) :: elements(:), sizes(:, :)
+      !> Accuracy that the estimate must meet, and the present estimate, negative for none [-]
+      real(wp), intent(in) :: required, estimated
+      !> Order of the error
+      real(wp), intent(in) :: order
+      !> Present sides as requested [mm], those of elements are larger if there are too many
+      real(wp), intent(in) :: sides(2)
+      !> Next sides [mm]
+      real(wp), intent(out) :: next(2)
+      real(wp) :: most, number
+      integer :: k
+
+      most = min(most_elements(spec%limits), real(spec%iteration%npot_max, wp))
+      call shorten_aspect(across*sizes(:, main), finer_across(minval(across), estimated, required, order), next)
+      next = min(next, sides)
+      ! a few elements across need a small step in one direction only, which alone is not worth another grid
+      next = next*min(1.0_wp, sqrt(product(sides/next))/least_ratio)
+      do k = 1, size(elements)
+         number = elements(k)*product(sizes(:, k)/next)
+         if (number > most) next = min(sides, next*sqrt(number/most))
+      end do
+   end subroutine smaller_sides
 
    !> Report the choices; a warning if the accuracy was not reached
    subroutine complete_report(spec, sides, result, report, solved, log)

@@ -2,7 +2,10 @@
 module contact_experiment_explain
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
+   use contact_cases_estimate, only : case_cost
+   use contact_cases_foreseen_cost, only : cost_forecast
    use contact_experiment_input_cases, only : list_problems, open_cases
+   use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : severity
    use contact_output_case_words, only : describe_case
@@ -29,11 +32,15 @@ contains
       logical, intent(in), optional :: allows_approximate
       type(experiment_reader) :: reader
       type(input_case) :: this
+      type(experiment_place) :: place
+      type(cost_forecast) :: forecast
+      type(case_cost) :: cost
       character(len=:), allocatable :: input
       integer :: cases
 
       call open_cases(experiment, reader, input, error)
       if (allocated(error)) return
+      place = locate_experiment(experiment, "")
       cases = 0
       call messages%add_line(input)
       do
@@ -48,8 +55,12 @@ contains
             if (allows_approximate) this%spec%iteration%allows_approximate = .true.
          end if
          if (this%problems%number_of(severity%error) == 0) then
-            call describe_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), &
-               & messages)
+            if (this%problems%is_usable()) then
+               call forecast%foresee(this%spec, [this%reid, this%cpid], place%folder, cost)
+               call describe_case(this%module_number, this%reid, cases, this%first_line, this%spec, messages, cost)
+            else
+               call describe_case(this%module_number, this%reid, cases, this%first_line, this%spec, messages)
+            end if
          else
             call messages%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
                & ": its errors must be corrected first")
@@ -58,5 +69,6 @@ contains
          call this%problems%first_failure(error)
          if (allocated(error)) exit
       end do
+      call forecast%release()
    end subroutine explain_experiment
 end module contact_experiment_explain

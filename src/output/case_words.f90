@@ -3,7 +3,7 @@ module contact_output_case_words
    use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
    use contact_base_kinds, only : wp
    use contact_cases_approximate_methods, only : approximate_method, choose_method
-   use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
+   use contact_cases_estimate, only : case_cost, cost_text
    use contact_cases_machine_pace, only : machine_pace
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_of, digit_text
@@ -19,17 +19,16 @@ module contact_output_case_words
 contains
 
    !> Describe one case
-   subroutine describe_case(module_number, reid, number, first_line, spec, is_usable, description)
+   subroutine describe_case(module_number, reid, number, first_line, spec, description, cost)
       integer, intent(in) :: module_number
       !> Result element, 0 for the default one; index in the file, from 1; line on which the case begins
       integer, intent(in) :: reid, number, first_line
       type(case_spec), intent(in) :: spec
-      !> Can it be computed? If not, there is no estimate of the cost
-      logical, intent(in) :: is_usable
       !> Receives the description, line by line
       type(text_buffer), intent(inout) :: description
+      !> Expected cost; absent if the case cannot be computed
+      type(case_cost), intent(in), optional :: cost
       character(len=:), allocatable :: title
-      type(case_cost) :: cost
       type(approximate_method) :: chosen
       type(case_digits) :: digits
 
@@ -81,10 +80,7 @@ contains
       if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call add("Stresses below the surface: " // &
          & integer_text(size(spec%subsurface%blocks)) // " blocks of points")
       call add("Not simulated: " // trim(absent(spec)))
-      if (is_usable) then
-         call estimate_cost(spec, cost)
-         call add("Expected on one thread: " // trim(cost_text(cost, machine_pace())))
-      end if
+      if (present(cost)) call add("Expected on one thread: " // trim(cost_text(cost, machine_pace())))
 
    contains
 

@@ -1,0 +1,336 @@
+!> Cost of a case with a prescribed accuracy, foreseen from a solution of the case on few elements
+!>
+!> The first grid of a search is known before. If it is coarse, it is solved here; otherwise a coarser one, from whose solution the
+!> search is simulated. See doc/theory/accuracy.md. Cases that cannot be solved in this way keep the cost by typical errors of
+!> contact_cases_estimate.
+module contact_cases_foreseen_cost
+   use contact_base_choices, only : motion
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : wall_clock
+   use contact_base_log, only : log_type
+   use contact_base_memory, only : bytes_per_element
+   use contact_cases_accuracy, only : refuse_contact, series_share
+   use contact_cases_accuracy_grid, only : across_contact, level_grid, next_counts, no_direction
+   use contact_cases_accuracy_level, only : first_grid, keeps_axes, solve_level
+   use contact_cases_accuracy_plan, only : expected_law, first_across, first_order_alone, prepare_level, refuse_case, &
+      & solver_tolerance
+   use contact_cases_accuracy_series, only : has_history
+   use contact_cases_approximate_methods, only : approximate_method, choose_method
+   use contact_cases_estimate, only : case_cost, estimate_cost
+   use contact_cases_machine_pace, only : machine_pace
+   use contact_cases_search_model, only : coarse_solution, deviations, mean_cost, search_contact, search_pair
+   use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
+   use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : stress_memory
+   use contact_cases_wheel_rail_accuracy, only : error_of_pair, first_sides, lowest_order_of_errors
+   use contact_cases_wheel_rail_session, only : check_files, solve_wheel_rail_case, wheel_rail_session
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_error_estimate, only : error_of_forces
+   use contact_patch_order, only : order_of_errors
+   use contact_text_words, only : integer_text
+   use contact_wheelrail_result, only : wheel_rail_result
+   implicit none (type, external)
+   private
+
+   public :: cost_forecast
+
+   !> Maximum number of elements across the contact of the coarse solution, and its maximum time; time for all cases [s]; chosen
+   real(wp), parameter :: coarse_across = 20.0_wp, patience = 0.2_wp, patience_for_all = 2.0_wp
+   !> Maximum number of coarse grids, each finer than the one before, if contact is too narrow for an estimate; chosen
+   integer, parameter :: most_trials = 3
+   !> Owner of no coarse solution
+   integer, parameter :: nobody(2) = -1
+
+   !> Forecasts of the cases of an experiment, one after the other
+   type :: cost_forecast
+      private
+      !> Sessions of the coarse solutions
+      type(problem_slot) :: slot
+      !> Result element and contact problem of the last coarse solution, which later cases may continue
+      integer :: owner(2) = nobody
+      !> Grid of the cases that the next one may continue, as expected
+      type(level_grid) :: series
+      !> Time that is left for all coarse solutions [s]
+      real(wp) :: left = patience_for_all
+   contains
+      !> Estimate the cost of the next case
+      procedure :: foresee
+      !> Free the memory of the sessions
+      procedure :: release
+   end type cost_forecast
+
+contains
+
+   !> Estimate the cost of a case; of one with an accuracy from a coarse solution
+   subroutine foresee(self, spec, owner, folder, cost)
+      class(cost_forecast), intent(inout) :: self
+      !> Case that can be computed
+      type(case_spec), intent(in) :: spec
+      !> Result element and contact problem
+      integer, intent(in) :: owner(2)
+      !> Folder to which names of files are relative, "" for the current one
+      character(len=*), intent(in) :: folder
+      !> Cost: elements, seconds and bytes
+      type(case_cost), intent(out) :: cost
+      type(approximate_method) :: chosen
+      character(len=:), allocatable :: why
+      real(wp) :: began
+
+      call estimate_cost(spec, cost)
+      if (.not. (spec%iteration%accuracy > 0.0_wp .and. spec%solve)) then
+         self%owner = nobody
+         return
+      end if
+      if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
+      if (chosen%found) return
+      began = wall_clock()
+      if (.not. self%left > 0.0_wp) then
+         why = "as coarse solutions of the cases before took long"
+      else if (allocated(spec%wheel_rail)) then
+         call open_wheel_rail(self%slot)
+         call foresee_pair(self, spec, folder, cost, why)
+      else
+         call open_contact(self%slot)
+         call foresee_contact(self, spec, owner, folder, cost, why)
+      end if
+      self%left = self%left - (wall_clock() - began)
+      if (why /= "") cost%source = "typical of such contacts, " // why
+   end subroutine foresee
+
+   subroutine release(self)
+      class(cost_forecast), intent(inout) :: self
+
+      call release_slot(self%slot)
+   end subroutine release
+
+   !> The cost of a contact
+   subroutine foresee_contact(self, spec, owner, folder, cost, why)
+      class(cost_forecast), intent(inout) :: self
+      type(case_spec), intent(in) :: spec
+      !> Result element and contact problem
+      integer, intent(in) :: owner(2)
+      !> Folder to which names of files are relative
+      character(len=*), intent(in) :: folder
+      !> Unchanged if there is no coarse solution
+      type(case_cost), intent(inout) :: cost
+      !> Why there is none; "" if there is
+      character(len=:), allocatable, intent(out) :: why
+      type(coarse_solution) :: coarse
+      type(level_grid) :: first, last
+      type(error_type), allocatable :: error
+      type(mean_cost) :: mean
+      integer :: k, n
+
+      why = ""
+      call refuse_contact(self%slot%session, spec, error)
+      if (has_history(spec) .and. any(self%owner /= owner)) then
+         why = "as there is no coarse solution of the case before"
+      else if (allocated(error)) then
+         why = "as a run refuses the case"
+      else if (keeps_axes(spec)) then
+         why = "as semi-axes are those of the case before"
+      end if
+      self%owner = nobody
+      if (why /= "") return
+      coarse%law = expected_law(spec)
+      coarse%fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
+      coarse%cases = self%slot%session%series%before(spec) + 1
+      if (has_history(spec)) coarse%designed = series_share
+      call first_grid(self%slot%session, spec, coarse%law, coarse%fixed, first)
+      if (has_history(spec)) first = self%series
+      call solve_coarse(self%slot, spec, folder, coarse)
+      if (.not. coarse%estimated >= 0.0_wp) then
+         why = "as there is no estimate on few elements"
+         return
+      end if
+      self%owner = owner
+      first%lengths = coarse%grid%lengths
+      ! too few elements for an estimate
+      if (product(real(first%counts, wp)) < product(real(coarse%grid%counts, wp))) first%counts = coarse%grid%counts
+      associate (problem => self%slot%session%problem, result => self%slot%result)
+         do k = 1, size(deviations)
+            do n = 1, size(deviations)
+               last = first
+               call search_contact(spec, coarse, problem, result, [deviations(k), deviations(n)], last, mean)
+            end do
+         end do
+         self%series = first
+         call search_contact(spec, coarse, problem, result, [0.0_wp, 0.0_wp], self%series, mean)
+      end associate
+      call set_cost(spec, coarse, mean, cost)
+   end subroutine foresee_contact
+
+   !> Solve a contact on few elements; without estimate if that fails
+   subroutine solve_coarse(slot, spec, folder, coarse)
+      !> Sessions; that of contacts holds the solution
+      type(problem_slot), intent(inout) :: slot
+      type(case_spec), intent(in) :: spec
+      !> Folder to which names of files are relative
+      character(len=*), intent(in) :: folder
+      !> On entry with the typical errors, on return with the solution
+      type(coarse_solution), intent(inout) :: coarse
+      type(case_spec) :: level
+      type(log_type) :: log
+      type(error_type), allocatable :: error
+      real(wp) :: began(2), ended(2), seconds, sides(2)
+      integer :: k, counts(2)
+      logical :: is_solved
+
+      level = spec
+      level%limits%deadline%seconds = min(level%limits%deadline%seconds, patience)
+      call level%limits%deadline%start()
+      associate (session => slot%session, result => slot%result)
+         call first_grid(session, spec, coarse%law, coarse%fixed, coarse%grid, coarse_across)
+         do k = 1, most_trials
+            call read_clocks(began)
+            call solve_level(session, level, coarse%grid, .false., log, result, is_solved, seconds, error, folder)
+            call read_clocks(ended)
+            if (allocated(error)) exit
+            if (.not. is_solved .or. result%ncon == 0) exit
+            coarse%estimated = error_of_forces(session%problem, result)
+            sides = [result%grid%dx, result%grid%dy]
+            counts = [result%grid%mx, result%grid%my]
+            if (coarse%estimated >= 0.0_wp .or. has_history(spec)) exit
+            call next_counts(sides, counts, across_contact(result), coarse%estimated, coarse%law%falls, &
+               & spec%iteration%accuracy, coarse%fixed, coarse%grid%counts)
+         end do
+         if (.not. coarse%estimated >= 0.0_wp) then
+            call session%series%clear()
+            return
+         end if
+         coarse%grid%counts = counts
+         coarse%grid%lengths = counts*sides
+         coarse%sides = sides
+         coarse%contact = across_contact(result)*sides
+         coarse%rate = minval(ended - began)/product(real(counts, wp))
+         if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) &
+            & coarse%law = first_order_alone(coarse%law)
+         call session%series%take(spec, coarse%grid, coarse%estimated)
+      end associate
+   end subroutine solve_coarse
+
+   !> The cost of a wheel on a rail
+   subroutine foresee_pair(self, spec, folder, cost, why)
+      class(cost_forecast), intent(inout) :: self
+      type(case_spec), intent(in) :: spec
+      !> Folder to which names of files are relative
+      character(len=*), intent(in) :: folder
+      !> Unchanged if there is no coarse solution
+      type(case_cost), intent(inout) :: cost
+      !> Why there is none; "" if there is
+      character(len=:), allocatable, intent(out) :: why
+      type(coarse_solution) :: coarse
+      type(error_type), allocatable :: error
+      type(mean_cost) :: mean
+      real(wp) :: first(2)
+      integer :: k, n
+
+      why = ""
+      self%owner = nobody
+      call refuse_case(spec, error)
+      if (allocated(error)) then
+         why = "as a run refuses the case"
+         return
+      end if
+      coarse%law = expected_law(spec)
+      first = first_sides(spec, first_across(coarse%law, spec%iteration%accuracy))
+      call solve_coarse_pair(self%slot%wheel_rail, self%slot%wheel_rail_result, spec, folder, &
+         & max(first, first_sides(spec, coarse_across)), coarse)
+      if (.not. coarse%estimated >= 0.0_wp) then
+         why = "as there is no estimate on few elements"
+         return
+      end if
+      do k = 1, size(deviations)
+         do n = 1, size(deviations)
+            call search_pair(spec, coarse, first, [deviations(k), deviations(n)], mean)
+         end do
+      end do
+      call search_pair(spec, coarse, first, [0.0_wp, 0.0_wp], mean)
+      call set_cost(spec, coarse, mean, cost)
+   end subroutine foresee_pair
+
+   !> Solve a wheel on a rail with few elements; without estimate if that fails
+   subroutine solve_coarse_pair(session, result, spec, folder, sides, coarse)
+      type(wheel_rail_session), intent(inout) :: session
+      !> Result of the coarse solution
+      type(wheel_rail_result), intent(inout) :: result
+      type(case_spec), intent(in) :: spec
+      !> Folder to which names of files are relative
+      character(len=*), intent(in) :: folder
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: sides(2)
+      !> On entry with the typical errors, on return with the solution
+      type(coarse_solution), intent(inout) :: coarse
+      type(case_spec) :: level
+      type(log_type) :: log
+      type(error_type), allocatable :: error
+      real(wp) :: began(2), ended(2)
+      integer :: k
+
+      level = spec
+      call prepare_level(solver_tolerance(spec%iteration%accuracy), level)
+      level%wheel_rail%search%dx = sides(1)
+      level%wheel_rail%search%ds = sides(2)
+      level%limits%deadline%seconds = min(level%limits%deadline%seconds, patience)
+      if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
+      ! the time of files is expected separately
+      call check_files(session, spec, folder, log, error)
+      if (allocated(error)) return
+      call level%limits%deadline%start()
+      call read_clocks(began)
+      call solve_wheel_rail_case(session, level, folder, log, result, error)
+      call read_clocks(ended)
+      if (allocated(error)) return
+      associate (memory => session%memory)
+         if (.not. result%status%is_solved() .or. memory%used == 0) return
+         coarse%estimated = error_of_pair(memory)
+         allocate(coarse%areas(memory%used))
+         do k = 1, memory%used
+            associate (grid => memory%slot(k)%result%grid)
+               coarse%areas(k) = real(grid%npot(), wp)*grid%dx*grid%dy
+            end associate
+         end do
+         coarse%main = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
+         associate (patch => memory%slot(coarse%main)%result)
+            coarse%contact = across_contact(patch)*[patch%grid%dx, patch%grid%dy]
+            coarse%grid%counts = [patch%grid%mx, patch%grid%my]
+         end associate
+         coarse%sides = sides
+         coarse%rate = minval(ended - began)/sum(coarse%areas/product(sides))
+         if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(memory) /= 2) &
+            & coarse%law = first_order_alone(coarse%law)
+      end associate
+   end subroutine solve_coarse_pair
+
+   !> Elapsed time, and processor time, which is less if other processes run, but more if threads wait actively [s]
+   subroutine read_clocks(clocks)
+      !> Both times since fixed instants
+      real(wp), intent(out) :: clocks(2)
+
+      clocks(1) = wall_clock()
+      call cpu_time(clocks(2))
+   end subroutine read_clocks
+
+   !> Set the cost to the mean of searches
+   subroutine set_cost(spec, coarse, mean, cost)
+      type(case_spec), intent(in) :: spec
+      type(coarse_solution), intent(in) :: coarse
+      !> Sums of logarithms; the last search without deviations
+      type(mean_cost), intent(in) :: mean
+      type(case_cost), intent(inout) :: cost
+      type(potential_contact) :: grid
+      real(wp) :: n
+
+      n = exp(mean%elements/mean%number)
+      cost%elements = nint(n, long)
+      cost%at_most = mean%is_limited
+      grid%mx = nint(sqrt(n))
+      grid%my = grid%mx
+      cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
+      ! in units of the machine of the tables
+      cost%seconds = exp(mean%seconds/mean%number)/machine_pace()
+      cost%source = "from a solution on " // integer_text(coarse%grid%counts(1)) // " x " // integer_text(coarse%grid%counts(2)) &
+         & // " elements"
+   end subroutine set_cost
+end module contact_cases_foreseen_cost

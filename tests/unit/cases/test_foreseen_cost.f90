@@ -1,0 +1,159 @@
+!> Cost of an accuracy, foreseen from a solution on few elements: against the search itself
+program test_foreseen_cost
+   use contact_base_choices, only : motion, time_link
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_accuracy, only : solve_contact_case
+   use contact_cases_estimate, only : case_cost, estimate_cost
+   use contact_cases_foreseen_cost, only : cost_forecast
+   use contact_cases_slot, only : open_contact, problem_slot, release_slot
+   use contact_cases_spec, only : case_spec
+   use contact_test_case_builder, only : creep, grid_case, hertz_case, shift
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   !> Result element and contact problem
+   integer, parameter :: owner(2) = [1, 1]
+   !> Coefficients of x**2 and y**2 [1/mm], and normal force [N]
+   real(wp), parameter :: curvature = 1.0e-3_wp, force = 5.0e4_wp
+   type(test_suite) :: suite
+
+   call suite%start("foreseen_cost")
+   call coarse_first_grid(suite)
+   call unlike_bodies(suite)
+   call series(suite)
+   call guessed(suite)
+   call suite%finish()
+
+contains
+
+   !> The first grid has few elements, is solved here as in the search, and is sufficient: the number of elements is exact
+   subroutine coarse_first_grid(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_cost) :: cost
+      real(wp) :: elements
+
+      call foresee_one(ball(1.0e-2_wp), cost)
+      call solve_one(ball(1.0e-2_wp), elements, suite)
+      call suite%close_to(real(cost%elements, wp), elements, 0.0_wp, "the grid that was solved")
+      call suite%equal(trim(cost%source), "from a solution on 14 x 14 elements", "how it was found")
+   end subroutine coarse_first_grid
+
+   !> Slip at the leading edge that is narrower than elements, in a fourfold range of their number across: 27, 147 and 207
+   subroutine unlike_bodies(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: creepage(2, 3) = reshape([-2.0e-3_wp, 0.0_wp, 0.0_wp, 2.0e-3_wp, -3.0e-4_wp, 0.0_wp], [2, 3])
+      type(case_spec) :: spec
+      type(case_cost) :: cost
+      real(wp) :: elements
+      integer :: k
+
+      do k = 1, size(creepage, 2)
+         spec = ball(1.0e-3_wp)
+         spec%material%gg = [80000.0_wp, 320000.0_wp]
+         spec%friction%sets%fstat = 0.18_wp
+         spec%friction%sets%fkin = 0.18_wp
+         spec%kinematics%cksi = creepage(1, k)
+         spec%kinematics%ceta = creepage(2, k)
+         call foresee_one(spec, cost)
+         call solve_one(spec, elements, suite)
+         call suite%check(abs(log(cost%elements/elements)) < log(2.0_wp), "elements of unlike bodies")
+         call suite%check(index(cost%source, "from a solution on") == 1, "from a solution")
+      end do
+   end subroutine unlike_bodies
+
+   !> A shift that continues another one begins on its grid
+   subroutine series(suite)
+      type(test_suite), intent(inout) :: suite
+      type(cost_forecast) :: forecast
+      type(case_spec) :: spec
+      type(case_cost) :: first, second
+
+      spec = shifted()
+      call forecast%foresee(spec, owner, "", first)
+      spec%link = time_link%continue_all
+      spec%kinematics%cksi = 0.5_wp*spec%kinematics%cksi
+      call forecast%foresee(spec, owner, "", second)
+      call suite%check(index(second%source, "from a solution on") == 1, "a case that continues another one")
+      call suite%check(second%elements >= nint(0.8_wp*first%elements), "on its grid, or on a finer one")
+      ! another contact problem has another history
+      call forecast%foresee(spec, owner + 1, "", second)
+      call suite%equal(trim(second%source), "typical of such contacts, as there is no coarse solution of the case before", &
+         & "a case that continues an unknown one")
+      call forecast%release()
+   end subroutine series
+
+   !> Cases without a coarse solution keep the cost that is typical
+   subroutine guessed(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(case_cost) :: cost, typical
+
+      spec = ball(1.0e-2_wp)
+      spec%rolling%chi = 1.0_wp
+      call foresee_one(spec, cost)
+      call estimate_cost(spec, typical)
+      call suite%equal(trim(cost%source), "typical of such contacts, as a run refuses the case", "a case that is refused")
+      call suite%close_to(cost%seconds, typical%seconds, 0.0_wp, "its time")
+      spec = ball(0.0_wp)
+      call foresee_one(spec, cost)
+      call suite%check(cost%source == "", "a given grid")
+   end subroutine guessed
+
+   !> Cost of a single case
+   subroutine foresee_one(spec, cost)
+      type(case_spec), intent(in) :: spec
+      type(case_cost), intent(out) :: cost
+      type(cost_forecast) :: forecast
+
+      call forecast%foresee(spec, owner, "", cost)
+      call forecast%release()
+   end subroutine foresee_one
+
+   !> Solve a case with its accuracy
+   subroutine solve_one(spec, elements, suite)
+      type(case_spec), intent(in) :: spec
+      !> Number of elements of its grid
+      real(wp), intent(out) :: elements
+      type(test_suite), intent(inout) :: suite
+      type(problem_slot) :: slot
+      type(log_type) :: log
+      type(case_spec), allocatable :: solved
+      type(error_type), allocatable :: error
+
+      elements = 1.0_wp
+      call open_contact(slot)
+      call solve_contact_case(slot%session, spec, log, slot%result, solved, error)
+      call suite%check(.not. allocated(error), "solved")
+      if (.not. allocated(error)) then
+         call suite%check(slot%result%accuracy%is_met, "to the accuracy")
+         elements = product(real(slot%result%accuracy%elements, wp))
+      end if
+      call release_slot(slot)
+   end subroutine solve_one
+
+   !> A ball on a plane in steady rolling
+   function ball(accuracy) result(spec)
+      !> Required accuracy [-]
+      real(wp), intent(in) :: accuracy
+      type(case_spec) :: spec
+
+      spec = hertz_case(curvature, curvature, force, 20, 20, 1.2_wp)
+      call creep(spec, motion%steady_rolling, ksi=-1.0e-3_wp, mu=0.3_wp)
+      spec%material%poiss = 0.3_wp
+      spec%material%gg = 80000.0_wp
+      spec%iteration%maxout = 100
+      spec%iteration%accuracy = accuracy
+      spec%rolling%dq = 1.0_wp
+      spec%rolling%veloc = 1000.0_wp
+   end function ball
+
+   !> The same shifted, in a potential contact that does not depend on the load
+   function shifted() result(spec)
+      type(case_spec) :: spec
+
+      spec = grid_case(curvature, curvature, force, 20, 20, 1.2_wp, 1.2_wp)
+      call shift(spec, 5.0e-3_wp, mu=0.3_wp)
+      spec%iteration%accuracy = 1.0e-3_wp
+   end function shifted
+end program test_foreseen_cost
