@@ -69,11 +69,13 @@ int contact_guard_reserve_used(void) { return 0; }
 
 #else
 
+#include <dlfcn.h>
 #include <elf.h>
 #include <errno.h>
 #include <link.h>
 #include <malloc.h>
 #include <pthread.h>
+#include <sys/auxv.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -553,10 +555,12 @@ extern void GOMP_critical_name_end(void **) __attribute__((weak));
 
 typedef void (*function)(void);
 
-/* Targets of a redirected call: from our own code, from other libraries (null: not redirected) */
+/* A redirected call: where pointers to the function and calls of it lead, and its targets from our own code and from other
+ * libraries (null: not redirected). Calls for memory are redirected together, or not at all */
 struct detour {
   const char *name;
-  function real, own, other;
+  function pointed, real, own, other;
+  int is_of_memory;
 };
 
 struct detours {
@@ -566,7 +570,39 @@ struct detours {
   const char *letters;
 };
 
-#define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
+#define MEMORY(name, own, other) {#name, (function)name, (function)real.name, (function)(own), (function)(other), 1}
+#define DETOUR(name, kept, own, other) {#name, (function)name, (function)real.kept, (function)(own), (function)(other), 0}
+
+/* Where calls of a function from other objects lead.
+ *
+ * Pointers to a function are the same in the whole process. In an executable at fixed addresses that has one, as the Python of
+ * Debian, it is the address of an entry in its own table of calls. Calls lead to the first object behind the executable that
+ * defines the function. */
+static function actual(const char *name, function pointed) {
+  struct link_map *object = NULL;
+  function found = pointed;
+  Dl_info executable, owner;
+  const void *const entry = (const void *)getauxval(AT_ENTRY);
+  if (dladdr(entry, &executable) == 0 || dladdr((const void *)pointed, &owner) == 0 || owner.dli_fbase != executable.dli_fbase)
+    return pointed;
+  void *handle = dlopen(NULL, RTLD_LAZY);
+  if (handle == NULL || dlinfo(handle, RTLD_DI_LINKMAP, &object) != 0) return pointed;
+  dlclose(handle);
+  for (object = object->l_next; object != NULL; object = object->l_next) {
+    Dl_info place;
+    void *address;
+    handle = dlopen(object->l_name, RTLD_LAZY | RTLD_NOLOAD);
+    if (handle == NULL) continue;
+    address = dlsym(handle, name);
+    dlclose(handle);
+    /* an object also gives what those that it needs define */
+    if (address == NULL || dladdr(address, &place) == 0 || (uintptr_t)place.dli_fbase != object->l_addr) continue;
+    memcpy(&found, &address, sizeof found);
+    break;
+  }
+  return found;
+}
+#define ACTUAL(name) ((__typeof__(&(name)))actual(#name, (function)name))
 
 /* Libraries that end the process, or whose memory is freed here */
 static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libz.", "libquadmath."};
@@ -606,6 +642,18 @@ static int is_import(unsigned type) {
 #endif
 }
 
+static const struct detour *detour_of(const struct detours *detours, const char *symbol) {
+  for (int d = 0; d < detours->count; d++)
+    if (strcmp(symbol, detours->list[d].name) == 0) return &detours->list[d];
+  return NULL;
+}
+
+/* May a call be redirected? Not if it is already, by a second copy of this code in the process or by another tool */
+static int is_plain(const struct dl_phdr_info *info, function target, const struct detour *detour) {
+  /* calls that were not made yet lead back to their own object */
+  return target == detour->pointed || target == detour->real || contains(info, (const void *)target);
+}
+
 static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   const struct detours *detours = data;
   const char *name = info->dlpi_name ? info->dlpi_name : "", *base = strrchr(name, '/');
@@ -617,7 +665,7 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   const char *strings = NULL;
   uintptr_t protected = 0;
   size_t length = 0;
-  int is_open = 0;
+  int is_open = 0, memory_is_plain = 1;
   (void)size;
 
   base = base ? base + 1 : name;
@@ -637,58 +685,58 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   }
   if (symbols == NULL || strings == NULL) return 0;
   find_protected(info, &protected, &length);
-  for (int t = 0; t < 2; t++) {
-    for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
-      const ElfW(Rela) *import = &tables[t][k];
-      if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
-      const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
-      if (strchr(detours->letters, symbol[0]) == NULL) continue;
-      for (int d = 0; d < detours->count; d++) {
-        const struct detour *detour = &detours->list[d];
-        const function to = own ? detour->own : detour->other;
-        if (to == NULL || strcmp(symbol, detour->name) != 0) continue;
+  for (int pass = 0; pass < 2; pass++)
+    for (int t = 0; t < 2; t++)
+      for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
+        const ElfW(Rela) *import = &tables[t][k];
+        if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
+        const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
+        if (strchr(detours->letters, symbol[0]) == NULL) continue;
+        const struct detour *detour = detour_of(detours, symbol);
+        const function to = detour == NULL ? NULL : own ? detour->own : detour->other;
+        if (to == NULL) continue;
         function *slot = (function *)(info->dlpi_addr + import->r_offset);
-        /* already redirected, by a second copy of this code in the process or by another tool */
-        if (*slot != detour->real && !contains(info, (const void *)*slot)) continue;
+        const int plain = is_plain(info, *slot, detour);
+        if (pass == 0 && detour->is_of_memory && !plain) memory_is_plain = 0;
+        if (pass == 0 || !plain || (detour->is_of_memory && !memory_is_plain)) continue;
         if ((uintptr_t)slot - protected < length && !is_open) {
           if (mprotect((void *)protected, length, PROT_READ | PROT_WRITE) != 0) return 0;
           is_open = 1;
         }
         *slot = to;
       }
-    }
-  }
   if (is_open) mprotect((void *)protected, length, PROT_READ);
   return 0;
 }
 
 /* Redirect the calls, once */
 static void watch(void) {
-  struct detours detours = {{
-    DETOUR(malloc, own_malloc, other_malloc), DETOUR(calloc, own_calloc, other_calloc), DETOUR(realloc, own_realloc, other_realloc),
-    DETOUR(memalign, NULL, other_memalign), DETOUR(posix_memalign, NULL, other_posix_memalign),
-    DETOUR(aligned_alloc, NULL, other_aligned_alloc), DETOUR(free, release, release),
-    DETOUR(strdup, NULL, other_strdup), DETOUR(strndup, NULL, other_strndup), DETOUR(exit, NULL, other_exit), DETOUR(abort, NULL, other_abort),
-    DETOUR(GOMP_parallel, own_parallel, NULL), DETOUR(GOMP_parallel_sections, own_sections, NULL),
-    DETOUR(GOMP_critical_name_start, own_enter, NULL), DETOUR(GOMP_critical_name_end, own_leave, NULL)}, 15, "mcrpafseG"};
   if (watched) return;
   watched = 1;
-  real.malloc = malloc;
-  real.calloc = calloc;
-  real.realloc = realloc;
-  real.memalign = memalign;
-  real.posix_memalign = posix_memalign;
-  real.aligned_alloc = aligned_alloc;
-  real.free = free;
-  real.usable_size = malloc_usable_size;
-  real.strdup = strdup;
-  real.strndup = strndup;
-  real.exit = exit;
-  real.abort = abort;
-  real.parallel = GOMP_parallel;
-  real.sections = GOMP_parallel_sections;
-  real.enter = GOMP_critical_name_start;
-  real.leave = GOMP_critical_name_end;
+  real.malloc = ACTUAL(malloc);
+  real.calloc = ACTUAL(calloc);
+  real.realloc = ACTUAL(realloc);
+  real.memalign = ACTUAL(memalign);
+  real.posix_memalign = ACTUAL(posix_memalign);
+  real.aligned_alloc = ACTUAL(aligned_alloc);
+  real.free = ACTUAL(free);
+  real.usable_size = ACTUAL(malloc_usable_size);
+  real.strdup = ACTUAL(strdup);
+  real.strndup = ACTUAL(strndup);
+  real.exit = ACTUAL(exit);
+  real.abort = ACTUAL(abort);
+  real.parallel = ACTUAL(GOMP_parallel);
+  real.sections = ACTUAL(GOMP_parallel_sections);
+  real.enter = ACTUAL(GOMP_critical_name_start);
+  real.leave = ACTUAL(GOMP_critical_name_end);
+  struct detours detours = {{
+    MEMORY(malloc, own_malloc, other_malloc), MEMORY(calloc, own_calloc, other_calloc), MEMORY(realloc, own_realloc, other_realloc),
+    MEMORY(memalign, NULL, other_memalign), MEMORY(posix_memalign, NULL, other_posix_memalign),
+    MEMORY(aligned_alloc, NULL, other_aligned_alloc), MEMORY(free, release, release),
+    MEMORY(strdup, NULL, other_strdup), MEMORY(strndup, NULL, other_strndup), DETOUR(exit, exit, NULL, other_exit),
+    DETOUR(abort, abort, NULL, other_abort), DETOUR(GOMP_parallel, parallel, own_parallel, NULL),
+    DETOUR(GOMP_parallel_sections, sections, own_sections, NULL), DETOUR(GOMP_critical_name_start, enter, own_enter, NULL),
+    DETOUR(GOMP_critical_name_end, leave, own_leave, NULL)}, 15, "mcrpafseG"};
   dl_iterate_phdr(redirect, &detours);
 }
 

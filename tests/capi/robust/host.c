@@ -1,6 +1,6 @@
 /* Unusual hosts: each must get the forces of a usual one or an error code, and continue.
  *
- * usage: host PROFILES_FOLDER traps | stack | folder | de_DE | tr_TR | fork | memory */
+ * usage: host PROFILES_FOLDER traps | stack | folder | de_DE | tr_TR | fork | memory | grids */
 #define _GNU_SOURCE
 #include <contact.h>
 #include <contact_addon.h>
@@ -252,6 +252,33 @@ static void memory(void) {
   compare("after grids that were too large");
 }
 
+/* Elements of many sizes, by two pairs in turn, half of them a single row: blocks of the pairs, of FFTW and of Fortran are
+ * requested and freed. The host takes the address of free: in an executable at fixed addresses all pointers to free are then to
+ * the table of calls of the host */
+static void grids(void) {
+  void (*volatile of_host)(void *) = free;
+  double force[4], before[4][20], all[24];
+  char text[100];
+
+  check(of_host != NULL, "an address");
+  for (int ire = 15; ire <= 16; ire++) check(wheel(ire, force) == 0, "the first size");
+  for (int round = 0; round < 2; round++)
+    for (int k = 0; k < 20; k++) {
+      const int ire = 15 + k % 2;
+      cntc_setpotcontact(&ire, INT(-1), INT(-1), INT(5), REALS(0.1 + 0.05 * k, k % 4 < 2 ? 0.5 : 30.0, 1.57, 8, 4));
+      cntc_setwheelsetposition(&ire, INT(1), INT(6), REALS(0, 0.3 * k, 0, 0, 0.005, 0));
+      const int code = calculate(ire, -1);
+      snprintf(text, sizeof text, "elements %d, for the %d. time, end with %d", k, round + 1, code);
+      check(code == 0, text);
+      cntc_getglobalforces(&ire, INT(-1), INT(24), all);
+      for (int i = 0; i < 3; i++) {
+        if (round == 0) before[i][k] = all[i];
+        else check(fabs(all[i] - before[i][k]) <= 2e-5 * 60000, text);
+      }
+    }
+  compare("after many grids");
+}
+
 int main(int argc, char **argv) {
   if (argc != 3) return 2;
   profiles = argv[1];
@@ -270,6 +297,7 @@ int main(int argc, char **argv) {
     }
   } else if (strcmp(argv[2], "fork") == 0) forked();
   else if (strcmp(argv[2], "memory") == 0) memory();
+  else if (strcmp(argv[2], "grids") == 0) grids();
   else return 2;
   cntc_finalizelast();
   printf("%s: %d checks, %d failed\n", argv[2], checks, failed);
