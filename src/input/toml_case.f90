@@ -82,6 +82,7 @@ contains
       words%digits%r = words%digits%r + merge(1, 0, ends_module)
       call apply_digits(words%digits, module_number, spec)
       digits = words%digits
+      a%moves = spec%motion
       if (is_good) then
          call check_digits(words, module_number, previous, has_previous, spec, problems)
          digits = words%digits

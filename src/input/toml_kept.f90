@@ -15,8 +15,9 @@ contains
 
    !> Refuse creepages that are kept as shifts, and shifts as creepages
    subroutine check_kept_creepages(a, previous, spec)
+      !> Reader of the case, which gets the problems
       type(toml_reader), intent(inout) :: a
-      !> The previous case
+      !> Case before it, with the kind of motion to which kept creepages belong
       type(case_spec), intent(in) :: previous
       !> A case with friction; its kind of motion is noted
       type(case_spec), intent(inout) :: spec

@@ -11,7 +11,7 @@ module contact_input_toml_reader
    use contact_input_toml_tables, only : find, is_tables, key_with_value, leaves_of, number_of, sets_of, toml_memory, &
       & toml_tables
    use contact_input_toml_values, only : check_item, count_values, fill_list, set_number
-   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_bounds, only : bounds_of, bounds_table, unit_of
    use contact_text_nearest, only : unknown_word, words_of
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
@@ -220,7 +220,7 @@ contains
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
       character(len=*), intent(in) :: key
-      character(len=:), allocatable :: message
+      character(len=:), allocatable :: message, unit
       character(len=8) :: opening, closing
 
       item%given = .false.
@@ -234,8 +234,8 @@ contains
       message = key // " is missing"
       if (item%row > 0) then
          message = message // ": " // trim(bounds_table(item%row)%title)
-         if (bounds_table(item%row)%unit /= "-" .and. bounds_table(item%row)%unit /= "integer") message = message // " [" // &
-            & trim(bounds_table(item%row)%unit) // "]"
+         unit = unit_of(item%row, self%moves)
+         if (unit /= "-" .and. unit /= "integer") message = message // " [" // unit // "]"
       end if
       opening = merge("[[", "[ ", self%part_node > 0)
       closing = merge("]]", "] ", self%part_node > 0)

@@ -43,6 +43,8 @@ module contact_input_toml_tables
       !> Groups and keys that the case has looked up, to suggest the nearest valid one
       integer :: known_count = 0
       character(len=key_length) :: known_groups(max_keys) = "", known_keys(max_keys) = ""
+      !> Motion of the case, on which units depend; member of motion
+      integer :: moves = 0
       !> Is a value of the last line missing or wrong?
       logical :: line_is_bad = .false.
       !> Was the case read before, with other values? Then its keys are known already

@@ -4,7 +4,7 @@ module contact_input_toml_values
    use contact_cases_archive, only : archive_item, item_kind
    use contact_input_problems, only : severity
    use contact_input_toml_tables, only : leaves_of, list_of, sets_of, toml_tables
-   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, is_within
+   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, is_within, unit_of
    use contact_text_line_words, only : printable
    use contact_toml_document, only : toml_kind
    use contact_toml_quantities, only : read_quantity
@@ -112,7 +112,7 @@ contains
             return
          end if
          unit = "-"
-         if (item%row > 0) unit = trim(bounds_table(item%row)%unit)
+         if (item%row > 0) unit = unit_of(item%row, self%moves)
          select case (node%kind)
          case (toml_kind%integer, toml_kind%real)
             value = node%r
@@ -176,7 +176,11 @@ contains
                values(filled) = node%r
                if (node%kind == toml_kind%string) then
                   unit = "mm"
-                  if (present(units)) unit = trim(units(modulo(filled - 1, size(units)) + 1))
+                  if (present(units)) then
+                     unit = trim(units(modulo(filled - 1, size(units)) + 1))
+                  else if (index(bounds_table(row)%unit, " or ") > 0) then
+                     unit = unit_of(row, self%moves)
+                  end if
                   call read_quantity(self%document%text_of(k), unit, values(filled), complaint)
                end if
                if (.not. allocated(complaint) .and. .not. is_within(row, values(filled))) call describe_breach( &

@@ -10,7 +10,7 @@ module contact_output_input_record
    use contact_control_words, only : form_key, form_title, form_word, is_choice, key_length, key_of_item, key_table, &
       & word_of_digit
    use contact_output_record, only : record_writer
-   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_bounds, only : bounds_of, bounds_table, unit_of
    use contact_text_words, only : capital, small
    implicit none (type, external)
    private
@@ -31,10 +31,11 @@ module contact_output_input_record
    !> The archive that writes each group to a record
    type, extends(case_archive) :: input_archive
       class(record_writer), pointer :: record => null()
-      !> Data of the case: module 1 or 3, choices, and whether motion is a shift
+      !> Data of the case: module 1 or 3, choices
       integer :: module_number = 3
       type(case_digits) :: digits
-      logical :: is_shift = .false.
+      !> Motion on which units depend, member of motion: a shift or rolling
+      integer :: moves = motion%steady_rolling
       !> Number of keys of the current group so far, and the keys 1...n_keys
       integer :: n_keys = 0
       type(key_values), allocatable :: keys(:)
@@ -62,7 +63,7 @@ contains
 
       a%record => record
       a%module_number = merge(1, 3, allocated(spec%wheel_rail))
-      a%is_shift = spec%motion == motion%shift
+      if (spec%motion == motion%shift) a%moves = motion%shift
       whole = spec
       ! all groups used by the case; lists of all elements and points are stored elsewhere
       whole%parts = case_parts(extra_slip=part_source%kept)
@@ -218,7 +219,6 @@ contains
             row%is_count = .true.
             call append(row, [real(item%i, wp)])
          case default
-            if (row%unit == "- or mm") row%unit = merge("mm", "- ", self%is_shift)
             call append(row, [item%r])
          end select
       end associate
@@ -245,7 +245,7 @@ contains
       self%keys(at) = key_values(key=key)
       if (bounds == 0) return
       self%keys(at)%title = bounds_table(bounds)%title
-      if (index(bounds_table(bounds)%unit, "...") == 0) self%keys(at)%unit = bounds_table(bounds)%unit
+      if (index(bounds_table(bounds)%unit, "...") == 0) self%keys(at)%unit = unit_of(bounds, self%moves)
    end subroutine find_key
 
    !> Append values to those of a key

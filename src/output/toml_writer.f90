@@ -9,7 +9,7 @@ module contact_output_toml_writer
    use contact_control_digits, only : case_digits, digit_text, digit_value
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
       & translate_to_words, word_of_digit
-   use contact_text_bounds, only : bounds_table
+   use contact_text_bounds, only : bounds_table, unit_of
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
    implicit none (type, external)
@@ -194,7 +194,7 @@ contains
       do while (k < self%count)
          k = k + 1
          if (any(lengths == self%items(k)%name) .or. self%items(k)%name == "ISUBS") cycle
-         call text_of_item(self%items(k), text)
+         call text_of_item(self%items(k), self%digits%t, text)
          if (is_pair(self%items(:self%count), k)) then
             call put_pair(self, k, text)
             k = k + 1
@@ -231,13 +231,15 @@ contains
       character(len=key_length) :: key
 
       key = key_of_item(self%items, k)
-      call text_of_item(self%items(k + 1), second)
+      call text_of_item(self%items(k + 1), self%digits%t, second)
       call self%put(key(:len_trim(key) - 1), "[" // first // ", " // second // "]", self%items(k))
    end subroutine put_pair
 
    !> Value of an item as TOML
-   subroutine text_of_item(item, text)
+   subroutine text_of_item(item, moves, text)
       type(archive_item), intent(in) :: item
+      !> Motion of the case, member of motion
+      integer, intent(in) :: moves
       character(len=:), allocatable, intent(out) :: text
 
       select case (item%kind)
@@ -247,7 +249,7 @@ contains
       case (item_kind%text)
          call quoted(item%s%value, text)
       case (item_kind%angle)
-         call text_of_angle(item%r, trim(bounds_table(item%row)%unit), text)
+         call text_of_angle(item%r, unit_of(item%row, moves), text)
       case default
          text = trim(exact_text(item%r))
       end select
@@ -307,7 +309,7 @@ contains
       type(archive_item), intent(in), optional :: item
       !> Remark, if there is no item
       character(len=*), intent(in), optional :: remark
-      character(len=:), allocatable :: line, name
+      character(len=:), allocatable :: line, name, unit
       logical :: can_miss
 
       name = trim(self%group) // "." // key
@@ -327,8 +329,8 @@ contains
       if (present(item)) then
          if (item%row > 0) then
             name = trim(bounds_table(item%row)%title)
-            if (bounds_table(item%row)%unit /= "-" .and. bounds_table(item%row)%unit /= "integer") name = name // " [" // &
-               & trim(bounds_table(item%row)%unit) // "]"
+            unit = unit_of(item%row, self%digits%t)
+            if (unit /= "-" .and. unit /= "integer") name = name // " [" // unit // "]"
             call add_remark(self, line, name)
          else if (any(form_table%name == item%name)) then
             call add_remark(self, line, trim(form_title(item%name, item%i)))

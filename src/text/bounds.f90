@@ -7,13 +7,14 @@
 !> Long because it is mostly the table, one entry per number of the input.
 module contact_text_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_choices, only : motion
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
-   public :: number_bounds, bounds_table, bounds_of, is_angle, is_within, describe_breach, check_number
+   public :: number_bounds, bounds_table, bounds_of, is_angle, is_within, describe_breach, check_number, unit_of
 
    !> Bounds of one number
    type :: number_bounds
@@ -486,6 +487,9 @@ module contact_text_bounds
       & subsurface_rows, track_rows, wheel_rows]
    !> Is the number an angle or its rate?
    logical, parameter :: is_angle(*) = bounds_table%unit == "rad" .or. bounds_table%unit == "rad/s"
+   !> Rates in rolling that are displacements and rotations in shifts
+   character(len=*), parameter :: rates(*) = [character(len=7) :: "CPHI", "VS", "VY", "VZ", "VROLL", "VYAW", "VPITCH", "RPITCH", &
+      & "VYRAIL", "VZRAIL", "VROLLR", "VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"]
    !> The names as an array, to be searched, and their first letters, terminated by 0
    character(len=*), parameter :: names(*) = bounds_table%name
    integer, parameter :: letters(*) = [iachar(names(:)(1:1)), 0]
@@ -536,6 +540,29 @@ contains
       end do
       row = 0
    end function row_of
+
+   !> Unit of a number in a case: in shifts creepages and velocities are displacements and rotations
+   !>
+   !> Without motion either of two units has a meaning, as for the cases that follow: "- or mm".
+   pure function unit_of(row, moves) result(unit)
+      !> Row of the table
+      integer, intent(in) :: row
+      !> Member of motion
+      integer, intent(in) :: moves
+      character(len=:), allocatable :: unit
+      integer :: last
+
+      unit = trim(bounds_table(row)%unit)
+      last = index(unit, "/") - 1
+      if (any(rates == bounds_table(row)%name)) unit = unit // " or " // unit(:last)
+      last = index(unit, " or ")
+      if (last == 0 .or. moves == motion%none) return
+      if (moves == motion%shift) then
+         unit = unit(last + 4:)
+      else
+         unit = unit(:last - 1)
+      end if
+   end function unit_of
 
    !> Is a value within the bounds of a row of the table? False if there is no such row
    pure logical function is_within(row, value)

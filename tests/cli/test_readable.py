@@ -298,6 +298,33 @@ class Readable(unittest.TestCase):
         self.assertIn('a.toml:3:18: material_model = "viscoelastic", ', errors)
         self.assertIn('motion = "steady_rolling", not motion = "shift"', errors)
 
+    def test_units_follow_the_motion(self):
+        """In shifts creepages and velocities are distances and rotations; their units are checked for the motion of the case"""
+        rolls = HEAD.replace("shift", "steady_rolling") + REST + "[case.rolling]\ndq = 0.6\nveloc = 1000\n"
+        for text, key, good, bad, expected in (
+                (rolls, "cksi", "0.1 %", "0.001 mm", "a plain number"), (HEAD + REST, "cksi", "1 um", "0.1 %", "mm"),
+                (rolls, "cphi", "1 deg/m", "1 mrad", "rad/mm"), (HEAD + REST, "cphi", "1 deg", "1 mrad/mm", "rad")):
+            given = text.replace("cksi = 0.001", f'{key} = "{bad}"')
+            self.assertIn(f", expected is {expected} or a unit", self.complaints(given))
+            self.assertEqual(self.check(given.replace(bad, good))[0], 0, good)
+        # either unit without motion, for the cases that follow
+        for value in ("1 um", "0.1 %"):
+            self.assertEqual(self.check((HEAD + REST).replace('"shift"', '"none"').replace("0.001", f'"{value}"'))[0], 0, value)
+        list_of_slip = '[case.extra_slip]\nexrhs = [' + 121*'["1 um", 0], ' + "]\n"
+        self.assertEqual(self.check(HEAD + REST + list_of_slip)[0], 0)
+        self.assertIn("expected is a plain number", self.complaints(rolls + list_of_slip))
+        # a wheel on a rail
+        shutil.copytree(EXAMPLES / "profiles", self.folder / "profiles")
+        pair = "[[case]]".join((EXAMPLES / "single_wheel.toml").read_text().split("[[case]]")[:2])
+        for moves, good, bad, expected in (("transient_rolling", "1 m/s", "1 mm", "mm/s"), ("shift", "1 um", "1 mm/s", "mm")):
+            turn = ("1 deg/s", "1 mrad", "rad/s") if moves != "shift" else ("1 mrad", "1 deg/s", "rad")
+            for key, values in (("vs", (good, bad, expected)), ("vyaw", turn)):
+                text = re.sub('motion = "[a-z_]*"', f'motion = "{moves}"', pair)
+                text = re.sub(rf"(?m)^{key} = .*\n", "", text)
+                text = text.replace("[case.velocity]\n", f'[case.velocity]\n{key} = "{values[1]}"\n')
+                self.assertIn(f", expected is {values[2]} or a unit", self.complaints(text))
+                self.assertEqual(self.check(text.replace(f'"{values[1]}"', f'"{values[0]}"'))[0], 0, values)
+
     def test_choices_in_messages_of_a_computation(self):
         """Messages use words for inputs with words, digits for inputs with digits"""
         oblique = HEAD.replace("shift", "steady_rolling") + REST + '[case.rolling]\nchi = "90 deg"\ndq = 0.1\nveloc = 1000\n'
