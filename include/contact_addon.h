@@ -95,8 +95,8 @@ void cntc_setsolverflags(const int *ire, const int *icp, const int *gdigit, cons
  *   10, 11    none                                        no damping, damping as before
  *   12        cdampn, cdampt [T], dfnmax, dftmax [F/T]    damping
  *   With flag CNTC_ic_bound = 1, set before, 0 to 7 take one value more, the last: the flexibility of a
- *   thin sheet [L3/F]. The limit maxout of outer iterations becomes 1 for like bodies, and 10 in place of 1 for
- *   others; cntc_setsolverflags, called later, replaces it. */
+ *   thin sheet [L3/F]. The limit maxout of outer iterations becomes 10 in place of 1 for unlike bodies;
+ *   cntc_setsolverflags, called later, replaces it. Like bodies have one outer iteration. */
 void cntc_setmaterialparameters(const int *ire, const int *icp, const int *imeth, const int *nparam,
                                 const double *rparam);
 
@@ -113,7 +113,7 @@ void cntc_settemperaturedata(const int *ire, const int *icp, const int *imeth, c
  *       it, and yield stress in cyclic shear [F/L2]; 0: not given */
 void cntc_setwear(const int *ire, const int *icp, const int *nparam, const double *params);
 
-/* Set the time step of shifts.
+/* Accept a time step, which has no effect: shifts have 1 s, rolling the step over the velocity.
  *   dt: time step [T] */
 void cntc_settimestep(const int *ire, const int *icp, const double *dt);
 

@@ -74,7 +74,7 @@
 %   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
 %   cntc_settemperaturedata     - set thermal data by the H digit.
 %   cntc_setwear                - set the parameters of wear and fatigue, and the flag CNTC_own_wear.
-%   cntc_settimestep            - set the time step of shifts.
+%   cntc_settimestep            - accept a time step, which has no effect: shifts have 1 s, rolling the step over the velocity.
 %   cntc_setrollingstepsize     - set rolling direction and step.
 %   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
 %   cntc_setpotcontact          - set the grid.

@@ -14,8 +14,8 @@ function cntc_setmaterialparameters( ire, icp, imeth, rparam )
 %   10, 11    none                                        no damping, damping as before
 %   12        cdampn, cdampt [T], dfnmax, dftmax [F/T]    damping
 %   With flag CNTC.ic_bound = 1, set before, 0 to 7 take one value more, the last: the flexibility of a
-%   thin sheet [L3/F]. The limit maxout of outer iterations becomes 1 for like bodies, and 10 in place of 1 for
-%   others; cntc_setsolverflags, called later, replaces it.
+%   thin sheet [L3/F]. The limit maxout of outer iterations becomes 10 in place of 1 for unlike bodies;
+%   cntc_setsolverflags, called later, replaces it. Like bodies have one outer iteration.
 %   Default: imeth = 0, rparam = [].
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.

@@ -1,5 +1,5 @@
 function cntc_settimestep( ire, icp, dt )
-% CNTC_SETTIMESTEP  Set the time step of shifts.
+% CNTC_SETTIMESTEP  Accept a time step, which has no effect: shifts have 1 s, rolling the step over the velocity.
 %
 %   cntc_settimestep( ire, icp, dt )
 %

@@ -192,9 +192,10 @@ def read_out(path: str) -> OutFile:
         if _HEADINGS.match(line):
             _take(cases[-1], patch, _below(line, following), in_module1)
     for case in cases:
-        if case.status == "solved":  # prescribed forces are reached
+        if case.status == "solved":  # prescribed forces are reached, but without contact
             for number, values in case.prescribed.items():
-                case.patches[number] = {**values, **case.patches[number]}
+                if case.patches[number].get("fn") != 0:
+                    case.patches[number] = {**values, **case.patches[number]}
     ours = any("open source" in line for line in lines[:6])
     ended = any(line.startswith(" CONTACT ended") for line in lines)
     short = any(line.startswith(" Not complete: ") for line in lines)

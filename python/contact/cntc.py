@@ -268,7 +268,7 @@ def setwear(ire: Number, icp: Number, params: ArrayLike) -> None:
 
 
 def settimestep(ire: Number, icp: Number, dt: float) -> None:
-    """Time step [T] of shifts."""
+    """Accepted for compatibility, without effect: shifts have 1 s, rolling the step over the velocity."""
     call("cntc_settimestep", _element(ire), _problem(icp, 1), dt)
 
 

@@ -2,7 +2,7 @@
 module contact_capi_physics
    use contact_base_choices, only : material_model, pressure_model, variation
    use contact_base_kinds, only : wp
-   use contact_capi_messages, only : fits, log_message
+   use contact_capi_messages, only : fits, warn
    use contact_capi_problem, only : library_problem
    use contact_capi_caller, only : caller, min_value
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
@@ -151,8 +151,8 @@ contains
    subroutine set_time_step(a)
       type(caller), intent(inout) :: a
 
-      if (fits(a%call_of, "TC", a%numbers(1)%v, "dt")) call log_message(2, a%call_of, &
-         & "the time step follows from rolling step and velocity")
+      if (fits(a%call_of, "TC", a%numbers(1)%v, "dt")) call warn(a%call_of, &
+         & "a time step has no effect: shifts have 1 s, rolling the step over the velocity")
    end subroutine set_time_step
 
    !> Set rolling direction and step; for wheel and rail the step is relative to the element size

@@ -368,6 +368,10 @@ def clamps():
             same(cntc.calculate(ire, icp), 0, f"{flag} = {value} is calculated with {stored}")
         cntc.setflags(ire, icp, CNTC[flag], good)
         same(last_error(ire, icp), (0, ""), f"{flag} = {good} gives no warning")
+    for ire, icp in ((1, 1), (2, -1)):
+        cntc.settimestep(ire, icp, 0.01)
+        code, text = last_error(ire, icp)
+        check(code == 0 and "a time step has no effect" in text, f"time step: {text}")
     for ire, icp, flag, value, good in (
             (2, -1, "ic_force", 2, 0), (1, 1, "if_units", 1, 1934), (1, 1, "ic_inflcf", 9, 2), (2, -1, "ic_discns", 10, 2),
             (1, 1, "if_wrtinp", 3, 0), (1, 1, "ic_xflow", -1, 0)):
