@@ -164,8 +164,8 @@ contains
       level = spec
       call prepare_level(grid%eps, level)
       if (has_history(spec)) then
-         level%link = spec%link
-         if (spec%link == time_link%repeat_step) level%link = session%series%steps(session%series%used)%link
+         level%link = session%series%link_of(spec)
+         if (level%link == time_link%repeat_step) level%link = session%series%steps(session%series%used)%link
          if (level%link /= time_link%initiate) level%estimate = estimate_choice%previous
       end if
       session%refines = refines .and. result%ncon > 0

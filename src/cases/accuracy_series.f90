@@ -28,6 +28,8 @@ module contact_cases_accuracy_series
       procedure :: clear
       !> Add a solved case after those that it continues
       procedure :: take
+      !> How a case continues the last one: a step repeated behind steady rolling continues from the steady tractions
+      procedure :: link_of
       !> Number of preceding cases that a case continues
       procedure :: before
       !> Does the session hold the solution that a case continues, on this grid?
@@ -67,7 +69,7 @@ contains
 
       k = self%before(spec) + 1
       link = time_link%initiate
-      if (has_history(spec)) link = spec%link
+      if (has_history(spec)) link = self%link_of(spec)
       ! a repeated step replaces the previous one
       if (link == time_link%repeat_step) link = self%steps(k)%link
       if (.not. allocated(self%steps)) allocate(self%steps(8))
@@ -83,6 +85,15 @@ contains
       self%estimated = estimated
    end subroutine take
 
+   pure integer function link_of(self, spec) result(link)
+      class(accuracy_series), intent(in) :: self
+      type(case_spec), intent(in) :: spec
+
+      link = spec%link
+      if (link /= time_link%repeat_step .or. self%used == 0) return
+      if (self%steps(self%used)%motion == motion%steady_rolling) link = time_link%continue_all
+   end function link_of
+
    pure integer function before(self, spec)
       class(accuracy_series), intent(in) :: self
       type(case_spec), intent(in) :: spec
@@ -90,7 +101,7 @@ contains
       before = 0
       if (.not. has_history(spec)) return
       before = self%used
-      if (spec%link == time_link%repeat_step) before = max(0, self%used - 1)
+      if (self%link_of(spec) == time_link%repeat_step) before = max(0, self%used - 1)
    end function before
 
    pure logical function is_at(self, spec, grid)
@@ -100,7 +111,7 @@ contains
       type(level_grid), intent(in) :: grid
 
       ! a repeated step starts from the same state as the previous one
-      is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%grid%counts == grid%counts) &
+      is_at = .not. has_history(spec) .or. (self%link_of(spec) /= time_link%repeat_step .and. all(self%grid%counts == grid%counts) &
          & .and. self%grid%eps <= grid%eps .and. all(is_same(self%grid%lengths, grid%lengths)))
    end function is_at
 

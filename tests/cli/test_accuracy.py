@@ -278,6 +278,13 @@ class Accuracy(Runs):
         once, again = (self.solve_all("c.toml", "[[case]]" + "[[case]]".join([head, *rest]), "--accuracy", "1e-3")[-1]["totals"]
                        for rest in (cases, twice))
         self.assertLess(max(abs(once[n] - again[n]) for n in ("fx", "fy")), 3e-4 * once["mu_scal"] * once["fn"])
+        # behind steady rolling it continues from the steady tractions
+        rolls = head.replace('motion = "shift"', 'motion = "steady_rolling"') + "[case.rolling]\ndq = 0.1\nveloc = 1000\n"
+        shift = cases[0].replace("[case.kinematics]\n", "[case.kinematics]\ncksi = -1e-4\nceta = 0\ncphi = 0\n")
+        once, again = (self.solve_all("c.toml", "[[case]]" + "[[case]]".join([rolls, shift.replace("continue_all", link)]),
+                                      "--accuracy", "1e-2")[-1]["totals"] for link in ("continue_all", "repeat_step"))
+        self.assertEqual([once[n] for n in ("fx", "fy")], [again[n] for n in ("fx", "fy")])
+        self.assertGreater(abs(once["fx"]), 0.0)
 
     def test_steps(self):
         """Steps of transient rolling of a prescribed length: as accurate as prescribed against finer elements, equal to the same

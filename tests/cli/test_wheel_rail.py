@@ -388,6 +388,16 @@ class Statements(Case):
         self.assertNotEqual(lateral[0], 0.0)
         self.assertAlmostEqual(lateral[0], -lateral[1], delta=1e-3*abs(lateral[0]))
 
+    def test_repeated_step_behind_steady_rolling(self):
+        """The tractions before a steady case are those of the steady case, also for a step that is repeated (P = 3)"""
+        forces = []
+        for link in (0, 3, 2):
+            cases = [self.case(vy=20.0), self.case(vy=30.0, tang=2).replace(" 120", f" 1{link}0", 1)]
+            results, _ = self.solve(*cases)
+            forces.append(results[1]["patches"][0]["totals"]["fy"]["value"])
+        self.assertEqual(forces[0], forces[1])
+        self.assertGreater(abs(forces[2]/forces[0] - 1), 0.1)
+
     def test_steps_of_a_layer_that_yields(self):
         """One element per step, for any value of DQREL, with a message; other layers accept any step"""
         message = "DQREL is set to 1"
