@@ -35,7 +35,7 @@ contains
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call write_contact_case(library%input_dump, spec, problem%result)
+      call write_contact_case(library%input_dump, spec, problem%result, problem%session%state%before)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
       call warn_of_unwritten(this, spec)

@@ -8,6 +8,7 @@ module contact_output_input_case
    use contact_base_output_file, only : output_file
    use contact_output_file_writer, only : file_writer, put_words
    use contact_output_unwritten, only : unwritten_setting, unwritten_settings
+   use contact_patch_problem, only : traction_fields
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -56,11 +57,13 @@ contains
       end do
    end subroutine write_remarks
 
-   !> Write a solved case of module 3; a grid that is not Hertzian is cut to the contact area with a margin
-   subroutine write_contact_case(file, spec, result)
+   !> Write a solved case of module 3; a grid that is not Hertzian is cut to the contact areas with a margin
+   subroutine write_contact_case(file, spec, result, previous)
       type(output_file), target, intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      !> Time step that the case continues, on its grid; without contact if there is none
+      type(traction_fields), intent(in) :: previous
       type(case_spec) :: written
 
       written = spec
@@ -77,14 +80,16 @@ contains
       written%parts%heat = part_source%given
       ! planforms cannot be set through the library
       written%geometry%planform = planform_choice%unrestricted
-      if (spec%grid%needs_geometry()) call cut_to_contact(written, result)
+      if (spec%grid%needs_geometry()) call cut_to_contact(written, result, previous)
       call write_input_case(file, written)
    end subroutine write_contact_case
 
    !> Remove elements away from the contact area from all data that are given per element
-   subroutine cut_to_contact(spec, result)
+   subroutine cut_to_contact(spec, result, previous)
       type(case_spec), intent(inout) :: spec
       type(patch_result), intent(in) :: result
+      !> Time step that the case continues, whose contact area must stay in the grid
+      type(traction_fields), intent(in) :: previous
       type(bounding_box) :: box
       integer :: ix, iy, k
       integer, allocatable :: elements(:)
@@ -92,7 +97,7 @@ contains
       box = bounding_box(1, result%grid%mx, 1, result%grid%my)
       ! approximate methods use the interpenetration all around the contact area, and the length of the grid
       if (allocated(result%division) .and. all(spec%pressure /= [pressure_model%kpec, pressure_model%analyn])) &
-         & box = kept_window(result%division)
+         & box = kept_window(result%division, previous%division)
       associate (grid => result%grid)
          elements = [((ix + grid%mx*(iy - 1), ix = box%ix0, box%ix1), iy = box%iy0, box%iy1)]
          spec%grid = grid_spec(form=1, mx=box%ix1 - box%ix0 + 1, my=box%iy1 - box%iy0 + 1, &
@@ -102,15 +107,20 @@ contains
       if (allocated(spec%extra_slip)) spec%extra_slip = spec%extra_slip(:, elements)
    end subroutine cut_to_contact
 
-   !> Bounds of the contact area with a margin, within the grid; without contact its centre
-   pure function kept_window(division) result(box)
+   !> Bounds of both contact areas with a margin, within the grid; without contact its centre
+   pure function kept_window(division, previous) result(box)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
+      !> Those of the previous time step; unallocated, or of another shape, if there is none
+      integer, allocatable, intent(in) :: previous(:, :)
       type(bounding_box) :: box
       integer :: n(2)
 
       n = shape(division)
       box = contact_box(division)
+      if (allocated(previous)) then
+         if (all(shape(previous) == n)) box = contact_box(max(division, previous))
+      end if
       if (box%ix0 > box%ix1) then
          box = bounding_box((n(1) - empty_window)/2 + 1, (n(1) + empty_window)/2, (n(2) - empty_window)/2 + 1, &
             & (n(2) + empty_window)/2)

@@ -103,6 +103,31 @@ def basic():
     check(result.max_pressure == np.max(result.pn), "in shifts it is that of an element")
 
 
+def moving():
+    """Shifts in which contact moves, is lost and returns: written grids contain the contact of the case before"""
+    contact.output_to(".", "moving")
+    forces = []
+    with contact.Problem(motion="shift") as problem:
+        ball(problem)
+        problem.set_grid(30, 14, 1.2, 1.2)
+        problem.set_flags(if_wrtinp=1)
+        for k, place in enumerate((-10.0, 8.0, -4.0, 10.0)):
+            problem.set_distance(lambda x, y, place=place: 0.001*(x - place)**2 + 0.001*y**2)
+            problem.set_creepages(0.005, 0.002)
+            problem.set_approach(0.01 if k == 2 else 0.05)
+            if k == 2:
+                problem.set_distance(lambda x, y: 1.0 + 0*x)
+            result = problem.solve(initiation=k == 0)
+            forces.append([result.fn, result.fx, result.fy])
+    shown("moving")
+    with open("moving.jsonl", encoding="utf-8") as file:
+        cases = [case for case in map(json.loads, file) if case["case"]]
+    check(len(cases) == len(forces), "all cases are written")
+    for case, force in zip(cases, forces):
+        for name, value in zip(("fn", "fx", "fy"), force):
+            close(case["patches"][0]["totals"][name]["value"], value, 1e-5*max(forces)[0], f"case {case['case']}: {name}")
+
+
 def wheels():
     contact.output_to(".", "wheel")
     with contact.WheelRail("right") as pair:
@@ -116,6 +141,7 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         os.chdir(scratch)
         basic()
+        moving()
         wheels()
         os.chdir(SOURCE)
     finish()
