@@ -5,6 +5,7 @@ module contact_capi_input_dump
    use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : report_error, warn
    use contact_capi_problem, only : given_profile, library_problem
+   use contact_cases_changed_parts, only : give_changed_parts, give_first_parts
    use contact_cases_spec, only : case_parts, case_spec, part_source
    use contact_output_finished_file, only : finished_file
    use contact_output_input_case, only : write_contact_case, write_input_case
@@ -26,16 +27,19 @@ contains
       type(library_problem), intent(in) :: problem
       !> The case
       type(case_spec), intent(in) :: spec
+      type(case_spec) :: given
       character(len=80) :: line
       logical :: ignored
 
       if (problem%write_input < as_given) return
+      given = spec
       call open_input_dump()
       if (.not. dumps_input()) return
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call write_contact_case(library%input_dump, spec, problem%result, problem%session%state%before)
+      call follow_written(problem%ire, problem%icp, given)
+      call write_contact_case(library%input_dump, given, problem%result, problem%session%state%before)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
       call warn_of_unwritten(this, spec)
@@ -57,22 +61,48 @@ contains
       written%parts%heat = part_source%given
       associate (parts => written%parts)
          if (problem%write_input >= complete) parts = case_parts(iteration=parts%iteration, flexibility=parts%flexibility)
-         if (parts%rail_profile == part_source%given) &
-            & call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
-         if (parts%wheel_profile == part_source%given) &
-            & call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       end associate
+      call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
+      call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       call open_input_dump()
       if (.not. dumps_input()) return
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
+      call follow_written(problem%ire, 1, written)
       call write_input_case(library%input_dump, written)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
       call warn_of_unwritten(this, written)
       ignored = dumps_input()
    end subroutine dump_wheel_rail_case
+
+   !> Let a case give what differs from the case of this problem that was written last, and store it as the last one; inside the
+   !> critical section of the files
+   subroutine follow_written(ire, icp, spec)
+      !> Result element, and contact problem in it
+      integer, intent(in) :: ire, icp
+      !> Its parts are updated
+      type(case_spec), intent(inout) :: spec
+
+      logical :: is_first
+
+      associate (slot => library%elements(ire)%patch(icp))
+         is_first = .not. associated(slot%written)
+         if (is_first) then
+            allocate(slot%written)
+         else
+            ! a result element of the other module had this number
+            is_first = allocated(slot%written%wheel_rail) .neqv. allocated(spec%wheel_rail)
+         end if
+         if (is_first) then
+            call give_first_parts(spec)
+         else
+            call give_changed_parts(slot%written, spec)
+         end if
+         slot%written = spec
+      end associate
+   end subroutine follow_written
 
    !> Warn of each setting that neither the file nor an option of the program has
    subroutine warn_of_unwritten(this, spec)

@@ -6,6 +6,7 @@ module contact_capi_library
    use contact_base_log, only : log_type
    use contact_base_output_file, only : output_file
    use contact_capi_problem, only : library_problem, max_patches
+   use contact_cases_spec, only : case_spec
    use contact_experiment_stopwatch, only : stopwatch
    implicit none (type, external)
    private
@@ -29,6 +30,8 @@ module contact_capi_library
       !> Times of calculations and stresses of freed problems with these numbers, for the timer table; and their module
       type(stopwatch) :: total, stresses
       integer :: timed_module = 0
+      !> The case with these numbers that was written last to the input file of this run; null: none
+      type(case_spec), pointer :: written => null()
    end type problem_pointer
 
    !> A result element; in module 1 its only problem is the first

@@ -93,7 +93,7 @@ contains
       character(len=*), intent(in) :: work_folder, out_folder, name
       logical, intent(in) :: screen
       character(len=:), allocatable :: path, reason
-      integer :: k
+      integer :: i, k
 
       call set_folders(work_folder, out_folder, name)
       library%log = log_type()
@@ -110,6 +110,9 @@ contains
          library%elements(k)%patch%timed_module = 0
          library%elements(k)%patch%total = stopwatch()
          library%elements(k)%patch%stresses = stopwatch()
+         do i = 1, max_patches
+            if (associated(library%elements(k)%patch(i)%written)) deallocate(library%elements(k)%patch(i)%written)
+         end do
       end do
       call library%total%start()
       call write_banner(library%log)

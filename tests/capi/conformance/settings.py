@@ -419,8 +419,57 @@ def pair_settings():
                   f"{label}: forces of the program")
 
 
+def written_changes():
+    """Module 3: what changes after digits that keep everything, or before them, is in the input that is written"""
+    def keep_all():
+        cntc.setfrictionmethod(1, 1, 1, [])
+        cntc.setsolverflags(1, 1, 1)
+        cntc.setmaterialparameters(1, 1, 11, [])
+        cntc.setflags(1, 1, [CNTC["ic_inflcf"]], [1])
+
+    changes = {
+        "friction": lambda: cntc.setfrictionmethod(1, 1, 0, [0.1, 0.1]),
+        "falling friction": lambda: cntc.setfrictionmethod(1, 1, 4, [0.2, 0.1, 3000, 0.05, 8000, 1e-3, 10]),
+        "velocity": lambda: cntc.setreferencevelocity(1, 1, 5e6),
+        "material": lambda: cntc.setmaterialparameters(1, 1, 0, [0.3, 0.3, 60000, 50000]),
+        "layer": lambda: cntc.setmaterialparameters(1, 1, 4, [0.28, 0.28, 82e3, 82e3, 1e3, 0.02, 0, 0]),
+        "half-spaces": lambda: cntc.setmaterialparameters(1, 1, 0, FLAT),
+        "influence": lambda: cntc.setflags(1, 1, [CNTC["ic_inflcf"]], [3]),
+        "normal force": lambda: cntc.setnormalforce(1, 1, 2500),
+        "direction": lambda: cntc.setrollingstepsize(1, 1, np.pi, 0.4)}
+    for kept_last in (False, True):
+        name = f"changes{kept_last}"
+        cntc.initlibrary(expnam=name)
+        same(cntc.initialize(1, 3)[1], 0, f"{name}: initialize")
+        cntc.setsolverflags(1, 1, 0, [999, 50, 30, 10], [1e-7])
+        cntc.setmaterialparameters(1, 1, 0, FLAT)
+        cntc.setreferencevelocity(1, 1, 20000)
+        with_window(1, 1, 1.0, 1, [0.003, 0, 0.004, 0, 0, 0])
+        cntc.setnormalforce(1, 1, 3000)
+        cntc.setcreepages(1, 1, 0.001, 0.0005, 0.0002)
+        forces = []
+        for what, change in changes.items():
+            if not kept_last:
+                keep_all()
+            change()
+            if kept_last:
+                keep_all()
+            # the first case is not written: later ones must not refer to it
+            cntc.setflags(1, 1, [CNTC["if_wrtinp"]], [int(what != "friction")])
+            check(cntc.calculate(1, 1, idebug=0) >= 0, f"{name}, {what}: error code ({last_error(1, 1)[1]})")
+            forces.append(np.array(cntc.getcontactforces(1, 1)[:3]))
+            check(len(forces) < 2 or np.abs(forces[-1] - forces[-2]).max() > 0.1, f"{name}, {what} acts")
+        cntc.finalize(1)
+        solved = [case["patches"][0]["totals"] for case in program_cases(name) if case["case"]]
+        same(len(solved), len(forces) - 1, f"{name}: cases of the program")
+        for what, row, force in zip(list(changes)[1:], solved, forces[1:]):
+            close([row[key]["value"] for key in ("fn", "fx", "fy")], force, 0.01, f"{name}, {what}: forces of the program")
+
+
 def main():
     {"contact": contact_settings, "pair": pair_settings}[sys.argv[1]]()
+    if sys.argv[1] == "contact":
+        written_changes()
     check(len(reported) >= {"contact": 60, "pair": 40}[sys.argv[1]], f"names of values in the results: {sorted(reported)}")
     finish()
 

@@ -531,17 +531,86 @@ def from_inputs():
     same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "an unknown kind")
 
 
+def keep_all(ire):
+    """All digits of the next input file say that their groups are kept"""
+    cntc.setfrictionmethod(ire, -1, 1, [])
+    cntc.setmaterialparameters(ire, -1, 11, [])
+    cntc.settrackdimensions(ire, 0, [])
+    cntc.setwheelsetdimensions(ire, 0, [])
+    cntc.setsolverflags(ire, -1, 1)
+    cntc.setflags(ire, -1, [CNTC["ic_discns"], CNTC["ic_inflcf"]], [1, 1])
+
+
+def written_changes():
+    """What changes after digits that keep everything, or before them, is in the input file that the library writes"""
+    wheel = profiles()[1]
+    flexible = [0.5, 0.5, 0.2, 0.001, 0.001] + 7 * [0.0]
+    changes = {
+        "vertical force": lambda: cntc.setverticalforce(1, 15000.0),
+        "friction": lambda: cntc.setfrictionmethod(1, -1, 0, [0.2, 0.2]),
+        "friction by its angle": lambda: cntc.setfrictionmethod(1, -1, 10, [2, 0.0, 0.3, 0.3, 0.8, 0.1, 0.1]),
+        "material": lambda: cntc.setmaterialparameters(1, -1, 0, [0.3, 0.3, 7e4, 7e4]),
+        "Fastsim": lambda: cntc.setmaterialparameters(1, -1, 3, [0.28, 0.28, 8e4, 8e4, 0.5, 0.8, 1.0]),
+        "full theory": lambda: cntc.setmaterialparameters(1, -1, 0, [0.28, 0.28, 8e4, 8e4]),
+        "flexibility": lambda: cntc.setwheelsetflexibility(1, 4, flexible),
+        "no flexibility": lambda: cntc.setwheelsetflexibility(1, 1, [0]),
+        "track": lambda: cntc.settrackdimensions(1, 1, [14.0, 0.0, 1434.0, 0.01, 0.0]),
+        "deviations": lambda: cntc.settrackdimensions(1, 2, [0.5, 0.2, 0.001, 1.0, 0.0, 0.0]),
+        "track and deviations": lambda: cntc.settrackdimensions(1, 3, [14.0, 0.0, 1435.0, 0.0, 0.0, 0.2] + 5 * [0.0]),
+        "wheelset": lambda: cntc.setwheelsetdimensions(1, 3, [1360.5, -70.0, 461.0]),
+        "velocity": lambda: cntc.setwheelsetvelocity(1, 2, [2000, 3.0, 0, 0, 0, -4.35]),
+        "elements": lambda: cntc.setpotcontact(1, -1, -1, [0.9, 0.8, np.pi / 2, 8, 4]),
+        "search": lambda: cntc.setflags(1, -1, [CNTC["ic_discns"]], [4]),
+        "rail": lambda: cntc.setprofileinputvalues(1, cntc.getprofilevalues(1, 1, [0, -1]) * [1.0, 1.05], [0], [1.0, 0.0]),
+        "wheel": lambda: cntc.setprofileinputfname(1, wheel, [1], [1.0, 5.0]),
+        "longitudinal force": lambda: (cntc.settangentialforces(1, -1, 300.0, 0.0),
+                                       cntc.setflags(1, -1, [CNTC["ic_force"]], [1])),
+        "pitch rate": lambda: (cntc.setwheelsetvelocity(1, 2, [2000, 2.0, 0, 0, 0, -4.34]),
+                               cntc.setflags(1, -1, [CNTC["ic_force"]], [0])),
+        "height": lambda: (cntc.setwheelsetposition(1, 1, [0, 2.0, cntc.getwheelsetposition(1)[2] + 0.01, 0, 0.0048, 0]),
+                           cntc.setflags(1, -1, [CNTC["ic_norm"]], [0]))}
+    for level, kept_last in ((1, False), (1, True), (2, False)):
+        name = f"changes{level}{kept_last}"
+        cntc.initlibrary(expnam=name)
+        # a case before is not written: the first one of the file must not refer to it
+        set_up(1, 1)
+        cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [level, 2])
+        forces = []
+        for what, change in changes.items():
+            if not kept_last:
+                keep_all(1)
+            change()
+            if kept_last:
+                keep_all(1)
+            same(cntc.calculate(1, -1), 0, f"{what}: error code ({last_error(1, -1)[1]})")
+            forces.append(cntc.getglobalforces(1, -1)[:3])
+            check(len(forces) < 2 or np.abs(forces[-1] - forces[-2]).max() > 0.3, f"{what} acts")
+        # another result element with this number, in the same file; its solver is that of dissimilar bodies
+        cntc.initialize(2, 1)
+        cntc.setwheelsetflexibility(1, 4, flexible)
+        same(cntc.calculate(1, -1), 0, "a flexible wheelset: error code")
+        forces.append(cntc.getglobalforces(1, -1)[:3])
+        cntc.finalize(1)
+        set_up(1, 1)
+        cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [level, 2])
+        cntc.setmaterialparameters(1, -1, 0, [0.28, 0.28, 82e3, 41e3])
+        same(cntc.calculate(1, -1), 0, "a new result element: error code")
+        forces.append(cntc.getglobalforces(1, -1)[:3])
+        cntc.finalizelast()
+        compare_replay(name, forces, name)
+
+
 def simpack_file():
     """A file of the Simpack user routine: what it gives acts as the same settings by routines, what it keeps are those before it"""
     rail, wheel = profiles()
-    head = " 0 MODULE\n 1203000  C-P-B-T-N-F-S\n 00220{}  V-L-D-C-M-Z-E\n 0000001  H-G-I-A-O-W-R\n 999 100 30 1 1e-5\n 0.2 0.2\n" \
-           " 0.28 0.28 82000 82000\n 0.6 0.6 1 90d 8 4\n"
+    head = ("0 MODULE", "1203000", "00220{}", "0000001", "999 100 30 1 1e-5", "0.2 0.2", "0.28 0.28 82000 82000",
+            "0.6 0.6 1 90d 8 4")
     track = f" 14 0 1435 0.02\n '{rail}' 0 1 0\n 0.5 0 0 0 0 0\n"
     wheelset = f" 1360 -70 460\n '{wheel}' 0 1 0\n 0 1.5 0.2 0 0.003 0\n 2000 0 0 0 0 -4.34\n"
     for side, digits in ((1, "00"), (1, "03"), (1, "30"), (1, "33"), (0, "00"), (5, "00")):
         label = f"C1 = {side}, Z and E {digits}"
         with open("spck.inp", "w", encoding="utf-8") as file:
-            file.write(head.replace("{}", digits) + track * (digits[0] == "3") + wheelset * (digits[1] == "3"))
+            file.write("\n".join((*head, "")).replace("{}", digits) + track * (digits[0] == "3") + wheelset * (digits[1] == "3"))
         for ire in (1, 2):
             set_up(ire, 1 if side == 5 else side)
             if side == 5:
@@ -566,7 +635,7 @@ def simpack_file():
 
 if __name__ == "__main__":
     scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying,
-                 from_inputs, simpack_file)
+                 from_inputs, simpack_file, written_changes)
     chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
