@@ -1,12 +1,13 @@
 !> Cases of callers, written as an input file of the program (flag 2002)
 module contact_capi_input_dump
    use contact_base_error, only : error_type
+   use contact_base_guard, only : set_owner
    use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
    use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : report_error, warn
    use contact_capi_problem, only : given_profile, library_problem
    use contact_cases_changed_parts, only : give_changed_parts, give_first_parts
-   use contact_cases_spec, only : case_parts, case_spec, part_source
+   use contact_cases_spec, only : case_parts, case_spec, geometry_spec, part_source, subsurface_spec
    use contact_output_finished_file, only : finished_file
    use contact_output_input_case, only : write_contact_case, write_input_case
    use contact_output_unwritten, only : unwritten_setting, unwritten_settings
@@ -24,7 +25,7 @@ contains
    !> Write a contact problem, after it was solved
    subroutine dump_contact_case(this, problem, spec)
       type(entry_type), intent(in) :: this
-      type(library_problem), intent(in) :: problem
+      type(library_problem), intent(inout) :: problem
       !> The case
       type(case_spec), intent(in) :: spec
       type(case_spec) :: given
@@ -38,7 +39,7 @@ contains
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call follow_written(problem%ire, problem%icp, given)
+      call follow_written(problem, given)
       call write_contact_case(library%input_dump, given, problem%result, problem%session%state%before)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
@@ -69,7 +70,7 @@ contains
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call follow_written(problem%ire, 1, written)
+      call follow_written(problem, written)
       call write_input_case(library%input_dump, written)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
@@ -79,30 +80,53 @@ contains
 
    !> Let a case give what differs from the case of this problem that was written last, and store it as the last one; inside the
    !> critical section of the files
-   subroutine follow_written(ire, icp, spec)
-      !> Result element, and contact problem in it
-      integer, intent(in) :: ire, icp
+   subroutine follow_written(problem, spec)
+      type(library_problem), intent(inout) :: problem
       !> Its parts are updated
       type(case_spec), intent(inout) :: spec
-
+      type(case_spec), pointer :: last
       logical :: is_first
 
-      associate (slot => library%elements(ire)%patch(icp))
+      associate (slot => library%elements(problem%ire)%patch(max(1, problem%icp)))
          is_first = .not. associated(slot%written)
-         if (is_first) then
-            allocate(slot%written)
-         else
-            ! a result element of the other module had this number
-            is_first = allocated(slot%written%wheel_rail) .neqv. allocated(spec%wheel_rail)
-         end if
+         ! a result element of the other module had this number
+         if (.not. is_first) is_first = allocated(slot%written%wheel_rail) .neqv. allocated(spec%wheel_rail)
          if (is_first) then
             call give_first_parts(spec)
          else
             call give_changed_parts(slot%written, spec)
          end if
-         slot%written = spec
+         last => slot%written
+         call copy_settings(problem, spec, slot%written)
+         if (associated(last)) deallocate(last)
       end associate
    end subroutine follow_written
+
+   !> Copy the settings of a case, without lists of values, into memory outside of the calculation, which may be abandoned
+   subroutine copy_settings(problem, spec, copy)
+      type(library_problem), intent(inout) :: problem
+      type(case_spec), intent(in) :: spec
+      !> The copy; undefined on entry
+      type(case_spec), pointer, intent(inout) :: copy
+      type(case_spec), pointer :: fresh
+
+      call set_owner(0)
+      if (problem%module_number == 1) call problem%kept%stop_using()
+      allocate(fresh)
+      fresh = spec
+      fresh%geometry = geometry_spec()
+      fresh%subsurface = subsurface_spec()
+      if (allocated(fresh%extra_slip)) deallocate(fresh%extra_slip)
+      if (allocated(fresh%wheel_rail)) then
+         associate (pair => fresh%wheel_rail)
+            if (allocated(pair%rail_profile%points)) deallocate(pair%rail_profile%points)
+            if (allocated(pair%wheel_profile%points)) deallocate(pair%wheel_profile%points)
+         end associate
+      end if
+      copy => fresh
+      if (problem%module_number == 1) call problem%kept%use_them()
+      call set_owner(problem%owner)
+   end subroutine copy_settings
 
    !> Warn of each setting that neither the file nor an option of the program has
    subroutine warn_of_unwritten(this, spec)

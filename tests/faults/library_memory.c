@@ -1,10 +1,11 @@
 /* Requests for memory are refused while a host calls the library: an error code or correct results, never the end of the
  * host, and correct results again afterwards.
  *
- * usage: library_memory contact | pair | run | large | threads  SAMPLES | all  FOLDER_OF_EXAMPLES
+ * usage: library_memory contact | pair | written | run | large | threads  SAMPLES | all  FOLDER_OF_EXAMPLES
  *
  * Preload contact_inject. Of all requests of a small scenario a sample (fixed seed), or each one, is refused: alone, and
- * with all that follow. Kind large refuses only those of 1 MB and more, which no reserve serves. */
+ * with all that follow. In kind written the cases of the pair are written as an input file. Kind large refuses only those
+ * of 1 MB and more, which no reserve serves. */
 #define _GNU_SOURCE
 #include <caddon_flags.h>
 #include <contact.h>
@@ -134,6 +135,8 @@ static void pair(struct outcome *o) {
   look(o, 0, 0, error);
   snprintf(profiles, sizeof profiles, "%s/profiles", examples);
   set_up_pair(ire, profiles, 1.0);
+  const int write_input = CNTC_if_wrtinp, is_written = strcmp(kind, "written") == 0;
+  cntc_setflags(&ire, &whole, &one, &write_input, &is_written);
   for (int k = 0; k < 2; k++) {
     position[1] = 1.0 - 0.8*k;
     cntc_setwheelsetposition(&ire, &one, &six, position);
@@ -173,7 +176,7 @@ static int is_right(const struct outcome *o) {
 /* Two other threads computing on other elements at the same time also get an error or correct results */
 static void play(struct outcome *o) {
   memset(o, 0, sizeof *o);
-  if (strcmp(kind, "pair") == 0) pair(o);
+  if (strcmp(kind, "pair") == 0 || strcmp(kind, "written") == 0) pair(o);
   else if (strcmp(kind, "run") == 0) run(o);
   else if (strcmp(kind, "threads") == 0) {
     pthread_t thread[2];
