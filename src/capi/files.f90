@@ -7,7 +7,8 @@ module contact_capi_files
    implicit none (type, external)
    private
 
-   public :: set_folders, find_result_file, place_result, find_working_folder, open_input_dump, dumps_input, relate_to_results
+   public :: set_folders, find_result_file, place_result, find_working_folder, find_full_path, open_input_dump, dumps_input, &
+      & place_beside_dump, relate_to_dump
 
 contains
 
@@ -84,6 +85,8 @@ contains
          library%dump_was_tried = .true.
          call place_result(library%name // ".inp", path)
          call library%input_dump%open_file(path, reason)
+         call make_absolute(path)
+         library%dump_folder = path(:index(path, "/", back=.true.))
          if (allocated(reason)) call set_last_error(library_code%other, "the file " // path // " cannot be written: " // reason)
       end if
       !$omp end critical (contact_registry)
@@ -105,22 +108,53 @@ contains
       !$omp end critical (contact_registry)
    end function dumps_input
 
-   !> Convert a file name of the caller, relative to the working folder, to one that is valid in the input file in the folder of
-   !> results
-   subroutine relate_to_results(name)
-      !> Unchanged if absolute
-      character(len=:), allocatable, intent(inout) :: name
+   !> Full path of a file with a name of the caller, relative to the working folder
+   subroutine find_full_path(name, path)
+      !> May be absolute, too
+      character(len=*), intent(in) :: name
+      !> Absolute path
+      character(len=:), allocatable, intent(out) :: path
       character(len=:), allocatable :: folder
+
+      path = name
+      if (name(:min(1, len(name))) == "/") return
+      call find_working_folder(folder)
+      path = folder // name
+      call make_absolute(path)
+   end subroutine find_full_path
+
+   !> Put the current folder before a relative path
+   subroutine make_absolute(path)
+      character(len=:), allocatable, intent(inout) :: path
+      character(len=:), allocatable :: folder
+
+      if (path(:min(1, len(path))) == "/") return
+      call find_current_folder(folder)
+      path = folder // "/" // path
+   end subroutine make_absolute
+
+   !> Path of a file in the folder of the input file that is written
+   subroutine place_beside_dump(file, path)
+      !> Name without folder
+      character(len=*), intent(in) :: file
+      !> Path with folder
+      character(len=:), allocatable, intent(out) :: path
+
+      !$omp critical (contact_registry)
+      path = library%dump_folder // file
+      !$omp end critical (contact_registry)
+   end subroutine place_beside_dump
+
+   !> Convert a file name of the caller to one that is valid in the input file that is written
+   subroutine relate_to_dump(name, path)
+      !> Unchanged if absolute, or if the file is in the folder of the input file or below
+      character(len=:), allocatable, intent(inout) :: name
+      !> Full path of the file when it was read: the caller may have changed the current folder since
+      character(len=*), intent(in) :: path
 
       if (name(:1) == "/") return
       !$omp critical (contact_registry)
-      if (len(library%out_folder) > 0) then
-         name = library%work_folder // name
-         if (name(:1) /= "/") then
-            call find_current_folder(folder)
-            name = folder // "/" // name
-         end if
-      end if
+      if (len(library%out_folder) > 0 .or. library%dump_folder // name /= path) name = path
       !$omp end critical (contact_registry)
-   end subroutine relate_to_results
+   end subroutine relate_to_dump
 end module contact_capi_files

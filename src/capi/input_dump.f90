@@ -2,7 +2,7 @@
 module contact_capi_input_dump
    use contact_base_error, only : error_type
    use contact_base_guard, only : set_owner
-   use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
+   use contact_capi_files, only : dumps_input, open_input_dump, place_beside_dump, relate_to_dump
    use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : report_error, warn
    use contact_capi_problem, only : given_profile, library_problem
@@ -63,10 +63,10 @@ contains
       associate (parts => written%parts)
          if (problem%write_input >= complete) parts = case_parts(iteration=parts%iteration, flexibility=parts%flexibility)
       end associate
-      call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
-      call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       call open_input_dump()
       if (.not. dumps_input()) return
+      call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
+      call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
@@ -160,13 +160,13 @@ contains
       integer :: k
 
       if (.not. allocated(profile%points)) then
-         call relate_to_results(profile%name)
+         call relate_to_dump(profile%name, given%path)
          return
       end if
       if (.not. allocated(given%written_as)) then
          write(name, '("caddon_re", I3.3, ".", I0.4, ".", A, ".txt")') this%ire, number, body
          given%written_as = trim(name)
-         call find_result_file(given%written_as, path)
+         call place_beside_dump(given%written_as, path)
          call file%start(path, error)
          if (.not. allocated(error)) then
             do k = 1, size(profile%points, 2)

@@ -52,6 +52,8 @@ module contact_capi_library
       !> The .inp file with the cases; was opening it attempted?
       type(output_file) :: input_dump
       logical :: dump_was_tried = .false.
+      !> Folder of that file, absolute, with a separator at its end
+      character(len=:), allocatable :: dump_folder
       character(len=:), allocatable :: work_folder, out_folder, name
       type(stopwatch) :: total
       !> Last error that belongs to no problem

@@ -65,6 +65,8 @@ module contact_capi_problem
       type(profile_curve) :: curve
       !> Allocated for variable profiles
       type(profile_surface), allocatable :: surface
+      !> Full path of its file when it was read
+      character(len=:), allocatable :: path
       !> File to which the points were written for use by an input file; unallocated: not yet
       character(len=:), allocatable :: written_as
    end type given_profile

@@ -6,7 +6,7 @@ module contact_capi_profiles
    use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_files, only : find_working_folder
+   use contact_capi_files, only : find_full_path, find_working_folder
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : report_error, fits, library_log, warn
    use contact_capi_problem, only : library_problem, given_profile
@@ -157,6 +157,7 @@ contains
       call log%take_held(doubts)
       given%detail = 0
       if (allocated(given%written_as)) deallocate(given%written_as)
+      call find_full_path(profile%name, given%path)
       if (len(doubts) > 0) call warn(this, doubts)
       if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)

@@ -531,6 +531,33 @@ def from_inputs():
     same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "an unknown kind")
 
 
+def changed_folder():
+    """The host changes its current folder between settings and calculations: files written as input name what was read"""
+    start = os.getcwd()
+    for number, outdir in enumerate(("", os.path.join(start, "results"))):
+        name, folder = f"moved{number}", os.path.join(start, f"host{number}")
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(os.path.join(folder, "other"))
+        os.makedirs(outdir or ".", exist_ok=True)
+        os.chdir(folder)
+        shutil.copy(profiles()[0], "near.prr")
+        cntc.initlibrary(outdir=outdir, expnam=name)
+        set_up(1, 1)
+        cntc.setprofileinputfname(1, "near.prr", [0], [1.0, 0.0])
+        cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [1, 2])
+        forces = []
+        for place, force in ((folder, 1e4), (os.path.join(folder, "other"), 2e4), (os.path.join(folder, "other"), 3e4)):
+            os.chdir(place)
+            cntc.setverticalforce(1, force)
+            same(cntc.calculate(1, -1), 0, f"{name}: error code")
+            forces.append(cntc.getglobalforces(1, -1)[:3])
+            # the last case has a profile by values, which is written beside the input file
+            cntc.setprofileinputvalues(1, cntc.getprofilevalues(1, 1, [1, -1]), [1], [1.0, 0.0])
+        cntc.finalizelast()
+        os.chdir(start)
+        compare_replay(name, forces, name, outdir or folder)
+
+
 def keep_all(ire):
     """All digits of the next input file say that their groups are kept"""
     cntc.setfrictionmethod(ire, -1, 1, [])
@@ -635,7 +662,7 @@ def simpack_file():
 
 if __name__ == "__main__":
     scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying,
-                 from_inputs, simpack_file, written_changes)
+                 from_inputs, simpack_file, written_changes, changed_folder)
     chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
