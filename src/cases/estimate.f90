@@ -34,6 +34,8 @@ module contact_cases_estimate
       real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
       !> Where the cost of an accuracy is from, blank if not to be told
       character(len=80) :: source = ""
+      !> Why a run refuses the case; unallocated if it does not, or if that was not examined
+      character(len=:), allocatable :: refusal
    end type case_cost
 
    !> Constant time of a case, and of a search for its patches [s]

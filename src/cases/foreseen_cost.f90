@@ -39,18 +39,22 @@ module contact_cases_foreseen_cost
    real(wp), parameter :: coarse_across = 20.0_wp, patience = 0.2_wp, patience_for_all = 2.0_wp
    !> Maximum number of coarse grids, each finer than the one before, if contact is too narrow for an estimate; chosen
    integer, parameter :: most_trials = 3
-   !> Owner of no coarse solution
-   integer, parameter :: nobody(2) = -1
+   !> A contact problem of an experiment
+   type :: foreseen_problem
+      !> Result element and number of the contact problem
+      integer :: owner(2) = 0
+      !> Sessions of the coarse solutions
+      type(problem_slot) :: slot
+      !> Do they hold a coarse solution of the last case, which the next one may continue? Will a run refuse the last case?
+      logical :: is_solved = .false., is_refused = .false.
+      !> Grid of the cases that the next one may continue, as expected
+      type(level_grid) :: series
+   end type foreseen_problem
 
    !> Forecasts of the cases of an experiment, one after the other
    type :: cost_forecast
       private
-      !> Sessions of the coarse solutions
-      type(problem_slot) :: slot
-      !> Result element and contact problem of the last coarse solution, which later cases may continue
-      integer :: owner(2) = nobody
-      !> Grid of the cases that the next one may continue, as expected
-      type(level_grid) :: series
+      type(foreseen_problem), allocatable :: problems(:)
       !> Time that is left for all coarse solutions [s]
       real(wp) :: left = patience_for_all
    contains
@@ -71,68 +75,116 @@ contains
       integer, intent(in) :: owner(2)
       !> Folder to which names of files are relative, "" for the current one
       character(len=*), intent(in) :: folder
-      !> Cost: elements, seconds and bytes
+      !> Cost: elements, seconds and bytes; or why a run refuses the case
       type(case_cost), intent(out) :: cost
       type(approximate_method) :: chosen
+      type(error_type), allocatable :: refusal
       character(len=:), allocatable :: why
       real(wp) :: began
+      integer :: k
 
       call estimate_cost(spec, cost)
-      if (.not. (spec%iteration%accuracy > 0.0_wp .and. spec%solve)) then
-         self%owner = nobody
-         return
-      end if
-      if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
-      if (chosen%found) return
-      began = wall_clock()
-      if (.not. self%left > 0.0_wp) then
-         why = "as coarse solutions of the cases before took long"
-      else if (allocated(spec%wheel_rail)) then
-         call open_wheel_rail(self%slot)
-         call foresee_pair(self, spec, folder, cost, why)
-      else
-         call open_contact(self%slot)
-         call foresee_contact(self, spec, owner, folder, cost, why)
-      end if
-      self%left = self%left - (wall_clock() - began)
-      if (why /= "") cost%source = "typical of such contacts, " // why
+      call find_problem(self, owner, k)
+      associate (problem => self%problems(k))
+         if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
+         if (chosen%found .or. .not. (spec%iteration%accuracy > 0.0_wp .and. spec%solve)) then
+            if (spec%solve) problem%is_solved = .false.
+            return
+         end if
+         call refuse_to_run(problem, spec, refusal)
+         problem%is_refused = allocated(refusal)
+         if (problem%is_refused) then
+            problem%is_solved = .false.
+            cost%refusal = refusal%message
+            return
+         end if
+         began = wall_clock()
+         why = ""
+         if (.not. self%left > 0.0_wp) then
+            why = "as solutions on few elements of the cases before took long"
+         else if (allocated(spec%wheel_rail)) then
+            call foresee_pair(problem, spec, folder, cost)
+         else if (needs_case_before(spec) .and. .not. problem%is_solved) then
+            why = "as the case before was not solved on few elements"
+         else
+            call foresee_contact(problem, spec, folder, cost)
+         end if
+         if (cost%source == "" .and. why == "") why = "as there is no estimate on few elements"
+         problem%is_solved = why == "" .and. .not. allocated(spec%wheel_rail)
+         self%left = self%left - (wall_clock() - began)
+         if (why /= "") cost%source = "typical of such contacts, " // why
+      end associate
    end subroutine foresee
+
+   !> Find a problem by its owner, or make a new one
+   subroutine find_problem(self, owner, place)
+      class(cost_forecast), intent(inout) :: self
+      !> Result element and contact problem
+      integer, intent(in) :: owner(2)
+      !> Its index
+      integer, intent(out) :: place
+      type(foreseen_problem), allocatable :: more(:)
+
+      if (.not. allocated(self%problems)) allocate(self%problems(0))
+      do place = 1, size(self%problems)
+         if (all(self%problems(place)%owner == owner)) return
+      end do
+      allocate(more(place))
+      more(:place - 1) = self%problems
+      more(place)%owner = owner
+      call move_alloc(more, self%problems)
+   end subroutine find_problem
+
+   !> Why a run refuses a case with its accuracy, as far as it is known without solving the cases before
+   subroutine refuse_to_run(problem, spec, refusal)
+      type(foreseen_problem), intent(inout) :: problem
+      type(case_spec), intent(in) :: spec
+      !> Allocated if it does
+      type(error_type), allocatable, intent(out) :: refusal
+
+      if (allocated(spec%wheel_rail)) then
+         call open_wheel_rail(problem%slot)
+         call refuse_case(spec, refusal)
+      else
+         call open_contact(problem%slot)
+         if (needs_case_before(spec) .and. .not. (problem%is_solved .or. problem%is_refused)) then
+            call refuse_case(spec, refusal)
+         else
+            call refuse_contact(problem%slot%session, spec, refusal)
+         end if
+      end if
+   end subroutine refuse_to_run
+
+   !> Does the solution depend on the case before, or the contact on its semi-axes?
+   pure logical function needs_case_before(spec)
+      type(case_spec), intent(in) :: spec
+
+      needs_case_before = has_history(spec) .or. keeps_axes(spec)
+   end function needs_case_before
 
    subroutine release(self)
       class(cost_forecast), intent(inout) :: self
+      integer :: k
 
-      call release_slot(self%slot)
+      if (.not. allocated(self%problems)) return
+      do k = 1, size(self%problems)
+         call release_slot(self%problems(k)%slot)
+      end do
    end subroutine release
 
    !> The cost of a contact
-   subroutine foresee_contact(self, spec, owner, folder, cost, why)
-      class(cost_forecast), intent(inout) :: self
+   subroutine foresee_contact(self, spec, folder, cost)
+      type(foreseen_problem), intent(inout) :: self
       type(case_spec), intent(in) :: spec
-      !> Result element and contact problem
-      integer, intent(in) :: owner(2)
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
       !> Unchanged if there is no coarse solution
       type(case_cost), intent(inout) :: cost
-      !> Why there is none; "" if there is
-      character(len=:), allocatable, intent(out) :: why
       type(coarse_solution) :: coarse
       type(level_grid) :: first, last
-      type(error_type), allocatable :: error
       type(mean_cost) :: mean
       integer :: k, n
 
-      why = ""
-      call refuse_contact(self%slot%session, spec, error)
-      if (has_history(spec) .and. any(self%owner /= owner)) then
-         why = "as there is no coarse solution of the case before"
-      else if (allocated(error)) then
-         why = "as a run refuses the case"
-      else if (keeps_axes(spec)) then
-         why = "as semi-axes are those of the case before"
-      end if
-      self%owner = nobody
-      if (why /= "") return
       coarse%law = expected_law(spec)
       coarse%fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       coarse%cases = self%slot%session%series%before(spec) + 1
@@ -140,11 +192,7 @@ contains
       call first_grid(self%slot%session, spec, coarse%law, coarse%fixed, first)
       if (has_history(spec)) first = self%series
       call solve_coarse(self%slot, spec, folder, coarse)
-      if (.not. coarse%estimated >= 0.0_wp) then
-         why = "as there is no estimate on few elements"
-         return
-      end if
-      self%owner = owner
+      if (.not. coarse%estimated >= 0.0_wp) return
       first%lengths = coarse%grid%lengths
       ! too few elements for an estimate
       if (product(real(first%counts, wp)) < product(real(coarse%grid%counts, wp))) first%counts = coarse%grid%counts
@@ -207,40 +255,29 @@ contains
          if (spec%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) &
             & coarse%law = first_order_alone(coarse%law)
          call session%series%take(spec, coarse%grid, coarse%estimated)
+         session%curvatures = 0.0_wp
+         if (allocated(session%problem%hertz)) session%curvatures = [session%problem%hertz%a1, session%problem%hertz%b1]
       end associate
    end subroutine solve_coarse
 
    !> The cost of a wheel on a rail
-   subroutine foresee_pair(self, spec, folder, cost, why)
-      class(cost_forecast), intent(inout) :: self
+   subroutine foresee_pair(self, spec, folder, cost)
+      type(foreseen_problem), intent(inout) :: self
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
       !> Unchanged if there is no coarse solution
       type(case_cost), intent(inout) :: cost
-      !> Why there is none; "" if there is
-      character(len=:), allocatable, intent(out) :: why
       type(coarse_solution) :: coarse
-      type(error_type), allocatable :: error
       type(mean_cost) :: mean
       real(wp) :: first(2)
       integer :: k, n
 
-      why = ""
-      self%owner = nobody
-      call refuse_case(spec, error)
-      if (allocated(error)) then
-         why = "as a run refuses the case"
-         return
-      end if
       coarse%law = expected_law(spec)
       first = first_sides(spec, first_across(coarse%law, spec%iteration%accuracy))
       call solve_coarse_pair(self%slot%wheel_rail, self%slot%wheel_rail_result, spec, folder, &
          & max(first, first_sides(spec, coarse_across)), coarse)
-      if (.not. coarse%estimated >= 0.0_wp) then
-         why = "as there is no estimate on few elements"
-         return
-      end if
+      if (.not. coarse%estimated >= 0.0_wp) return
       do k = 1, size(deviations)
          do n = 1, size(deviations)
             call search_pair(spec, coarse, first, [deviations(k), deviations(n)], mean)

@@ -80,7 +80,12 @@ contains
       if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call add("Stresses below the surface: " // &
          & integer_text(size(spec%subsurface%blocks)) // " blocks of points")
       call add("Not simulated: " // trim(absent(spec)))
-      if (present(cost)) call add("Expected on one thread: " // trim(cost_text(cost, machine_pace())))
+      if (.not. present(cost)) return
+      if (allocated(cost%refusal)) then
+         call add("A run refuses this case: " // cost%refusal)
+      else
+         call add("Expected on one thread: " // trim(cost_text(cost, machine_pace())))
+      end if
 
    contains
 

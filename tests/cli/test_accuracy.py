@@ -4,6 +4,7 @@
 The environment gives CONTACT_PROGRAM and CONTACT_SOURCE.
 """
 import json
+import math
 import os
 import pathlib
 import random
@@ -388,6 +389,20 @@ class Accuracy(Runs):
             self.assertEqual("simplified" in record["patches"][0]["accuracy"], found)
         (self.folder / "t.toml").write_text(text.replace("[case.iteration]\n", '[case.iteration]\nallow = "all"\n'))
         self.assertIn('allow must be "approximate" or "nothing"', self.run_program("2", "t.toml", status=1))
+
+    def test_explained(self):
+        """The grid that is found: a coarse first grid exactly, a finer one within a factor of two; why there is no prediction"""
+        (self.folder / "e.inp").write_text(rolling() + " 0 MODULE\n")
+        for required in ("1e-2", "2e-4"):
+            text = self.run_program("explain", "--accuracy", required, "e")
+            expected = int(re.search(r"about (\d+) elements, .*, from a solution on \d+ x \d+ elements", text).group(1))
+            self.run_program("--accuracy", required, "--json", "2", "e")
+            told = plain(json.loads((self.folder / "e.jsonl").read_text().splitlines()[0]))["patches"][0]["accuracy"]
+            self.assertLessEqual(abs(math.log(expected / (told["mx"] * told["my"]))), 0.0 if required == "1e-2" else math.log(2.0))
+        self.assertNotIn("from a solution", self.run_program("explain", "e"))
+        (self.folder / "r.inp").write_text(rolling(material=2, layer="1e-4 1e-4 0 0 FLX") + " 0 MODULE\n")
+        words = self.run_program("explain", "--accuracy", "1e-2", "r")
+        self.assertRegex(words, "A run refuses this case: .*simplified theory")
 
     def test_next_case(self):
         """A case that keeps the grid of one with an accuracy has the grid of the file, and requests no accuracy if it says so"""

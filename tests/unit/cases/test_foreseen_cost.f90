@@ -22,7 +22,7 @@ program test_foreseen_cost
    call coarse_first_grid(suite)
    call unlike_bodies(suite)
    call series(suite)
-   call guessed(suite)
+   call without_solution(suite)
    call suite%finish()
 
 contains
@@ -39,10 +39,10 @@ contains
       call suite%equal(trim(cost%source), "from a solution on 14 x 14 elements", "how it was found")
    end subroutine coarse_first_grid
 
-   !> Slip at the leading edge that is narrower than elements, in a fourfold range of their number across: 27, 147 and 207
+   !> Slip at the leading edge that is narrower than elements, in a fivefold range of their number across, 27 and 147
    subroutine unlike_bodies(suite)
       type(test_suite), intent(inout) :: suite
-      real(wp), parameter :: creepage(2, 3) = reshape([-2.0e-3_wp, 0.0_wp, 0.0_wp, 2.0e-3_wp, -3.0e-4_wp, 0.0_wp], [2, 3])
+      real(wp), parameter :: creepage(2, 2) = reshape([-2.0e-3_wp, 0.0_wp, 0.0_wp, 2.0e-3_wp], [2, 2])
       type(case_spec) :: spec
       type(case_cost) :: cost
       real(wp) :: elements
@@ -78,27 +78,35 @@ contains
       call suite%check(second%elements >= nint(0.8_wp*first%elements), "on its grid, or on a finer one")
       ! another contact problem has another history
       call forecast%foresee(spec, owner + 1, "", second)
-      call suite%equal(trim(second%source), "typical of such contacts, as there is no coarse solution of the case before", &
+      call suite%equal(trim(second%source), "typical of such contacts, as the case before was not solved on few elements", &
          & "a case that continues an unknown one")
       call forecast%release()
    end subroutine series
 
-   !> Cases without a coarse solution keep the cost that is typical
-   subroutine guessed(suite)
+   !> Given grids keep the cost that is typical, and refusals are told, also of cases that continue refused ones
+   subroutine without_solution(suite)
       type(test_suite), intent(inout) :: suite
+      type(cost_forecast) :: forecast
       type(case_spec) :: spec
       type(case_cost) :: cost, typical
 
-      spec = ball(1.0e-2_wp)
-      spec%rolling%chi = 1.0_wp
-      call foresee_one(spec, cost)
-      call estimate_cost(spec, typical)
-      call suite%equal(trim(cost%source), "typical of such contacts, as a run refuses the case", "a case that is refused")
-      call suite%close_to(cost%seconds, typical%seconds, 0.0_wp, "its time")
       spec = ball(0.0_wp)
       call foresee_one(spec, cost)
-      call suite%check(cost%source == "", "a given grid")
-   end subroutine guessed
+      call estimate_cost(spec, typical)
+      call suite%close_to(cost%seconds, typical%seconds, 0.0_wp, "time on a given grid")
+      call suite%check(cost%source == "" .and. .not. allocated(cost%refusal), "a given grid")
+      spec = shifted()
+      spec%has_damping = .true.
+      call forecast%foresee(spec, owner, "", cost)
+      call suite%check(allocated(cost%refusal), "a case that is refused")
+      if (.not. allocated(cost%refusal)) return
+      call suite%check(index(cost%refusal, "damping") > 0, "the reason")
+      spec%has_damping = .false.
+      spec%link = time_link%continue_all
+      call forecast%foresee(spec, owner, "", cost)
+      call suite%check(allocated(cost%refusal), "a case that continues one that is refused")
+      call forecast%release()
+   end subroutine without_solution
 
    !> Cost of a single case
    subroutine foresee_one(spec, cost)
