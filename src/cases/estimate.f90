@@ -33,7 +33,7 @@ module contact_cases_estimate
       !> Memory [bytes] and processor time [s]
       real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
       !> Where the cost of an accuracy is from, blank if not to be told
-      character(len=80) :: source = ""
+      character(len=120) :: source = ""
       !> Why a run refuses the case; unallocated if it does not, or if that was not examined
       character(len=:), allocatable :: refusal
    end type case_cost

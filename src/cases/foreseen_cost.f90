@@ -35,8 +35,8 @@ module contact_cases_foreseen_cost
 
    public :: cost_forecast
 
-   !> Maximum number of elements across the contact of the coarse solution, and its maximum time; time for all cases [s]; chosen
-   real(wp), parameter :: coarse_across = 20.0_wp, patience = 0.2_wp, patience_for_all = 2.0_wp
+   !> Maximum number of elements across the contact of the coarse solution; chosen: with 14 or 17 estimates scatter more
+   real(wp), parameter :: coarse_across = 20.0_wp
    !> Maximum number of coarse grids, each finer than the one before, if contact is too narrow for an estimate; chosen
    integer, parameter :: most_trials = 3
    !> A contact problem of an experiment
@@ -53,10 +53,9 @@ module contact_cases_foreseen_cost
 
    !> Forecasts of the cases of an experiment, one after the other
    type :: cost_forecast
-      private
-      type(foreseen_problem), allocatable :: problems(:)
-      !> Time that is left for all coarse solutions [s]
-      real(wp) :: left = patience_for_all
+      !> Maximum time of a coarse solution, and time that is left for those of all cases [s]; chosen
+      real(wp) :: patience = 0.5_wp, left = 3.0_wp
+      type(foreseen_problem), allocatable, private :: problems(:)
    contains
       !> Estimate the cost of the next case
       procedure :: foresee
@@ -103,11 +102,11 @@ contains
          if (.not. self%left > 0.0_wp) then
             why = "as solutions on few elements of the cases before took long"
          else if (allocated(spec%wheel_rail)) then
-            call foresee_pair(problem, spec, folder, cost)
+            call foresee_pair(problem, spec, folder, min(self%patience, self%left), cost)
          else if (needs_case_before(spec) .and. .not. problem%is_solved) then
             why = "as the case before was not solved on few elements"
          else
-            call foresee_contact(problem, spec, folder, cost)
+            call foresee_contact(problem, spec, folder, min(self%patience, self%left), cost)
          end if
          if (cost%source == "" .and. why == "") why = "as there is no estimate on few elements"
          problem%is_solved = why == "" .and. .not. allocated(spec%wheel_rail)
@@ -173,11 +172,13 @@ contains
    end subroutine release
 
    !> The cost of a contact
-   subroutine foresee_contact(self, spec, folder, cost)
+   subroutine foresee_contact(self, spec, folder, patience, cost)
       type(foreseen_problem), intent(inout) :: self
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
+      !> Maximum time of the coarse solution [s]
+      real(wp), intent(in) :: patience
       !> Unchanged if there is no coarse solution
       type(case_cost), intent(inout) :: cost
       type(coarse_solution) :: coarse
@@ -191,7 +192,7 @@ contains
       if (has_history(spec)) coarse%designed = series_share
       call first_grid(self%slot%session, spec, coarse%law, coarse%fixed, first)
       if (has_history(spec)) first = self%series
-      call solve_coarse(self%slot, spec, folder, coarse)
+      call solve_coarse(self%slot, spec, folder, patience, coarse)
       if (.not. coarse%estimated >= 0.0_wp) return
       first%lengths = coarse%grid%lengths
       ! too few elements for an estimate
@@ -210,12 +211,14 @@ contains
    end subroutine foresee_contact
 
    !> Solve a contact on few elements; without estimate if that fails
-   subroutine solve_coarse(slot, spec, folder, coarse)
+   subroutine solve_coarse(slot, spec, folder, patience, coarse)
       !> Sessions; that of contacts holds the solution
       type(problem_slot), intent(inout) :: slot
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
+      !> Maximum time [s]
+      real(wp), intent(in) :: patience
       !> On entry with the typical errors, on return with the solution
       type(coarse_solution), intent(inout) :: coarse
       type(case_spec) :: level
@@ -261,11 +264,13 @@ contains
    end subroutine solve_coarse
 
    !> The cost of a wheel on a rail
-   subroutine foresee_pair(self, spec, folder, cost)
+   subroutine foresee_pair(self, spec, folder, patience, cost)
       type(foreseen_problem), intent(inout) :: self
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
+      !> Maximum time of the coarse solution [s]
+      real(wp), intent(in) :: patience
       !> Unchanged if there is no coarse solution
       type(case_cost), intent(inout) :: cost
       type(coarse_solution) :: coarse
@@ -275,7 +280,7 @@ contains
 
       coarse%law = expected_law(spec)
       first = first_sides(spec, first_across(coarse%law, spec%iteration%accuracy))
-      call solve_coarse_pair(self%slot%wheel_rail, self%slot%wheel_rail_result, spec, folder, &
+      call solve_coarse_pair(self%slot%wheel_rail, self%slot%wheel_rail_result, spec, folder, patience, &
          & max(first, first_sides(spec, coarse_across)), coarse)
       if (.not. coarse%estimated >= 0.0_wp) return
       do k = 1, size(deviations)
@@ -288,13 +293,15 @@ contains
    end subroutine foresee_pair
 
    !> Solve a wheel on a rail with few elements; without estimate if that fails
-   subroutine solve_coarse_pair(session, result, spec, folder, sides, coarse)
+   subroutine solve_coarse_pair(session, result, spec, folder, patience, sides, coarse)
       type(wheel_rail_session), intent(inout) :: session
       !> Result of the coarse solution
       type(wheel_rail_result), intent(inout) :: result
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
+      !> Maximum time [s]
+      real(wp), intent(in) :: patience
       !> Sides of the elements [mm]
       real(wp), intent(in) :: sides(2)
       !> On entry with the typical errors, on return with the solution

@@ -69,10 +69,11 @@ contains
          row = row_of(result, iy, rolling_direction(problem))
          e = e + turning_share*row%turning*ratio**(-turning_power)
          if (.not. (row%sticking > 0.0_wp .and. row%mu > 0.0_wp)) cycle
-         ! in elements; of a width that elements resolve the error decreases
+         ! in elements; an element of which more than half slips counts as one, and of a width that elements resolve the error
+         ! decreases
          width = ratio*row%ahead
          if (row%ahead == 0) width = ratio*usual_place*exp(min(0.0_wp, (row%used - 1.0_wp)*pi*row%mu/beta))
-         if (width > 1.0_wp) width = part_of_wide(width)
+         if (width > usual_place) width = part_of_wide(anint(width))
          ! where tractions turn between both slip areas, those behind adhesion change with its place
          turned = 0.5_wp*norm2(row%before - row%behind)
          e = e + factor_of(beta, row%mu)*width/(ratio*row%n)*(row%sticking + turned*(row%load - row%sticking))

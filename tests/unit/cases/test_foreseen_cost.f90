@@ -16,6 +16,8 @@ program test_foreseen_cost
    integer, parameter :: owner(2) = [1, 1]
    !> Coefficients of x**2 and y**2 [1/mm], and normal force [N]
    real(wp), parameter :: curvature = 1.0e-3_wp, force = 5.0e4_wp
+   !> Time of coarse solutions, also on slow machines and with memory checkers [s]
+   real(wp), parameter :: unlimited = 1.0e4_wp
    type(test_suite) :: suite
 
    call suite%start("foreseen_cost")
@@ -70,6 +72,8 @@ contains
       type(case_cost) :: first, second
 
       spec = shifted()
+      forecast%patience = unlimited
+      forecast%left = unlimited
       call forecast%foresee(spec, owner, "", first)
       spec%link = time_link%continue_all
       spec%kinematics%cksi = 0.5_wp*spec%kinematics%cksi
@@ -105,6 +109,13 @@ contains
       spec%link = time_link%continue_all
       call forecast%foresee(spec, owner, "", cost)
       call suite%check(allocated(cost%refusal), "a case that continues one that is refused")
+      forecast%patience = tiny(1.0_wp)
+      call forecast%foresee(ball(1.0e-2_wp), owner, "", cost)
+      call suite%equal(trim(cost%source), "typical of such contacts, as there is no estimate on few elements", "no time for one")
+      forecast%left = 0.0_wp
+      call forecast%foresee(ball(1.0e-2_wp), owner, "", cost)
+      call suite%equal(trim(cost%source), "typical of such contacts, as solutions on few elements of the cases before took long", &
+         & "no time left")
       call forecast%release()
    end subroutine without_solution
 
@@ -114,6 +125,8 @@ contains
       type(case_cost), intent(out) :: cost
       type(cost_forecast) :: forecast
 
+      forecast%patience = unlimited
+      forecast%left = unlimited
       call forecast%foresee(spec, owner, "", cost)
       call forecast%release()
    end subroutine foresee_one
