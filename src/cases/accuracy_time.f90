@@ -8,13 +8,13 @@ module contact_cases_accuracy_time
    use contact_base_choices, only : force_control, material_model, motion
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_elastic_material, only : combine, combined_material
    use contact_friction_new_law, only : is_varying_law
    implicit none (type, external)
    private
 
-   public :: constant_time, has_outer_iterations, input_time, most_in_time, time_is_left, time_per_element
+   public :: constant_time, has_outer_iterations, input_time, most_in_time, reading_time, time_is_left, time_per_element
 
    !> All grids of a case, time per element of the last one [s]: pressures; with tractions of a shift; in rolling; of a wheel, whose
    !> height is searched
@@ -67,10 +67,21 @@ contains
       !> Case with an accuracy
       type(case_spec), intent(in) :: spec
 
-      seconds = each_case
-      if (allocated(spec%wheel_rail)) seconds = seconds + each_files
-      if (allocated(spec%geometry%profile)) seconds = seconds + each_value*size(spec%geometry%profile)
+      seconds = each_case + reading_time(spec)
    end function input_time
+
+   !> Time of profiles that a case gives: values in the input, files of wheel and rail [s]
+   pure real(wp) function reading_time(spec) result(seconds)
+      !> Case, with or without an accuracy
+      type(case_spec), intent(in) :: spec
+
+      seconds = 0.0_wp
+      if (allocated(spec%wheel_rail)) then
+         if (spec%wheel_rail%new_rail_profile .or. spec%wheel_rail%new_wheel_profile) seconds = each_files
+      else if (allocated(spec%geometry%profile) .and. spec%parts%geometry /= part_source%kept) then
+         seconds = each_value*size(spec%geometry%profile)
+      end if
+   end function reading_time
 
    !> Are there several outer iterations, between pressures and tractions?
    pure logical function has_outer_iterations(spec)

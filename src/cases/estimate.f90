@@ -5,12 +5,13 @@
 !> a sequence a half to a quarter. Subsurface stresses are included in the memory only. Times of prescribed accuracies:
 !> contact_cases_accuracy_time.
 module contact_cases_estimate
-   use contact_base_choices, only : force_control, is_simplified, motion, normal_control, pressure_model, solver_choice
+   use contact_base_choices, only : force_control, is_simplified, material_model, motion, normal_control, pressure_model, &
+      & solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_accuracy_grid, only : first_counts, no_direction
    use contact_cases_accuracy_plan, only : accuracy_law, contact_sides, expected_across, expected_law, most_elements
-   use contact_cases_accuracy_time, only : constant_time, has_outer_iterations, time_per_element
+   use contact_cases_accuracy_time, only : constant_time, has_outer_iterations, reading_time, time_per_element
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
@@ -44,9 +45,10 @@ module contact_cases_estimate
    real(wp), parameter :: pressures = 6.0e-7_wp, by_step = 1.0e-6_wp, steadily = 1.5e-6_wp
    !> Time per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
    real(wp), parameter :: by_convex_gs = 3.6e-7_wp, by_steady_gs = 2.2e-7_wp
-   !> Factors of the time: friction that varies with slip; trials for a prescribed force beyond the first; outer iterations, of
-   !> which later ones take little
-   real(wp), parameter :: changing_friction = 1.7_wp, trials = 2.0_wp
+   !> Factors of the time: friction that varies with slip; bodies that relax, with their outer iterations (18 runs on 20 to 80
+   !> elements along each side, kind viscoelastic of tests/accuracy, seed 98122); trials for a prescribed force beyond the first;
+   !> outer iterations, of which later ones take little
+   real(wp), parameter :: changing_friction = 1.7_wp, remembering = 2.8_wp, trials = 2.0_wp
    integer, parameter :: turns = 2
    !> Multiple of NPOT_MAX that is refused if elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
@@ -105,12 +107,13 @@ contains
       if (spec%classical .and. spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) &
          & tangential = by_convex_gs*n**1.5_wp
       if (is_varying_law(spec%friction_law)) tangential = changing_friction*tangential
+      if (spec%material_model == material_model%viscoelastic) tangential = remembering*tangential
       if (is_simplified(spec%material_model) .and. spec%motion /= motion%none) tangential = simplified*n
       if (has_outer_iterations(spec)) then
          tangential = tangential*min(spec%iteration%maxout, turns)
          cost%seconds = cost%seconds + normal*(min(spec%iteration%maxout, turns) - 1)
       end if
-      cost%seconds = cost%seconds + normal + tangential
+      cost%seconds = cost%seconds + reading_time(spec) + normal + tangential
       if (.not. allocated(spec%wheel_rail)) return
       cost%seconds = cost%seconds + every_search
       if (.not. (spec%normal == normal_control%force .or. spec%force /= force_control%creepages)) return
