@@ -391,7 +391,7 @@ class Accuracy(Runs):
         self.assertIn('allow must be "approximate" or "nothing"', self.run_program("2", "t.toml", status=1))
 
     def test_explained(self):
-        """The grid that is found: a coarse first grid exactly, a finer one within a factor of two; why there is no prediction"""
+        """The grid that is found: a coarse first grid exactly, a finer one within a factor of two; a wheel; a refused case"""
         (self.folder / "e.inp").write_text(rolling() + " 0 MODULE\n")
         for required in ("1e-2", "2e-4"):
             text = self.run_program("explain", "--accuracy", required, "e")
@@ -400,6 +400,14 @@ class Accuracy(Runs):
             told = plain(json.loads((self.folder / "e.jsonl").read_text().splitlines()[0]))["patches"][0]["accuracy"]
             self.assertLessEqual(abs(math.log(expected / (told["mx"] * told["my"]))), 0.0 if required == "1e-2" else math.log(2.0))
         self.assertNotIn("from a solution", self.run_program("explain", "e"))
+        # the part of a patch in contact does not depend on its elements
+        parts = []
+        for required in ("1e-2", "2e-4"):
+            _, record = self.solve("w.toml", wheel_text(WHEEL, 1, SOURCE / "examples" / "profiles"), "--accuracy", required)
+            text = self.run_program("explain", "--accuracy", required, "w")
+            expected = int(re.search(r"about (\d+) elements, .*, from a solution on \d+ x \d+ elements", text).group(1))
+            parts.append(record["patches"][0]["totals"]["ncon"] / expected)
+        self.assertTrue(0.2 < parts[0] < 0.6 and 0.5 < parts[1] / parts[0] < 2.0, parts)
         (self.folder / "r.inp").write_text(rolling(material=2, layer="1e-4 1e-4 0 0 FLX") + " 0 MODULE\n")
         words = self.run_program("explain", "--accuracy", "1e-2", "r")
         self.assertRegex(words, "A run refuses this case: .*simplified theory")

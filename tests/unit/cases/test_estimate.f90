@@ -1,11 +1,11 @@
 !> Estimates of cost: dependence on the number of elements, and on effects that make a case expensive
 program test_estimate
-   use contact_base_choices, only : motion, normal_control, solver_choice
+   use contact_base_choices, only : material_model, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_machine_pace, only : machine_pace
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_test_harness, only : test_suite
    use contact_friction_new_law, only : friction_model
    implicit none (type, external)
@@ -92,6 +92,17 @@ contains
          call suite%close_to(seconds(other, 100)/(seconds(spec, 100) + tangential), 1.0_wp, 1.0e-9_wp, "one turn")
       end do
       other = spec
+      other%motion = motion%steady_rolling
+      tangential = seconds(other, 100) - normal
+      other%material_model = material_model%viscoelastic
+      call suite%close_to((seconds(other, 100) - normal)/tangential, 2.8_wp, 1.0e-9_wp, "bodies that relax")
+      ! values of a profile are read by the case that gives them
+      other = spec
+      allocate(other%geometry%profile(2000), source=0.0_wp)
+      call suite%close_to(seconds(other, 100) - normal, 3.5e-3_wp, 1.0e-9_wp, "a profile")
+      other%parts%geometry = part_source%kept
+      call suite%close_to(seconds(other, 100), normal, 1.0e-12_wp, "a profile of a case before")
+      other = spec
       other%solver = solver_choice%gauss_seidel
       other%material%gg = [82000.0_wp, 8000.0_wp]
       other%iteration%maxout = 5
@@ -121,6 +132,10 @@ contains
       a = (0.75_wp*1.0e5_wp*400.0_wp*(1.0_wp - 0.28_wp)/82000.0_wp)**(1.0_wp/3.0_wp)
       call suite%check(abs(cost%elements - (2.5_wp*a)**2/(0.4_wp*0.1_wp)) <= 1.0_wp .and. .not. cost%at_most, "elements of a patch")
       call suite%check(cost%seconds > 2.1e-3_wp, "time of the search")
+      spec%wheel_rail%new_wheel_profile = .true.
+      call estimate_cost(spec, finer)
+      call suite%close_to(finer%seconds - cost%seconds, 3.5e-3_wp, 1.0e-9_wp, "files of profiles")
+      spec%wheel_rail%new_wheel_profile = .false.
       spec%wheel_rail%search%dx = 0.2_wp
       call estimate_cost(spec, finer)
       call suite%close_to(real(finer%elements, wp)/cost%elements, 2.0_wp, 1.0e-3_wp, "finer elements")
