@@ -113,7 +113,7 @@ module contact_patch_error_scales
       real(wp) :: driven = 0.0_wp
       !> Geometric mean of the number of elements across the contact in both directions
       real(wp) :: mean_across = 1.0_wp
-      !> Square of the number of elements that counts for errors of second order of tractions: the narrower direction times the mean
+      !> Square of the number of elements for errors of second order of forces: the narrower direction times the mean of both
       real(wp) :: squared = 1.0_wp
       !> Error of the forces by slip at the leading edge of unlike bodies, by the second order [-]; is it known?
       real(wp) :: edge_slip = 0.0_wp

@@ -8,7 +8,7 @@ module contact_patch_level_errors
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_result, only : error_estimate
    use contact_patch_step_errors, only : energy_of_forces, energy_of_steps, power_error
-   use contact_patch_traction_errors, only : bound_friction, by_heat, friction_floor, is_first, is_long_step, is_turning, &
+   use contact_patch_traction_errors, only : bound_friction, by_heat, centred, friction_floor, is_first, is_long_step, is_turning, &
       & is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, turned_forces, &
       & unrelaxed
    implicit none (type, external)
@@ -262,7 +262,7 @@ contains
 
       slipping = max(1.0_wp, scale%mean_across*(1.0_wp - scale%sticking))
       usual = (relaxing_power(1) + relaxing_power(2)*scale%turning + relaxing_power(3)*scale%sticking**relaxing_power(4) &
-         & *max(1.0_wp, narrow_slip/slipping)**2)/scale%squared
+         & *max(1.0_wp, narrow_slip/slipping)**2)/scale%mean_across**2
       e = max(usual*max(relaxing_ratio, part_of(scale, scale%order)*difference/usual)**relaxing_trust, &
          & sqrt(scale%adhesion)*unrelaxed(scale))
    end function error_of_relaxing
@@ -297,8 +297,9 @@ contains
 
       if (is_turning(scale)) then
          floor = turned_power(scale)/scale%squared
+         if (scale%in_pair) floor = centred*floor
       else
-         floor = hypot(friction_floor(scale, scale%adhesion, .true.), turning_power_floor*scale%turning/scale%squared)
+         floor = hypot(friction_floor(scale, scale%adhesion, .true.), turning_power_floor*scale%turning/scale%mean_across**2)
       end if
       floor = floor*max(scale%power, unit)
       by_levels = part_of(scale, order_of(scale))*abs(scale%motion_change)
@@ -306,7 +307,7 @@ contains
       e = hypot(scale%surplus - sign(signed*by_levels, scale%motion_change), max(floor, unsigned*by_levels))
       ! a surplus that jumps with the offset of the grid may be small by chance: that of the coarser level is another sample of it
       if (scale%jumps) e = max(e, trusted(part_of(scale, order_of(scale))*abs(scale%coarse_surplus), floor, trust_in(scale)), &
-         & sticking_power(1)*scale%sticking**sticking_power(2)/scale%squared*max(scale%power, unit))
+         & sticking_power(1)*scale%sticking**sticking_power(2)/scale%mean_across**2*max(scale%power, unit))
    end function error_by_balance
 
    !> Error of the elastic energy without contributions of solvers and window [J]

@@ -5,13 +5,13 @@
 module contact_patch_traction_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
-   use contact_patch_error_scales, only : first_order, normal_order, scale_type
+   use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unseen
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_step_errors, only : force_error
    implicit none (type, external)
    private
 
-   public :: bound_friction, by_heat, coupled_friction_floor, friction_floor, is_first, is_long_step, is_sliding, &
+   public :: bound_friction, by_heat, centred, coupled_friction_floor, friction_floor, is_first, is_long_step, is_sliding, &
       & is_turning, is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, turned_forces, &
       & unrelaxed
 
@@ -79,7 +79,7 @@ module contact_patch_traction_errors
    !> Forces and moment in full sliding, where the error of first order is known: its part that remains, as a change of direction
    !> changes the slip as well; lower bound, factor of n^-2, for contacts in which slip has the same direction everywhere. Of wheels
    !> (seed 62001) and contacts (seed 99411)
-   real(wp), parameter :: turned_part = 0.8_wp, sliding_floor = 0.02_wp
+   real(wp), parameter :: turned_part = 0.8_wp, sliding_floor = 0.008_wp
    !> Moment in full sliding: factor of n^-2 and of the ratio of the error of the normal problem to the general one, as the centre
    !> of the pressures has an error of that kind; about a third of that of the approach. Of contacts of seeds 99301 and 99302
    real(wp), parameter :: displaced_centre = 0.045_wp
@@ -93,6 +93,9 @@ module contact_patch_traction_errors
    !> with adhesion. Patches of wheels also move with the elements: factor of n^-2 of 46 wheels. Of seed 99712, and of contacts only
    !> the forces themselves
    real(wp), parameter :: usual_adhesion = 1.0_wp/3.0_wp, small_adhesion = 0.02_wp, turning_slide = 0.4_wp, moved_patch = 0.008_wp
+   !> Grids of patches of wheel and rail are centred along the track: ratio of their errors by the second order to those of grids at
+   !> any offset
+   real(wp), parameter :: centred = 0.75_wp
    !> Exponent of the ratio of an error by the levels to the general error, if larger than 1: of an error that jumps with the offset
    !> of the grid the levels are two samples, and the general error is that usual for this number of elements. For forces and power
    !> with the second-order scheme, of like and of unlike bodies
@@ -142,6 +145,8 @@ contains
       turned = turned_forces(scale, is_moment)/scale%squared
       ! independent errors
       floor = hypot(floor, turned)
+      if (scale%in_pair .and. is_second(scale)) floor = centred*floor
+      if (is_second(scale) .and. is_force .and. .not. (is_moment .or. is_turning(scale))) floor = unseen(scale)*floor
       if (is_force .and. is_turning(scale)) floor = floor*across_force(row, scale)
       if (is_moment .and. scale%order > first_order .and. .not. scale%is_line) floor = floor*scale%slender/usual_slender
       if (scale%is_moment_alone .and. is_force) floor = floor*merge(sqrt(min(1.0_wp, scale%used)), moment_alone, is_first(scale))
@@ -191,7 +196,7 @@ contains
    end function change_of_creepage
 
    !> Part of the error of the direction of the force that FX or FY has in full sliding, as the force itself is the friction bound: it
-   !> is perpendicular to the force. 1 for the moment
+   !> is perpendicular to the force. 1 for the moment, and by the second order where few elements do not resolve the directions
    pure real(wp) function across_force(row, scale) result(part)
       !> Force or moment
       type(total), intent(in) :: row
@@ -199,6 +204,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       part = 1.0_wp
+      if (scale%across < resolved .and. scale%order > first_order) return
       if (any(row%name == ["fx    ", "fx_rel"])) part = max(other_component, scale%direction(2))
       if (any(row%name == ["fy    ", "fy_rel"])) part = max(other_component, scale%direction(1))
    end function across_force
@@ -286,8 +292,7 @@ contains
          floor = max(floor, least)/scale%mean_across
       else
          floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)
-         if (in_power) floor = balance_floor
-         floor = floor/scale%squared
+         floor = merge(balance_floor/scale%mean_across**2, floor/scale%squared, in_power)
       end if
       floor = max(sqrt(adhesion)*floor, sqrt(scale%adhesion)*unrelaxed(scale))
       if (scale%order > first_order) floor = hypot(floor, falling_floor*scale%falling/scale%squared)

@@ -167,7 +167,7 @@ contains
       if (.not. problem%force_prescribed) result%errors(first + 2) = e%force(3)
       first = pair%place_of("fx_ws")
       result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%force)
-      if (keeps_longitudinal_force(problem)) call omit_given_force(memory, result%errors(first))
+      if (keeps_longitudinal_force(problem)) call omit_given_force(problem, memory, result%errors(first))
       first = pair%place_of("mx_r_tr")
       result%errors(first:first + 2) = e%on_rail
       first = pair%place_of("mx_w_ws")
@@ -183,7 +183,8 @@ contains
    end function keeps_longitudinal_force
 
    !> A prescribed longitudinal force has no error; that of a single patch follows from its lateral force
-   subroutine omit_given_force(memory, error)
+   subroutine omit_given_force(problem, memory, error)
+      type(wheel_rail_problem), intent(in) :: problem
       !> Errors of a single patch are changed
       type(wheel_rail_memory), intent(inout) :: memory
       !> Error of the prescribed force: not known [N]
@@ -197,7 +198,8 @@ contains
          along = abs(matmul(memory%geometry%placement%wheelset%axes(:, 1), slot%plane%axes))
          call slot%result%totals(patch)
          associate (value => slot%result%errors%value)
-            value(patch%place_of("fx")) = along(2)/along(1)*value(patch%place_of("fy"))
+            value(patch%place_of("fx")) = along(2)/along(1)*value(patch%place_of("fy")) &
+               & + problem%template%settings%eps*norm2(slot%force)
          end associate
       end associate
    end subroutine omit_given_force
