@@ -273,7 +273,7 @@ contains
       if (.not. stiffness > 0.0_wp) stiffness = hertz_power*result%fn/max(result%pen - minval(result%h), tiny(stiffness))
    end function normal_stiffness
 
-   !> Add the effect of an error of the normal force of a patch that the balance of forces causes, an independent error of all totals
+   !> Add the effect of an error of the normal force of a patch by the balance of forces, an independent error of all totals
    subroutine add_error_of_load(load, result)
       !> Relative error of the normal force [-]
       real(wp), intent(in) :: load

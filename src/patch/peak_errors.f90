@@ -38,8 +38,8 @@ module contact_patch_peak_errors
    !> Rough surfaces have peaks between element centres: factor of the standard deviation of heights over the approach, in excess of
    !> that of single jumps of the curvature, times n; of rough profiles of hard wheels (seed 611)
    real(wp), parameter :: rough_peak = 0.6_wp, usual_roughness = 0.02_wp
-   !> A strip of n elements is between n - 1 and n + 1 elements wide. For the error of its peak, and for the largest peak that its load
-   !> may have, its width is taken as n less this; chosen
+   !> A strip of n elements is between n - 1 and n + 1 elements wide. For the error of its peak, and for the largest peak that its
+   !> load may have, its width is taken as n less this; chosen
    real(wp), parameter :: narrower = 0.5_wp
    !> The pressure of an ellipse of semi-axes a > b exceeds that of a strip with the same curvature and load per length across b by
    !> this fraction of b/a, in squares: Hertz's theory gives 4/pi for a circle
@@ -84,7 +84,7 @@ contains
             & - usual_bend*smooth_bend/min(scale%across, real(shape(k)%n, wp))**2)
       end do
       peak = peak_of(result%pn)
-      floor = peak_floor*max(1.0_wp/max(1.0_wp, scale%across - narrower)**2, bend/smooth_bend)
+      floor = peak_floor*max(1.0_wp/(scale%across - narrower)**2, bend/smooth_bend)
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
       if (scale%coupling > 0.0_wp) floor = max(floor, coupled_floor*scale%coupling/scale%across**2, &

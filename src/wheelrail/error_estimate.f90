@@ -14,7 +14,7 @@ module contact_wheelrail_error_estimate
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_wheelrail_carry_over, only : max_patches
-   use contact_wheelrail_memory, only : make_coarse_level, patch_slot, wheel_rail_memory
+   use contact_wheelrail_memory, only : make_coarse_level, patch_slot, total_force, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_section_distance, only : find_details
@@ -167,7 +167,12 @@ contains
       if (.not. problem%force_prescribed) result%errors(first + 2) = e%force(3)
       first = pair%place_of("fx_ws")
       result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%force)
-      if (keeps_longitudinal_force(problem)) call omit_given_force(problem, memory, result%errors(first))
+      if (keeps_longitudinal_force(problem)) then
+         call omit_given_force(problem, memory, result%errors(first))
+         associate (along => result%errors(pair%place_of("fx_tr")))
+            along = along + problem%template%settings%eps*norm2(total_force(memory))
+         end associate
+      end if
       first = pair%place_of("mx_r_tr")
       result%errors(first:first + 2) = e%on_rail
       first = pair%place_of("mx_w_ws")

@@ -4,6 +4,9 @@ A contact is a dictionary without a grid: geometry, loads, motion, friction, mat
 number of elements along each side and an offset of the grid, so that the same contact can be solved on any grid.
 """
 import math
+import os
+import sys
+from pathlib import Path
 
 
 def elliptic(g):
@@ -305,6 +308,19 @@ PAIRS = {"new": ("60E1.prr", "S1002.prw"), "both worn": ("60E1_worn.prr", "S1002
          "smoothed": ("rough.ban", "rough.whl")}
 
 
+def write_profiles(folder):
+    """Write the files of the pairs that are not in examples/profiles."""
+    sys.path.append(str(Path(__file__).resolve().parents[1] / "stability"))
+    import worn_profiles
+    present = Path.cwd()
+    os.chdir(folder)
+    rail, tread, simpack = worn_profiles.nominal()
+    worn_profiles.write_profiles()
+    simpack("deep.prw", 1, "deep", worn_profiles.worn_wheel(tread, 4.0, 2.5))
+    simpack("flat.prr", 0, "flat", [(y, z + 2.5 * worn_profiles.bell(y, 3.0, 22.0)) for y, z in rail])
+    os.chdir(present)
+
+
 def any_wheel(random, profiles):
     """A wheel of any pair of profiles, from little creepage to sliding, on a track or a roller, some with a prescribed force."""
     vs = 20000.0
@@ -313,7 +329,8 @@ def any_wheel(random, profiles):
         return math.exp(random.uniform(math.log(least), math.log(most)))
 
     pair = random.choice(sorted(PAIRS))
-    more = {"mirrored": {"mirrory": 1}, "smoothed": {"smooth": 3.0, "ismooth": 1}}.get(pair, {})
+    # options that a case does not give are those of the case before
+    more = {"mirrory": int(pair == "mirrored"), "smooth": 3.0 if pair == "smoothed" else 0.0, "ismooth": int(pair == "smoothed")}
     files = [({"file": str(profiles / name) if (profiles / name).exists() else name} | more) for name in PAIRS[pair]]
     creep = random.uniform(-0.0012, 0.0012) if random.random() < 0.5 else random.choice([-1, 1]) * size(5e-5, 5e-3)
     c = {"kind": pair, "steps": 1, "order": 1, "a": 1.0, "b": 1.0, "normal": "force", "vs": vs, "files": files,
