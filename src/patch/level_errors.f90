@@ -9,8 +9,7 @@ module contact_patch_level_errors
    use contact_patch_result, only : error_estimate
    use contact_patch_step_errors, only : energy_of_forces, energy_of_steps, power_error
    use contact_patch_traction_errors, only : bound_friction, by_heat, centred, friction_floor, is_first, is_long_step, is_turning, &
-      & is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, turned_forces, &
-      & unrelaxed
+      & is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, unrelaxed
    implicit none (type, external)
    private
 
@@ -53,8 +52,8 @@ module contact_patch_level_errors
    !> as both are hardly correlated. Of 105 contacts (kind viscoelastic, seed 77201, and seed 99822)
    real(wp), parameter :: relaxing_power(4) = [0.06_wp, 0.035_wp, 2.3_wp, 1.2_wp], narrow_slip = 2.2_wp, relaxing_ratio = 0.5_wp, &
       & relaxing_trust = 0.3_wp
-   !> Normal force; area; energy of pressures
-   real(wp), parameter :: normal_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor = 0.07_wp
+   !> Approach; area; energy of pressures. Exponent of the approach in Hertz's normal force
+   real(wp), parameter :: normal_floor = 0.15_wp, area_floor = 0.2_wp, energy_floor = 0.07_wp, hertz_power = 1.5_wp
    !> Elastic energy if the error of the part due to pressures is known with its sign: unknown error over n^-2, and fraction of the
    !> error of the part due to tractions by the levels. General error over n^-2 of the part due to pressures
    real(wp), parameter :: unknown_energy = 0.02_wp, unknown_share = 0.3_wp, usual_energy = 0.055_wp
@@ -130,7 +129,10 @@ contains
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
-         floor = max(normal_floor*scale%width_share/scale%across**2 + rough_floor(1)*scale%roughness, scale%hidden)
+         floor = normal_floor*scale%width_share/scale%across**2
+         ! by Hertz's theory the force changes with this power of the approach
+         if (row%name == "fn") floor = hertz_power*floor
+         floor = max(floor + rough_floor(1)*scale%roughness, scale%hidden)
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          call bound_friction(row, difference, unit, scale, e, floor)

@@ -18,9 +18,6 @@ module contact_patch_traction_errors
    !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
    !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
    real(wp), parameter :: rough_floor(2) = [0.3_wp, 0.06_wp]
-   !> The same for details between rows of elements: factor of the relative change of the approach, in forces. Errors of contacts
-   !> of one to three rows are 0.01 to 0.5 of it (hard wheels of seed 88201, and wheels of any profiles of seed 12)
-   real(wp), parameter :: hidden_floor = 0.1_wp
    !> Pressures of unlike bodies cause tractions at the leading edge: factor of K k n^-1 in forces with the second-order scheme,
    !> with k = K over the coefficient of friction, at most 1, see doc/theory/second_order.md
    real(wp), parameter :: coupled_friction_floor = 0.15_wp
@@ -205,7 +202,9 @@ contains
       !> See type scale_type
       type(scale_type), intent(in) :: scale
 
-      floor = hidden_floor*scale%hidden
+      ! of few rows; more show such details, which change approach and forces in the same ratio
+      floor = 0.0_wp
+      if (scale%across < resolved) floor = rough_floor(2)/rough_floor(1)*scale%hidden
       if (scale%has_turned .or. is_turning(scale)) floor = across_force(row, scale)*floor
       floor = max(floor, rough_floor(2)*scale%roughness)
    end function force_of_details
