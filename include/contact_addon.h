@@ -192,7 +192,8 @@ void cntc_setnormalforce(const int *ire, const int *icp, const double *fn);
  *   1         b1 ... b6 of b1 x2 + b2 xy + b3 y2 + b4 x + b5 y + b6
  *   2         nn, xm, rm, y1, dy1, then nn heights [L]   circular along x with a profile across
  *   3         b1 ... b8 of b1 sin(b2(x-b3)) - b4 sin(b5(x-b6)) + x2/b7 + y2/b8
- *   9         distance of each element [L], along x first */
+ *   9         distance of each element [L], along x first; refused for a grid of other numbers of columns and rows that is
+ *             set later, and kept for one at another place */
 void cntc_setundeformeddistc(const int *ire, const int *icp, const int *ibase, const int *nparam,
                              const double *prmudf);
 

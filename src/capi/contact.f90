@@ -115,6 +115,7 @@ contains
       do while (a%next_pass())
          call visit_distance(a, geometry, problem%spec%grid%mx*problem%spec%grid%my)
       end do
+      geometry%h_grid = [problem%spec%grid%mx, problem%spec%grid%my]
       if (a%is_good) problem%spec%geometry = geometry
    end subroutine set_undeformed_distance
 
@@ -182,6 +183,7 @@ contains
          slip(k, :given) = a%numbers(k)%v(:given)
       end do
       call move_alloc(slip, problem%spec%extra_slip)
+      problem%spec%slip_grid = [problem%spec%grid%mx, problem%spec%grid%my]
       problem%digits%e = 1
       problem%spec%slip_source = slip_source%given
       if (is_heard(2)) call log_message(2, a%call_of, integer_text(given) // " values for " // integer_text(n) // " elements")

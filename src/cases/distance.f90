@@ -233,6 +233,13 @@ contains
 
       given = 0
       if (allocated(spec%h)) given = size(spec%h)
+      if (any(spec%h_grid > 0 .and. spec%h_grid /= [grid%mx, grid%my])) then
+         h = 0.0_wp
+         call fatal_error(error, "the undeformed distance is given for " // integer_text(spec%h_grid(1)) // " x " // &
+            & integer_text(spec%h_grid(2)) // " elements (IBASE = 9), the potential contact has " // integer_text(grid%mx) // &
+            & " x " // integer_text(grid%my))
+         return
+      end if
       if (given == grid%npot()) then
          h = reshape(spec%h, [grid%mx, grid%my])
          return

@@ -95,8 +95,9 @@ contains
             call fatal_error(error, "an extra term of the rigid slip is requested, but none was given")
             return
          end if
-         if (size(spec%extra_slip, 2) /= problem%grid%npot()) then
-            call fatal_error(error, "the extra rigid slip was given for another number of elements")
+         if (size(spec%extra_slip, 2) /= problem%grid%npot() .or. &
+            & any(spec%slip_grid > 0 .and. spec%slip_grid /= [problem%grid%mx, problem%grid%my])) then
+            call fatal_error(error, "the extra rigid slip was given for another number of columns or rows of elements")
             return
          end if
          allocate(problem%extra_slip(problem%grid%mx, problem%grid%my, 2))

@@ -148,8 +148,9 @@ module contact_cases_spec
       !> Profile: NN = size(profile), XM, RM, Y1, DY1 and the profile B(1...NN) [mm]
       real(wp) :: xm = 0.0_wp, rm = 1.0_wp, y1 = 0.0_wp, dy1 = 1.0_wp
       real(wp), allocatable :: profile(:)
-      !> Elementwise: one value per element [mm], size npot
+      !> Elementwise: one value per element [mm], size npot; columns and rows of the grid they were given for, 0 if not known
       real(wp), allocatable :: h(:)
+      integer :: h_grid(2) = 0
       !> Quadratic: PL1...PL6; two rectangles: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
       real(wp) :: pl(8) = 0.0_wp
       !> Weighted rectangles: XL XH YL YH of each part [mm], shape (4, parts), and interaction factors of the pressures of the parts
@@ -198,8 +199,10 @@ module contact_cases_spec
       type(wear_spec) :: wear
       type(grid_spec) :: grid
       type(geometry_spec) :: geometry
-      !> Extra rigid slip, x and y per element, shape (2, npot); unallocated if never given
+      !> Extra rigid slip, x and y per element, shape (2, npot), unallocated if never given; columns and rows of the grid it was
+      !> given for, 0 if not known
       real(wp), allocatable :: extra_slip(:, :)
+      integer :: slip_grid(2) = 0
       type(subsurface_spec) :: subsurface
       !> Wheel on rail (module 1); unallocated for module 3
       type(wheel_rail_spec), allocatable :: wheel_rail

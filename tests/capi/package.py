@@ -115,6 +115,21 @@ def arrays():
         cntc.setnormalforce(problem.number, 1, -1.0)
         problem.set_friction(0.2)
         raises(contact.ContactError, problem.solve, "FN = -1", "it is told by the calculation")
+    # values per element are not those of a grid with other columns and rows
+    with contact.Problem() as problem:
+        ball(problem)
+        for mx, my in ((12, 9), (9, 12)):
+            other = f"given for {my} x {mx} elements" if mx < my else ""
+            x, y = problem.set_grid(mx, my, 0.5, 0.5)
+            if other:
+                raises(contact.ContactError, problem.solve, other, "a distance per element on another grid")
+            problem.set_distance(x[np.newaxis, :]**2 / 200.0 + y[:, np.newaxis]**2 / 300.0)
+            if other:
+                raises(contact.ContactError, problem.solve, "columns or rows", "a slip per element on another grid")
+            cntc.setextrarigidslip(problem.number, 1, np.full((my, mx), 1e-4), np.zeros((my, mx)))
+            same(problem.solve().status, "solved", f"{mx} x {my} elements")
+            problem.set_grid(mx, my, 0.6, 0.5)
+            same(problem.solve().status, "solved", "values move with their elements")
 
 
 def dissimilar_bodies():
