@@ -150,6 +150,7 @@ contains
 
    !> Factor of lower bounds for errors that the levels do not show, as a direction has few elements [-]
    pure real(wp) function unseen(scale)
+      !> Number of elements across
       type(scale_type), intent(in) :: scale
 
       unseen = merge(usual, 1.0_wp, scale%across < resolved)
