@@ -20,6 +20,9 @@ module contact_patch_level_errors
    !> Order of frictional power with the first-order scheme: its error decreases to 1/(1 + 1.65) with elements of a third; median of
    !> tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
+   !> Creepages that are found for prescribed forces, of fewer elements across than `resolved`: factor of n^-2 of the larger one; of
+   !> the hard cases of tests/stability
+   real(wp), parameter :: few_creepage = 0.5_wp
    !> Power: factor of n^-order of the power of full sliding; factor of n^-2 and adhesion in steady rolling; with a layer, factor of
    !> n^-1. Energy of tractions with a layer: factor of the root of the fraction in adhesion times n^-1; half of the usual error
    !> from 2 to 95 % in adhesion (seeds 99711 and 99713)
@@ -136,6 +139,7 @@ contains
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          call bound_friction(row, difference, unit, scale, e, floor)
+         if (row%law == error_law%creepage .and. scale%across < resolved) floor = max(floor, few_creepage/scale%across**2)
       case (error_law%power)
          e = error_of_power(scale, difference, unit)
          least = power_of_roughness(scale)*max(scale%power, unit)
