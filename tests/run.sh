@@ -30,6 +30,7 @@ install_for_tests() {
   install_python_packages
   install_axe
   install_valgrind
+  install_locales
   install_linters
 }
 

@@ -75,7 +75,6 @@ int contact_guard_reserve_used(void) { return 0; }
 #include <link.h>
 #include <malloc.h>
 #include <pthread.h>
-#include <sys/auxv.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -563,6 +562,15 @@ struct detour {
   int is_of_memory;
 };
 
+/* A call of an object that may be redirected: its entry, its target; is it for memory? */
+struct call {
+  function *slot, to;
+  int is_of_memory;
+};
+
+/* Maximum number in an object: each function may be called and pointed to */
+enum { max_calls = 32 };
+
 struct detours {
   struct detour list[16];
   int count;
@@ -572,37 +580,6 @@ struct detours {
 
 #define MEMORY(name, own, other) {#name, (function)name, (function)real.name, (function)(own), (function)(other), 1}
 #define DETOUR(name, kept, own, other) {#name, (function)name, (function)real.kept, (function)(own), (function)(other), 0}
-
-/* Where calls of a function from other objects lead.
- *
- * Pointers to a function are the same in the whole process. In an executable at fixed addresses that has one, as the Python of
- * Debian, it is the address of an entry in its own table of calls. Calls lead to the first object behind the executable that
- * defines the function. */
-static function actual(const char *name, function pointed) {
-  struct link_map *object = NULL;
-  function found = pointed;
-  Dl_info executable, owner;
-  const void *const entry = (const void *)getauxval(AT_ENTRY);
-  if (dladdr(entry, &executable) == 0 || dladdr((const void *)pointed, &owner) == 0 || owner.dli_fbase != executable.dli_fbase)
-    return pointed;
-  void *handle = dlopen(NULL, RTLD_LAZY);
-  if (handle == NULL || dlinfo(handle, RTLD_DI_LINKMAP, &object) != 0) return pointed;
-  dlclose(handle);
-  for (object = object->l_next; object != NULL; object = object->l_next) {
-    Dl_info place;
-    void *address;
-    handle = dlopen(object->l_name, RTLD_LAZY | RTLD_NOLOAD);
-    if (handle == NULL) continue;
-    address = dlsym(handle, name);
-    dlclose(handle);
-    /* an object also gives what those that it needs define */
-    if (address == NULL || dladdr(address, &place) == 0 || (uintptr_t)place.dli_fbase != object->l_addr) continue;
-    memcpy(&found, &address, sizeof found);
-    break;
-  }
-  return found;
-}
-#define ACTUAL(name) ((__typeof__(&(name)))actual(#name, (function)name))
 
 /* Libraries that end the process, or whose memory is freed here */
 static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libz.", "libquadmath."};
@@ -621,6 +598,40 @@ static int contains(const struct dl_phdr_info *info, const void *address) {
   }
   return 0;
 }
+
+/* Is a function in the executable, the first object? */
+static int is_in_executable(struct dl_phdr_info *info, size_t size, void *pointed) {
+  (void)size;
+  return contains(info, (const void *)*(function *)pointed) ? 1 : -1;
+}
+
+/* Where calls of a function from other objects lead.
+ *
+ * Pointers to a function are the same in the whole process. In an executable at fixed addresses that has one, as the Python of
+ * Debian, it is the address of an entry in its own table of calls. Calls lead to the first object behind the executable that
+ * defines the function. */
+static function actual(const char *name, function pointed) {
+  struct link_map *object = NULL;
+  function found = pointed;
+  if (pointed == NULL || dl_iterate_phdr(is_in_executable, &pointed) != 1) return pointed;
+  void *handle = dlopen(NULL, RTLD_LAZY);
+  if (handle == NULL || dlinfo(handle, RTLD_DI_LINKMAP, &object) != 0) return pointed;
+  dlclose(handle);
+  for (object = object->l_next; object != NULL; object = object->l_next) {
+    Dl_info place;
+    void *address;
+    handle = dlopen(object->l_name, RTLD_LAZY | RTLD_NOLOAD);
+    if (handle == NULL) continue;
+    address = dlsym(handle, name);
+    dlclose(handle);
+    /* an object also gives what those that it needs define */
+    if (address == NULL || dladdr(address, &place) == 0 || (uintptr_t)place.dli_fbase != object->l_addr) continue;
+    memcpy(&found, &address, sizeof found);
+    break;
+  }
+  return found;
+}
+#define ACTUAL(name) ((__typeof__(&(name)))actual(#name, (function)name))
 
 /* Write-protected addresses of a loaded object: start and length, 0 if there are none */
 static void find_protected(const struct dl_phdr_info *info, uintptr_t *start, size_t *length) {
@@ -665,7 +676,8 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   const char *strings = NULL;
   uintptr_t protected = 0;
   size_t length = 0;
-  int is_open = 0, memory_is_plain = 1;
+  struct call calls[max_calls];
+  int count = 0, is_open = 0, memory_is_plain = 1;
   (void)size;
 
   base = base ? base + 1 : name;
@@ -685,26 +697,27 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   }
   if (symbols == NULL || strings == NULL) return 0;
   find_protected(info, &protected, &length);
-  for (int pass = 0; pass < 2; pass++)
-    for (int t = 0; t < 2; t++)
-      for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
-        const ElfW(Rela) *import = &tables[t][k];
-        if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
-        const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
-        if (strchr(detours->letters, symbol[0]) == NULL) continue;
-        const struct detour *detour = detour_of(detours, symbol);
-        const function to = detour == NULL ? NULL : own ? detour->own : detour->other;
-        if (to == NULL) continue;
-        function *slot = (function *)(info->dlpi_addr + import->r_offset);
-        const int plain = is_plain(info, *slot, detour);
-        if (pass == 0 && detour->is_of_memory && !plain) memory_is_plain = 0;
-        if (pass == 0 || !plain || (detour->is_of_memory && !memory_is_plain)) continue;
-        if ((uintptr_t)slot - protected < length && !is_open) {
-          if (mprotect((void *)protected, length, PROT_READ | PROT_WRITE) != 0) return 0;
-          is_open = 1;
-        }
-        *slot = to;
-      }
+  for (int t = 0; t < 2; t++)
+    for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
+      const ElfW(Rela) *import = &tables[t][k];
+      if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
+      const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
+      if (strchr(detours->letters, symbol[0]) == NULL) continue;
+      const struct detour *detour = detour_of(detours, symbol);
+      const function to = detour == NULL ? NULL : own ? detour->own : detour->other;
+      if (to == NULL || count == max_calls) continue;
+      const struct call call = {(function *)(info->dlpi_addr + import->r_offset), to, detour->is_of_memory};
+      if (is_plain(info, *call.slot, detour)) calls[count++] = call;
+      else if (detour->is_of_memory) memory_is_plain = 0;
+    }
+  for (int k = 0; k < count; k++) {
+    if (calls[k].is_of_memory && !memory_is_plain) continue;
+    if ((uintptr_t)calls[k].slot - protected < length && !is_open) {
+      if (mprotect((void *)protected, length, PROT_READ | PROT_WRITE) != 0) return 0;
+      is_open = 1;
+    }
+    *calls[k].slot = calls[k].to;
+  }
   if (is_open) mprotect((void *)protected, length, PROT_READ);
   return 0;
 }

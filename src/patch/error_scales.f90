@@ -18,7 +18,7 @@ module contact_patch_error_scales
    !> Order of the normal problem
    real(wp), parameter :: normal_order = 2.0_wp
    !> A single row of elements in contact is up to two elements wide: number of elements as which it counts. With 1.5 the error of
-   !> the approach is 0.1 n^-2 of that by Hertz's theory, as with 2 to 40 elements across (wheels of any profiles, seeds 11 and 12)
+   !> the approach is 0.1 n^-2 of that by Hertz's theory, as with 2 to 40 elements across (wheels of any profiles)
    real(wp), parameter :: single_row = 1.5_wp
    !> Orders of forces in steady rolling for both schemes; the order of the second one is observed from 15 to 45 elements, with
    !> scatter

@@ -94,7 +94,7 @@ module contact_patch_traction_errors
    !> the forces themselves
    real(wp), parameter :: usual_adhesion = 1.0_wp/3.0_wp, small_adhesion = 0.02_wp, turning_slide = 0.4_wp, moved_patch = 0.008_wp
    !> Grids of patches of wheel and rail are centred along the track: ratio of their errors by the second order to those of grids at
-   !> any offset
+   !> any offset, fitted to wheels of any profiles and confirmed by those of doc/validation/accuracy_estimates.md
    real(wp), parameter :: centred = 0.75_wp
    !> Exponent of the ratio of an error by the levels to the general error, if larger than 1: of an error that jumps with the offset
    !> of the grid the levels are two samples, and the general error is that usual for this number of elements. For forces and power

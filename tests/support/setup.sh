@@ -5,6 +5,7 @@
 #   install_python_packages   the same for numpy, chromium and others, for tests only; continues without them
 #   install_axe        the same for axe-core, for accessibility checks of the pages; continues without it
 #   install_valgrind   the same for valgrind, for tests of uninitialised values; continues without it
+#   install_locales    the same for the package locales, for tests of hosts in other languages; continues without it
 #   install_linters    the same for fortitude, ruff, shellcheck and ford, for linting and module documentation
 #   install_fuzzer     the same for libFuzzer, used by tests/fuzz/run.sh only
 #   install_packagers  the same for the tools that make packages, used by src/packaging only
@@ -201,6 +202,12 @@ install_valgrind() {
   command -v valgrind >/dev/null 2>&1 && return 0
   say "Installing valgrind for the tests"
   quiet_apt valgrind || say "valgrind could not be installed; tests that need it are skipped"
+}
+
+install_locales() {
+  [ -e /usr/share/i18n/locales/de_DE ] && return 0
+  say "Installing descriptions of languages for the tests"
+  quiet_apt locales || say "locales could not be installed; tests in other languages are skipped"
 }
 
 # The versions used to check the sources; they are in a separate folder, so that python3 is not changed
