@@ -11,7 +11,7 @@ module contact_input_toml_reader
    use contact_input_toml_tables, only : find, is_tables, key_with_value, leaves_of, number_of, sets_of, toml_memory, &
       & toml_tables
    use contact_input_toml_values, only : check_item, count_values, fill_list, set_number
-   use contact_text_bounds, only : bounds_of, bounds_table, unit_of
+   use contact_text_bounds, only : bounds_of, bounds_table, unit_length, unit_of
    use contact_text_nearest, only : unknown_word, words_of
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
@@ -220,7 +220,8 @@ contains
       class(toml_reader), intent(inout) :: self
       type(archive_item), intent(inout) :: item
       character(len=*), intent(in) :: key
-      character(len=:), allocatable :: message, unit
+      character(len=:), allocatable :: message
+      character(len=unit_length) :: unit
       character(len=8) :: opening, closing
 
       item%given = .false.
@@ -235,7 +236,7 @@ contains
       if (item%row > 0) then
          message = message // ": " // trim(bounds_table(item%row)%title)
          unit = unit_of(item%row, self%moves)
-         if (unit /= "-" .and. unit /= "integer") message = message // " [" // unit // "]"
+         if (unit /= "-" .and. unit /= "integer") message = message // " [" // trim(unit) // "]"
       end if
       opening = merge("[[", "[ ", self%part_node > 0)
       closing = merge("]]", "] ", self%part_node > 0)

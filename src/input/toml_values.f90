@@ -112,7 +112,7 @@ contains
             return
          end if
          unit = "-"
-         if (item%row > 0) unit = unit_of(item%row, self%moves)
+         if (item%row > 0) unit = trim(unit_of(item%row, self%moves))
          select case (node%kind)
          case (toml_kind%integer, toml_kind%real)
             value = node%r
@@ -179,7 +179,7 @@ contains
                   if (present(units)) then
                      unit = trim(units(modulo(filled - 1, size(units)) + 1))
                   else if (index(bounds_table(row)%unit, " or ") > 0) then
-                     unit = unit_of(row, self%moves)
+                     unit = trim(unit_of(row, self%moves))
                   end if
                   call read_quantity(self%document%text_of(k), unit, values(filled), complaint)
                end if

@@ -245,7 +245,7 @@ contains
       self%keys(at) = key_values(key=key)
       if (bounds == 0) return
       self%keys(at)%title = bounds_table(bounds)%title
-      if (index(bounds_table(bounds)%unit, "...") == 0) self%keys(at)%unit = unit_of(bounds, self%moves)
+      if (index(bounds_table(bounds)%unit, "...") == 0) self%keys(at)%unit = trim(unit_of(bounds, self%moves))
    end subroutine find_key
 
    !> Append values to those of a key

@@ -9,7 +9,7 @@ module contact_output_toml_writer
    use contact_control_digits, only : case_digits, digit_text, digit_value
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
       & translate_to_words, word_of_digit
-   use contact_text_bounds, only : bounds_table, unit_of
+   use contact_text_bounds, only : bounds_table, unit_length, unit_of
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
    implicit none (type, external)
@@ -249,7 +249,7 @@ contains
       case (item_kind%text)
          call quoted(item%s%value, text)
       case (item_kind%angle)
-         call text_of_angle(item%r, unit_of(item%row, moves), text)
+         call text_of_angle(item%r, trim(unit_of(item%row, moves)), text)
       case default
          text = trim(exact_text(item%r))
       end select
@@ -309,7 +309,8 @@ contains
       type(archive_item), intent(in), optional :: item
       !> Remark, if there is no item
       character(len=*), intent(in), optional :: remark
-      character(len=:), allocatable :: line, name, unit
+      character(len=:), allocatable :: line, name
+      character(len=unit_length) :: unit
       logical :: can_miss
 
       name = trim(self%group) // "." // key
@@ -330,7 +331,7 @@ contains
          if (item%row > 0) then
             name = trim(bounds_table(item%row)%title)
             unit = unit_of(item%row, self%digits%t)
-            if (unit /= "-" .and. unit /= "integer") name = name // " [" // unit // "]"
+            if (unit /= "-" .and. unit /= "integer") name = name // " [" // trim(unit) // "]"
             call add_remark(self, line, name)
          else if (any(form_table%name == item%name)) then
             call add_remark(self, line, trim(form_title(item%name, item%i)))

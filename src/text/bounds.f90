@@ -14,7 +14,10 @@ module contact_text_bounds
    implicit none (type, external)
    private
 
-   public :: number_bounds, bounds_table, bounds_of, is_angle, is_within, describe_breach, check_number, unit_of
+   public :: number_bounds, bounds_table, bounds_of, is_angle, is_within, describe_breach, check_number, unit_length, unit_of
+
+   !> Length of a unit, or of two with " or "
+   integer, parameter :: unit_length = 26
 
    !> Bounds of one number
    type :: number_bounds
@@ -543,18 +546,18 @@ contains
 
    !> Unit of a number in a case: in shifts creepages and velocities are displacements and rotations
    !>
-   !> Without motion either of two units has a meaning, as for the cases that follow: "- or mm".
+   !> Without motion either of two units has a meaning, as for the cases that follow: "- or mm". Padded with blanks.
    pure function unit_of(row, moves) result(unit)
       !> Row of the table
       integer, intent(in) :: row
       !> Member of motion
       integer, intent(in) :: moves
-      character(len=:), allocatable :: unit
+      character(len=unit_length) :: unit
       integer :: last
 
-      unit = trim(bounds_table(row)%unit)
+      unit = bounds_table(row)%unit
       last = index(unit, "/") - 1
-      if (any(rates == bounds_table(row)%name)) unit = unit // " or " // unit(:last)
+      if (any(rates == bounds_table(row)%name)) unit = trim(unit) // " or " // unit(:last)
       last = index(unit, " or ")
       if (last == 0 .or. moves == motion%none) return
       if (moves == motion%shift) then
