@@ -15,8 +15,9 @@ try:
     import h5py  # noqa: F401
     from playwright.sync_api import TimeoutError as NotInTime  # noqa: F401
     from playwright.sync_api import sync_playwright
-    if not BROWSER:
-        raise ImportError("there is no chromium")
+    # that of Ubuntu only tells how to install another one
+    if not BROWSER or subprocess.run([BROWSER, "--version"], capture_output=True).returncode != 0:
+        raise ImportError("there is no chromium that starts")
 except ImportError as reason:
     print("SKIPPED: %s" % reason)
     sys.exit(77)
