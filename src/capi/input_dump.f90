@@ -124,7 +124,7 @@ contains
          end associate
       end if
       copy => fresh
-      if (problem%module_number == 1) call problem%kept%use_them()
+      if (problem%module_number == 1) call problem%kept%use_again()
       call set_owner(problem%owner)
    end subroutine copy_settings
 
