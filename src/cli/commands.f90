@@ -46,7 +46,11 @@ contains
       do while (k < command_argument_count() .and. .not. allocated(error))
          k = k + 1
          call get_word(k, word)
-         if (word == "--force" .and. command == "convert") then
+         if (word == "--help" .or. word == "-h") then
+            write(output_unit, "(A)") usage
+            status = 0
+            return
+         else if (word == "--force" .and. command == "convert") then
             force = .true.
          else if (word == "--quiet" .and. command == "convert") then
             quiet = .true.

@@ -75,6 +75,12 @@ class Words(Cli):
         for word in ("Usage", "IMODE", "EXPNAM", "--output-dir", "--threads", "--quiet", "--version"):
             self.assertIn(word, run.stdout)
         self.assertNotRegex(run.stdout, r"[a-z]_[a-z]", "a name of the sources among the words")
+        for command in ("convert", "explain"):
+            for option in ("--help", "-h"):
+                run = self.run_program(command, option)
+                self.succeeds(run)
+                self.assertEqual(run.stderr, "")
+                self.assertIn("contact " + command, run.stdout)
 
     def test_version(self):
         run = self.run_program("--version")
