@@ -705,9 +705,9 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
       if (strchr(detours->letters, symbol[0]) == NULL) continue;
       const struct detour *detour = detour_of(detours, symbol);
       const function to = detour == NULL ? NULL : own ? detour->own : detour->other;
-      if (to == NULL || count == max_calls) continue;
+      if (to == NULL) continue;
       const struct call call = {(function *)(info->dlpi_addr + import->r_offset), to, detour->is_of_memory};
-      if (is_plain(info, *call.slot, detour)) calls[count++] = call;
+      if (count < max_calls && is_plain(info, *call.slot, detour)) calls[count++] = call;
       else if (detour->is_of_memory) memory_is_plain = 0;
     }
   for (int k = 0; k < count; k++) {

@@ -7,8 +7,7 @@ module contact_capi_physics
    use contact_capi_caller, only : caller, min_value
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet, visit_wear
-   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, &
-      & quasi_identical, wear_spec
+   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, wear_spec
    use contact_control_digits, only : choice_of, digit_of
    use contact_friction_new_law, only : friction_model, is_friction_law
    use contact_text_words, only : integer_text
@@ -103,11 +102,8 @@ contains
       integer, intent(in) :: model
       type(material_spec), intent(in) :: material
       type(iteration_spec), intent(inout) :: iteration
-      logical :: unlike
 
-      unlike = abs(material%difference_parameter()) >= quasi_identical
-      if (model == material_model%viscoelastic) unlike = unlike .or. material%relaxes_apart()
-      if (iteration%maxout <= 1 .and. unlike) iteration%maxout = 10
+      if (iteration%maxout <= 1 .and. material%are_unlike(model)) iteration%maxout = 10
    end subroutine set_outer_iteration
 
    !> Set surface temperatures (H)

@@ -24,65 +24,49 @@ contains
       type(case_spec), intent(inout) :: spec
       integer, parameter :: given = part_source%given
       type(case_parts) :: one
-      logical :: is_other
 
       associate (parts => spec%parts)
          one = nothing()
          one%iteration = given
-         is_other = before%solver /= spec%solver
-         if (.not. is_other) is_other = differ(before, spec, one)
-         if (is_other) parts%iteration = given
+         if (differ(before, spec, one, before%solver /= spec%solver)) parts%iteration = given
          one = nothing()
          one%friction = given
-         is_other = before%friction_law /= spec%friction_law .or. before%variation /= spec%variation
-         if (.not. is_other) is_other = differ(before, spec, one)
-         if (is_other) parts%friction = given
+         if (differ(before, spec, one, before%friction_law /= spec%friction_law .or. before%variation /= spec%variation)) &
+            & parts%friction = given
          one = nothing()
          one%rolling = given
          one%material = given
-         is_other = before%kernel /= spec%kernel
-         if (.not. is_other) is_other = differ(before, spec, one)
-         if (is_other) then
+         if (differ(before, spec, one, before%kernel /= spec%kernel)) then
             parts%rolling = given
             parts%material = given
          end if
          one = nothing()
          one%damping = given
-         is_other = before%has_damping .neqv. spec%has_damping
-         if (.not. is_other) is_other = differ(before, spec, one)
-         if (is_other) parts%damping = given
+         if (differ(before, spec, one, before%has_damping .neqv. spec%has_damping)) parts%damping = given
          if (.not. (allocated(spec%wheel_rail) .and. allocated(before%wheel_rail))) return
          associate (old => before%wheel_rail, new => spec%wheel_rail)
             one = nothing()
             one%search = given
-            is_other = old%search%location /= new%search%location
-            if (.not. is_other) is_other = differ(before, spec, one)
-            if (is_other) parts%search = given
+            if (differ(before, spec, one, old%search%location /= new%search%location)) parts%search = given
             one = nothing()
             one%track = given
             if (differ(before, spec, one)) parts%track = given
             one = nothing()
             one%rail_profile = given
-            is_other = names_differ(old%rail_profile%name, new%rail_profile%name)
-            if (.not. is_other) is_other = differ(before, spec, one)
-            if (is_other) parts%rail_profile = given
+            if (differ(before, spec, one, names_differ(old%rail_profile%name, new%rail_profile%name))) parts%rail_profile = given
             one = nothing()
             one%deviations = given
             if (differ(before, spec, one)) parts%deviations = given
             one = nothing()
             one%wheel_profile = given
-            is_other = names_differ(old%wheel_profile%name, new%wheel_profile%name)
-            if (.not. is_other) is_other = differ(before, spec, one)
-            if (is_other) parts%wheel_profile = given
+            if (differ(before, spec, one, names_differ(old%wheel_profile%name, new%wheel_profile%name))) parts%wheel_profile = given
          end associate
          one = nothing()
          one%position = given
          if (differ(before, spec, one)) parts%position = given
          one = nothing()
          one%velocity = given
-         is_other = before%motion /= spec%motion
-         if (.not. is_other) is_other = differ(before, spec, one)
-         if (is_other) parts%velocity = given
+         if (differ(before, spec, one, before%motion /= spec%motion)) parts%velocity = given
          one = nothing()
          one%flexibility = given
          if (differ(before, spec, one)) parts%flexibility = given
@@ -105,7 +89,6 @@ contains
       integer, parameter :: given = part_source%given
       type(case_spec) :: initial
       type(case_parts) :: one
-      logical :: is_other
 
       if (allocated(spec%wheel_rail)) allocate(initial%wheel_rail, source=wheel_rail_spec())
       associate (parts => spec%parts)
@@ -114,9 +97,7 @@ contains
          parts%material = given
          one = nothing()
          one%iteration = given
-         is_other = initial%solver /= spec%solver
-         if (.not. is_other) is_other = differ(initial, spec, one)
-         if (is_other) parts%iteration = given
+         if (differ(initial, spec, one, initial%solver /= spec%solver)) parts%iteration = given
          if (spec%has_damping) parts%damping = given
          if (.not. allocated(spec%wheel_rail)) return
          parts%search = given
@@ -132,13 +113,19 @@ contains
       end associate
    end subroutine give_first_parts
 
-   !> Are there other values, or other names of them, in some parts of two cases?
-   logical function differ(before, spec, only)
+   !> Are there other choices, other values, or other names of values in some parts of two cases?
+   logical function differ(before, spec, only, has_other_choices)
       type(case_spec), intent(in) :: before, spec
       !> The parts
       type(case_parts), intent(in) :: only
+      !> Are choices different that these parts belong to? Default no
+      logical, intent(in), optional :: has_other_choices
       type(collector) :: old, new
 
+      if (present(has_other_choices)) then
+         differ = has_other_choices
+         if (differ) return
+      end if
       call collect(before, only, old)
       call collect(spec, only, new)
       if (.not. (allocated(old%values) .and. allocated(new%values))) then

@@ -106,6 +106,8 @@ module contact_cases_spec
       procedure :: relaxes_apart
       !> Kalker's difference parameter K of two bodies [-]
       procedure :: difference_parameter
+      !> Do pressures and tangential tractions affect each other, because the materials differ?
+      procedure :: are_unlike
    end type material_spec
 
    !> Force-based damping
@@ -269,6 +271,15 @@ contains
       difference_parameter = both%ak
    end function difference_parameter
 
+   pure logical function are_unlike(self, model)
+      class(material_spec), intent(in) :: self
+      !> Member of material_model
+      integer, intent(in) :: model
+
+      are_unlike = abs(self%difference_parameter()) >= quasi_identical
+      if (.not. are_unlike .and. model == material_model%viscoelastic) are_unlike = self%relaxes_apart()
+   end function are_unlike
+
    pure integer function outer_iterations(self)
       class(case_spec), intent(in) :: self
       logical :: affect_each_other
@@ -276,9 +287,7 @@ contains
       outer_iterations = self%iteration%maxout
       if (outer_iterations <= 1 .or. self%motion == motion%none) return
       affect_each_other = self%kernel == kernel_model%conformal .or. self%kernel == kernel_model%tabulated
-      if (.not. affect_each_other) affect_each_other = abs(self%material%difference_parameter()) >= quasi_identical
-      if (.not. affect_each_other .and. self%material_model == material_model%viscoelastic) &
-         & affect_each_other = self%material%relaxes_apart()
+      if (.not. affect_each_other) affect_each_other = self%material%are_unlike(self%material_model)
       if (.not. affect_each_other) outer_iterations = 1
    end function outer_iterations
 

@@ -62,7 +62,7 @@ contains
          texts = element%texts
          a%memory => texts
          a%presets => presets
-         a%digits = digits_of(spec)
+         a%moves = spec%motion
          a%is_recording = .true.
          a%case_text = ""
          call make_preset(spec, written)
@@ -70,6 +70,7 @@ contains
          a%is_recording = .false.
          a%has_rows = spec%variation == variation%by_row
          a%module_number = module_number
+         a%digits = digits_of(spec)
          a%case_text = line_feed // remarks // "[[case]]" // line_feed
          if (self%text%length == 0) a%case_text = remarks // "[[case]]" // line_feed
          call put_element(self, a, before)

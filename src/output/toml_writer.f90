@@ -49,6 +49,8 @@ module contact_output_toml_writer
       !> Data of the case: module 1 or 3, digits
       integer :: module_number = 3
       type(case_digits) :: digits
+      !> Motion of the case, on which units depend; member of motion
+      integer :: moves = 0
       !> Are preset numbers being recorded? Then nothing is written
       logical :: is_recording = .false.
       !> Does each row of the grid have its own friction law?
@@ -194,7 +196,7 @@ contains
       do while (k < self%count)
          k = k + 1
          if (any(lengths == self%items(k)%name) .or. self%items(k)%name == "ISUBS") cycle
-         call text_of_item(self%items(k), self%digits%t, text)
+         call text_of_item(self%items(k), self%moves, text)
          if (is_pair(self%items(:self%count), k)) then
             call put_pair(self, k, text)
             k = k + 1
@@ -231,7 +233,7 @@ contains
       character(len=key_length) :: key
 
       key = key_of_item(self%items, k)
-      call text_of_item(self%items(k + 1), self%digits%t, second)
+      call text_of_item(self%items(k + 1), self%moves, second)
       call self%put(key(:len_trim(key) - 1), "[" // first // ", " // second // "]", self%items(k))
    end subroutine put_pair
 
@@ -330,7 +332,7 @@ contains
       if (present(item)) then
          if (item%row > 0) then
             name = trim(bounds_table(item%row)%title)
-            unit = unit_of(item%row, self%digits%t)
+            unit = unit_of(item%row, self%moves)
             if (unit /= "-" .and. unit /= "integer") name = name // " [" // trim(unit) // "]"
             call add_remark(self, line, name)
          else if (any(form_table%name == item%name)) then

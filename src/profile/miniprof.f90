@@ -12,7 +12,7 @@ module contact_profile_miniprof
    use contact_profile_request, only : profile_file
    use contact_text_lexer, only : input_lexer
    use contact_text_line_words, only : printable
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, small
    implicit none (type, external)
    private
 
@@ -26,18 +26,6 @@ module contact_profile_miniprof
    character(len=*), parameter :: known_keys(5) = [character(len=9) :: "ColumnDef", "XOffset", "YOffset", "Units", "Tilt"]
 
 contains
-
-   !> A word with small letters in place of capital ones
-   pure function small_letters(word) result(small)
-      character(len=*), intent(in) :: word
-      character(len=len(word)) :: small
-      integer :: k
-
-      small = word
-      do k = 1, len(word)
-         if (word(k:k) >= "A" .and. word(k:k) <= "Z") small(k:k) = achar(iachar(word(k:k)) + 32)
-      end do
-   end function small_letters
 
    !> Read the points, and what the header prescribes
    !>
@@ -166,7 +154,7 @@ contains
          integer :: k
 
          do k = 1, size(known_keys)
-            if (small_letters(key) == small_letters(trim(known_keys(k)))) call log%warning(text%file // ", line " // &
+            if (small(key) == small(trim(known_keys(k)))) call log%warning(text%file // ", line " // &
                & integer_text(place%line) // ": the key " // printable(key) // " is unknown and ignored; it is spelled " // &
                & trim(known_keys(k)) // ".")
          end do
