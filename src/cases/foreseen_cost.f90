@@ -328,7 +328,7 @@ contains
       if (allocated(error)) return
       associate (memory => session%memory)
          if (.not. result%status%is_solved() .or. memory%used == 0) return
-         coarse%estimated = error_of_pair(memory)
+         coarse%estimated = error_of_pair(memory, level%wheel_rail, result)
          allocate(coarse%areas(memory%used))
          do k = 1, memory%used
             associate (grid => memory%slot(k)%result%grid)

@@ -2,6 +2,7 @@
 !>
 !> As contact_cases_accuracy, but the sides of the elements, DX and DS, are chosen, since windows follow from the geometry.
 module contact_cases_wheel_rail_accuracy
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : motion, normal_control
    use contact_base_error, only : error_kind, error_type
@@ -20,9 +21,11 @@ module contact_cases_wheel_rail_accuracy
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
    use contact_patch_error_estimate, only : error_of_forces
    use contact_patch_order, only : order_of_errors
+   use contact_patch_quantities, only : total_list
    use contact_text_words, only : real_text
    use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_result, only : wheel_rail_result
+   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
@@ -127,7 +130,7 @@ contains
          report%seconds = report%seconds + report%last_seconds
          if (.not. result%status%has_result()) exit
          report%estimated = -1.0_wp
-         if (result%status%is_solved()) report%estimated = error_of_pair(session%memory)
+         if (result%status%is_solved()) report%estimated = error_of_pair(session%memory, level%wheel_rail, result)
          report%order = order_of(session%memory)
          report%sides = sides
          if (is_near_enough(report%estimated, expected, report%required, law%share)) exit
@@ -173,10 +176,16 @@ contains
       if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
    end function first_sides
 
-   !> Estimated relative error of all patches together, weighted by their loads; negative without contact
-   pure real(wp) function error_of_pair(memory) result(e)
+   !> Estimated relative error of wheel and rail; negative without contact
+   !>
+   !> The largest one of: the errors of the patches, weighted by their loads; those of the forces on the rail, which include
+   !> errors of the angles of the patches; that of the height, which is larger than that of the approach on a flank.
+   pure real(wp) function error_of_pair(memory, spec, pair) result(e)
       !> Solved patches, with errors
       type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_spec), intent(in) :: spec
+      !> Totals of wheel and rail, with errors
+      type(wheel_rail_result), intent(in) :: pair
       real(wp) :: load, part
       integer :: k
 
@@ -189,7 +198,40 @@ contains
          if (part < 0.0_wp) part = error_of_few
          e = e + part*memory%slot(k)%result%fn/load
       end do
+      e = max(e, error_of_totals(memory, spec, pair))
    end function error_of_pair
+
+   !> Largest relative error of the forces on the rail and of the height
+   !>
+   !> Lateral and longitudinal forces are relative to the friction bound of all patches, the height to the largest approach.
+   pure real(wp) function error_of_totals(memory, spec, pair) result(e)
+      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_spec), intent(in) :: spec
+      type(wheel_rail_result), intent(in) :: pair
+      type(total_list) :: list
+      character(len=5), parameter :: names(4) = ["fx_tr", "fy_tr", "fz_tr", "z_ws "]
+      real(wp) :: bound, scale(size(names))
+      integer :: k, place
+
+      e = 0.0_wp
+      if (.not. allocated(pair%errors)) return
+      bound = 0.0_wp
+      scale = 0.0_wp
+      do k = 1, memory%used
+         associate (patch => memory%slot(k)%result)
+            scale(4) = max(scale(4), patch%pen)
+            bound = bound + patch%grid%dx*patch%grid%dy*sum(patch%mu*patch%pn)
+         end associate
+      end do
+      call pair%totals(spec, list)
+      scale(1:3) = [bound, bound, abs(list%rows(list%place_of(names(3)))%value)]
+      do k = 1, size(names)
+         place = list%place_of(names(k))
+         ! without estimate for one of them; a prescribed one has no error
+         if (ieee_is_nan(pair%errors(place)) .or. .not. scale(k) > 0.0_wp) cycle
+         e = max(e, pair%errors(place)/scale(k))
+      end do
+   end function error_of_totals
 
    !> Lowest order of the discretisation of the patches
    pure integer function order_of(memory) result(order)

@@ -343,9 +343,12 @@ def any_wheel(random, profiles):
     return c
 
 
-def wheel_text(c, factor, profiles):
-    """The case of a wheel with elements smaller by a factor; profiles of the folder, or those with names of their own."""
-    size = c["dx"] / factor
+def wheel_text(c, factor, profiles, sides=None):
+    """The case of a wheel with elements smaller by a factor, or of given sides (dx, ds) [mm].
+
+    Profiles are those of the folder, or those with names of their own.
+    """
+    along, across = sides or (c["dx"] / factor, c["dx"] / factor)
     rail, tread = ("\n".join(f"{name} = {value!r}" for name, value in part.items())
                    for part in c.get("files", ({"file": f"{profiles}/60E1.prr"}, {"file": f"{profiles}/S1002.prw"})))
     rolling = c.get("tangential", "velocities") != "longitudinal_force"
@@ -381,8 +384,8 @@ poiss = [0.28, 0.28]
 gg = [82000.0, 82000.0]
 [case.search]
 location = "locus"
-dx = {size!r}
-ds = {size!r}
+dx = {along!r}
+ds = {across!r}
 a_sep = "90.0 deg"
 d_turn = 12.0
 [case.track]
