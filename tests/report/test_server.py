@@ -330,6 +330,7 @@ class Hostile(unittest.TestCase):
             if status:
                 self.assertIn(int(status[1]), (400, 403, 404, 413, 414, 431, 501, 505), (request[:80], answer[:80]))
             self.assertNotIn(b"root:", answer)
+        self.assertNotIn(b'"files"', self.send(b"GET /files\r\n" + own + b"\r\n", shut=True))   # HTTP/0.9, of older browsers
         random = Random(14)
         seeds = [b"GET /files HTTP/1.1\r\n" + own + b"\r\n", b"POST /check?name=cattaneo HTTP/1.1\r\n" + own
                  + b"Content-Length: 3\r\n\r\nabc", b"GET /result?name=cattaneo HTTP/1.1\r\n" + own

@@ -80,6 +80,15 @@ class Handler(BaseHTTPRequestHandler):
         except (ConnectionError, TimeoutError):
             self.close_connection = True
 
+    def parse_request(self) -> bool:
+        """Requests without a version have no headers that tell where they come from, so they are refused"""
+        good = super().parse_request()
+        if not good or self.request_version != "HTTP/0.9":
+            return good
+        self.close_connection = True
+        self._answer(403, "this server answers requests with a version of HTTP only")
+        return False
+
     def log_message(self, form: str, *values: Any) -> None:
         pass
 
