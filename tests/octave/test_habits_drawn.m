@@ -10,9 +10,8 @@ opt = plot3d;
 opt.rw_surfc = 'both';
 opt.typplot  = 'rw_rear';
 opt.field    = 'pn';
-lastwarn('');
-figure(1);   plot3d(s, opt, prr, prw);
-check(isempty(lastwarn()), 'rw_surfc is an option');
+figure(1);
+check(isempty(warnings_of(@() plot3d(s, opt, prr, prw))), 'rw_surfc is an option');
 check(numel(get(gca, 'children')) > 2, 'rail, wheel and bars are drawn');
 
 opt = plot3d;
@@ -108,11 +107,9 @@ check_near([get(h(1), 'xdata') get(h(1), 'ydata')], [out.cp_pos.yr(1) out.cp_pos
 % missing parts are omitted
 opt = plot3d;
 opt.rw_surfc = 'both';
-lastwarn('');
-figure(7);   plot3d(s, opt, prr);
-check(~isempty(strfind(lastwarn(), 'left out')), 'no wheel');
-plot3d([], opt);
-check(~isempty(strfind(lastwarn(), 'no contact patch')), 'no contact');
+figure(7);
+check(~isempty(strfind(warnings_of(@() plot3d(s, opt, prr)), 'left out')), 'no wheel');
+check(~isempty(strfind(warnings_of(@() plot3d([], opt)), 'no contact patch')), 'no contact');
 
 % stresses below the surface in rear and side view, in the coordinates of the track, of the rail and of the wheel
 lines = strsplit(fileread('manchester.inp'), "\n");
@@ -127,10 +124,10 @@ largest = squeeze(max(b.sigvm, [], 1));
 side = squeeze(max(b.sigvm, [], 2));
 opt = plot3d;
 opt.rw_surfc = 'both';   opt.typplot = 'rw_rear';   opt.field = 'pn';
-figure(7);   lastwarn('');
-plot3d(s, opt, prr, prw, b);
+figure(7);
+text = warnings_of(@() plot3d(s, opt, prr, prw, b));
 h = findobj(gca, 'type','hggroup');
-check(numel(h)==1 && isempty(lastwarn()), 'contours in the rear view');
+check(numel(h)==1 && isempty(text), 'contours in the rear view');
 check_near(get(h, 'zdata'), largest, 1e-9*max(largest(:)), 'the largest stress along the line of sight');
 % five points of the middle column and the depth below them, by the angle that the .out file has
 h = [get(h,'xdata')(5,:); get(h,'ydata')(5,:)];
@@ -151,8 +148,8 @@ h = findobj(gca, 'type','hggroup');
 check_near(get(h, 'zdata'), side, 1e-9*max(side(:)), 'side view');
 check_near(get(h, 'xdata')(:,1), out.cp_pos.xtr(1) + b.x, 5e-3, 'its places');
 opt.typplot = 'surf';
-plot3d(s, opt, prr, prw, b);
-check(~isempty(strfind(lastwarn(), 'rear and side view only')), 'other views warn that they do not show stresses');
+text = warnings_of(@() plot3d(s, opt, prr, prw, b));
+check(~isempty(strfind(text, 'rear and side view only')), 'other views warn that they do not show stresses');
 opt.typplot = 'rw_rear';
 check_error(@() plot3d(s, opt, prr, prw, [b b]), '2 blocks of stresses are given for 1 patches');
 check_error(@() plot3d(s, opt, prr, prw, struct('x',0)), 'a block of loadstrs');

@@ -128,9 +128,8 @@ check_error(@() plot3d(w, setfield(plot3d,'field','taucrt')), 'has no field');
 check_error(@() plot3d(s, setfield(plot3d,'field','srel')), 'use ''shft'' in shifts');
 check_error(@() plot3d(w, setfield(plot3d,'typplot','rw_rear')), 'needs rw_surf');
 check_error(@() plot3d(w, setfield(plot3d,'rw_surf','prr')), 'needs the rail profile');
-lastwarn('');
-plot3d(w, setfield(plot3d,'external',NaN));
-check(~isempty(strfind(lastwarn(),'there is no option "external"')), 'an unknown option is reported');
+text = warnings_of(@() plot3d(w, setfield(plot3d,'external',NaN)));
+check(~isempty(strfind(text,'there is no option "external"')), 'an unknown option is reported');
 
 % --- on the surfaces of rail and wheel, both sides
 opt = plot3d;   opt.field = 'pn';   opt.rw_surf = 'prr';
