@@ -44,17 +44,14 @@ contains
    subroutine add_block(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
-      type(point_block), target :: block
-      real(wp), allocatable, target :: numbers(:)
-      integer, target :: option
+      type(point_block) :: block
+      real(wp), allocatable :: numbers(:)
 
       associate (number => a%single(1), patch => a%call_of%icp)
          if (number > 0) then
             call arrange_as_in_files(a, numbers)
             if (.not. a%is_good) return
-            a%numbers(1)%v => numbers
-            call visit_option(a, option)
-            call visit_block(a, option, block)
+            call read_block(a, numbers, block)
             if (.not. a%is_good) return
          end if
          if (problem%module_number == 1 .and. patch > 0) then
@@ -65,6 +62,22 @@ contains
          end if
       end associate
    end subroutine add_block
+
+   !> Read a block from other numbers than those of the caller
+   subroutine read_block(a, numbers, block)
+      type(caller), intent(inout) :: a
+      !> Numbers of the block in the order of input files
+      real(wp), intent(in), target :: numbers(:)
+      type(point_block), intent(inout), target :: block
+      real(wp), pointer :: given(:)
+      integer, target :: option
+
+      given => a%numbers(1)%v
+      a%numbers(1)%v => numbers
+      call visit_option(a, option)
+      call visit_block(a, option, block)
+      a%numbers(1)%v => given
+   end subroutine read_block
 
    !> Option and lists of a block in the order of input files, each list after its length; ranges have three numbers instead
    subroutine arrange_as_in_files(a, numbers)
