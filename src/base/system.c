@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -26,6 +27,7 @@ int contact_stamp(const char *name, long long numbers[5], long long *age);
 int contact_real_path(const char *name, char *path, int length);
 int contact_open_output(const char *name, int confined, long keep, int *cause);
 void contact_close(int file);
+void contact_divert(int file);
 void contact_explain(int cause, char *text, int length);
 int contact_lock(const char *name, char *holder, int length, int *cause);
 void contact_unlock(int file, const char *name);
@@ -181,6 +183,18 @@ int contact_open_output(const char *name, int confined, long keep, int *cause) {
 }
 
 void contact_close(int file) { close(file); }
+
+/* Replace an open file by an empty one in memory, which is released when it is closed; nothing on systems without such files */
+void contact_divert(int file) {
+#ifdef MFD_CLOEXEC
+  const int memory = memfd_create("contact", MFD_CLOEXEC);
+  if (memory < 0) return;
+  dup3(memory, file, O_CLOEXEC);
+  close(memory);
+#else
+  (void)file;
+#endif
+}
 
 /* The system's text for an errno */
 void contact_explain(int cause, char *text, int length) {

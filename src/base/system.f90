@@ -7,8 +7,8 @@ module contact_base_system
    implicit none (type, external)
    private
 
-   public :: close_descriptor, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers
-   public :: find_real_path, is_same_file, stamp_of, unlock_experiment
+   public :: close_descriptor, divert_to_memory, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input
+   public :: remove_leftovers, find_real_path, is_same_file, stamp_of, unlock_experiment
 
    !> Identity of an unchanged file: device, file number, length, times of the last change of content and of status
    type :: file_stamp
@@ -87,6 +87,13 @@ module contact_base_system
          !> Descriptor from `open_input`, `open_output` or the C library
          integer(c_int), value :: file
       end subroutine close_descriptor
+
+      !> From now on a file is written into memory, which is released when it is closed; ineffective on other systems than Linux
+      subroutine divert_to_memory(file) bind(c, name="contact_divert")
+         import :: c_int
+         !> Descriptor of an open file whose content is not needed any more
+         integer(c_int), value :: file
+      end subroutine divert_to_memory
 
       subroutine contact_explain(cause, text, length) bind(c)
          import :: c_char, c_int

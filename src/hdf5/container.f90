@@ -9,16 +9,17 @@
 module contact_hdf5_container
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5acreate_f, h5adelete_f, h5aexists_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5eset_auto_f, &
-      & h5f_acc_rdwr_f, h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, h5f_libver_v18_f, h5f_scope_local_f, &
-      & h5fclose_f, h5fcreate_f, h5fflush_f, h5fopen_f, h5gcreate_f, h5idec_ref_f, h5ldelete_f, h5lexists_f, h5open_f, &
+      & h5f_acc_rdwr_f, h5f_close_strong_f, h5f_libver_earliest_f, h5f_libver_v18_f, h5f_scope_local_f, &
+      & h5fclose_f, h5fflush_f, h5fopen_f, h5gcreate_f, h5idec_ref_f, h5ldelete_f, h5lexists_f, h5open_f, &
       & h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, h5p_group_create_f, h5pcreate_f, &
-      & h5pset_chunk_f, h5pset_deflate_f, h5pset_fclose_degree_f, h5pset_fill_time_f, h5pset_fill_value_f, &
+      & h5pset_chunk_f, h5pset_deflate_f, h5pset_fapl_sec2_f, h5pset_fclose_degree_f, h5pset_fill_time_f, h5pset_fill_value_f, &
       & h5pset_fletcher32_f, h5pset_istore_k_f, h5pset_layout_f, h5pset_libver_bounds_f, h5pset_link_phase_change_f, &
       & h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, h5screate_f, h5t_fortran_s1, h5t_native_double, &
       & h5t_native_integer, h5t_std_i32le, h5tcopy_f, h5tset_size_f, hid_t, hsize_t, size_t
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_output_file, only : output_file, remove_file
+   use contact_hdf5_failing_disk, only : close_deleted, write_empty
    use contact_output_finished_file, only : move_file
    implicit none (type, external)
    private
@@ -124,9 +125,8 @@ contains
       class(hdf5_container), intent(inout) :: self
       !> Always allocated
       type(error_type), allocatable, intent(out) :: error
-      integer :: status
 
-      if (self%is_open) call h5fclose_f(self%file, status)
+      if (self%is_open) call close_deleted(self%file)
       self%is_open = .false.
       call remove_file(self%name // unfinished)
       call fatal_error(error, "the file cannot be read to continue it", error_kind%file, self%name)
@@ -148,6 +148,8 @@ contains
       call h5open_f(status)
       call h5eset_auto_f(0, status)
       call h5pcreate_f(h5p_file_access_f, access, status)
+      ! `close_deleted` relies on this driver, which writes by a descriptor of the system
+      call h5pset_fapl_sec2_f(access, status)
       ! objects that are still open after a failure are closed with the file
       call h5pset_fclose_degree_f(access, h5f_close_strong_f, status)
       ! newer layouts mark a file as open, and refuse it after a program was killed. The group of all cases has the oldest layout:
@@ -155,18 +157,16 @@ contains
       call h5pset_libver_bounds_f(access, h5f_libver_earliest_f, h5f_libver_v18_f, status)
       call h5pcreate_f(h5p_file_create_f, creation, status)
       call h5pset_istore_k_f(creation, 8, status)
-      if (again) then
-         call h5fopen_f(name // unfinished, h5f_acc_rdwr_f, self%file, status, access)
-      else
-         call h5fcreate_f(name // unfinished, h5f_acc_trunc_f, self%file, status, creation, access)
-      end if
+      status = 0
+      if (.not. again) call write_empty(name // unfinished, creation, access, status)
+      if (status >= 0) call h5fopen_f(name // unfinished, h5f_acc_rdwr_f, self%file, status, access)
       call self%check(status)
       call self%release(creation)
       call self%release(access)
       self%is_open = .not. self%failed
       if (self%is_open) call make_properties(self)
       if (.not. self%failed) return
-      if (self%is_open) call h5fclose_f(self%file, status)
+      if (self%is_open) call close_deleted(self%file)
       self%is_open = .false.
       call remove_file(name // unfinished)
       call fatal_error(error, "the file cannot be written", error_kind%file, name)
@@ -227,14 +227,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: k, status
 
+      status = 0
       do k = 1, max_text_length
          if (self%texts(k) >= 0) call self%release(self%texts(k))
       end do
       call self%release(self%scalar)
       call self%release(self%groups)
       call self%release(self%compact)
-      call h5fclose_f(self%file, status)
+      ! a failure is known before the file is closed
+      if (.not. self%failed) call h5fflush_f(self%file, h5f_scope_local_f, status)
       call self%check(status)
+      if (self%failed) then
+         call close_deleted(self%file)
+      else
+         call h5fclose_f(self%file, status)
+         call self%check(status)
+      end if
       self%is_open = .false.
       if (.not. self%failed) call self%check(-abs(move_file(self%name // unfinished, self%name)))
       if (.not. self%failed) then
