@@ -8,10 +8,15 @@ endif()
 find_package(OpenMP REQUIRED COMPONENTS Fortran)
 find_package(HDF5 REQUIRED COMPONENTS Fortran)
 
-# HDF5 with its Fortran modules
+# HDF5 with its Fortran modules. Newer versions of CMake find it as targets, but contact.pc and the static libraries of the program
+# need files
+include(files_of_targets)
+contact_files_of("${HDF5_Fortran_LIBRARIES}" CONTACT_HDF5_FILES target_folders)
+set(CONTACT_HDF5_FOLDERS ${HDF5_Fortran_INCLUDE_DIRS} ${target_folders})
+list(REMOVE_DUPLICATES CONTACT_HDF5_FOLDERS)
 add_library(hdf5_fortran INTERFACE)
-target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
-target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})
+target_include_directories(hdf5_fortran INTERFACE ${CONTACT_HDF5_FOLDERS})
+target_link_libraries(hdf5_fortran INTERFACE ${CONTACT_HDF5_FILES})
 
 # Transforms: FFTW, MKL with the same interface, or pocketfft, whose source is included. CONTACT_FFT_LINK: libraries required by
 # programs with the static library; CONTACT_FFT_NAME: name shown by contact --version, because the licence of the binary depends on it

@@ -126,7 +126,7 @@ file(RELATIVE_PATH pc_prefix
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "${CONTACT_FFT_LINK}")
 # HDF5 is often in a separate folder that linkers do not search
-string(JOIN " " hdf5_private ${HDF5_Fortran_LIBRARIES})
+string(JOIN " " hdf5_private ${CONTACT_HDF5_FILES})
 string(APPEND pc_private " ${hdf5_private}")
 string(APPEND pc_private " -lgfortran -lquadmath -lgomp -lm")
 configure_file(${PROJECT_SOURCE_DIR}/src/cmake/contact.pc.in ${CMAKE_BINARY_DIR}/contact.pc @ONLY)
