@@ -11,7 +11,8 @@ set(FFTW3_VERSION ${PC_FFTW3_VERSION})
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW3
-  REQUIRED_VARS FFTW3_LIBRARY FFTW3_INCLUDE_DIR VERSION_VAR FFTW3_VERSION)
+  REQUIRED_VARS FFTW3_LIBRARY FFTW3_INCLUDE_DIR VERSION_VAR FFTW3_VERSION
+  REASON_FAILURE_MESSAGE "install FFTW 3 (Debian: libfftw3-dev), name its folder by -DFFTW3_ROOT=..., or build with -DCONTACT_FFT=pocketfft, which needs no library")
 mark_as_advanced(FFTW3_LIBRARY FFTW3_INCLUDE_DIR)
 
 if(FFTW3_FOUND AND NOT TARGET FFTW3::fftw3)

@@ -5,7 +5,8 @@ find_library(MKLFFT_LIBRARY NAMES mkl_rt libmkl_rt.so.3 libmkl_rt.so.2 HINTS ENV
 find_path(MKLFFT_INCLUDE_DIR NAMES fftw3.f03 HINTS ENV MKLROOT ${MKLROOT} PATH_SUFFIXES include/fftw)
 
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(MKLFFT REQUIRED_VARS MKLFFT_LIBRARY MKLFFT_INCLUDE_DIR)
+find_package_handle_standard_args(MKLFFT REQUIRED_VARS MKLFFT_LIBRARY MKLFFT_INCLUDE_DIR
+  REASON_FAILURE_MESSAGE "the environment variable MKLROOT names the folder of MKL")
 mark_as_advanced(MKLFFT_LIBRARY MKLFFT_INCLUDE_DIR)
 
 if(MKLFFT_FOUND AND NOT TARGET MKLFFT::mkl)

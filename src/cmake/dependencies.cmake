@@ -6,7 +6,11 @@ if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSIO
     "choose another compiler with -DCMAKE_Fortran_COMPILER=...")
 endif()
 find_package(OpenMP REQUIRED COMPONENTS Fortran)
-find_package(HDF5 REQUIRED COMPONENTS Fortran)
+find_package(HDF5 COMPONENTS Fortran)
+if(NOT HDF5_Fortran_FOUND)
+  message(FATAL_ERROR "CONTACT needs HDF5 1.10.5 or newer with its Fortran interface (Debian: libhdf5-dev); "
+    "-DHDF5_ROOT=... names its folder")
+endif()
 
 # HDF5 with its Fortran modules. Newer versions of CMake find it as targets, but contact.pc and the static libraries of the program
 # need files
@@ -26,13 +30,13 @@ if(CONTACT_FFT STREQUAL "fftw")
   find_package(FFTW3 REQUIRED)
   set(CONTACT_FFT_SOURCES fftw.f90 library_fftw.f90)
   set(CONTACT_FFT_LIBRARY FFTW3::fftw3)
-  set(CONTACT_FFT_LINK -lfftw3)
+  set(CONTACT_FFT_LINK ${FFTW3_LIBRARY})
   set(CONTACT_FFT_NAME "FFTW 3 (GPL)")
 elseif(CONTACT_FFT STREQUAL "mkl")
   find_package(MKLFFT REQUIRED)
   set(CONTACT_FFT_SOURCES fftw.f90 library_fftw.f90)
   set(CONTACT_FFT_LIBRARY MKLFFT::mkl)
-  set(CONTACT_FFT_LINK -lmkl_rt)
+  set(CONTACT_FFT_LINK ${MKLFFT_LIBRARY})
   set(CONTACT_FFT_NAME "MKL")
 elseif(CONTACT_FFT STREQUAL "pocketfft")
   enable_language(CXX)

@@ -120,14 +120,19 @@ install(FILES ${CMAKE_BINARY_DIR}/contact-config.cmake
 install(EXPORT contact NAMESPACE contact:: FILE contact-targets.cmake
   DESTINATION ${package_folder})
 
-# pkg-config: paths relative to the file, so that the installation can be moved; requirements of the static library
-# are listed for `pkg-config --static`
-file(RELATIVE_PATH pc_prefix
-  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-set(pc_private "${CONTACT_FFT_LINK}")
-# HDF5 is often in a separate folder that linkers do not search
-string(JOIN " " hdf5_private ${CONTACT_HDF5_FILES})
-string(APPEND pc_private " ${hdf5_private}")
-string(APPEND pc_private " -lgfortran -lquadmath -lgomp -lm")
+# pkg-config: paths relative to the file, so that the installation can be moved, also where the folders are given as absolute paths;
+# requirements of the static library are listed for `pkg-config --static`: libraries by their files, because they may be in folders
+# that linkers do not search, and the run-time libraries of the compiler, which differ by processor
+set(pc_folder ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH pc_prefix ${pc_folder} ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH pc_libdir ${pc_folder} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH pc_includedir ${pc_folder} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+set(run_time ${CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES} ${OpenMP_Fortran_LIB_NAMES} m)
+list(REMOVE_DUPLICATES run_time)
+list(FILTER run_time EXCLUDE REGEX "^(gcc|gcc_s|c)$")
+list(TRANSFORM run_time PREPEND -l REGEX "^[^/-]")
+set(pc_private ${CONTACT_FFT_LINK} ${CONTACT_HDF5_FILES} ${run_time})
+list(TRANSFORM pc_private REPLACE " " "\\\\ ")
+string(JOIN " " pc_private ${pc_private})
 configure_file(${PROJECT_SOURCE_DIR}/src/cmake/contact.pc.in ${CMAKE_BINARY_DIR}/contact.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/contact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
