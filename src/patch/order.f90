@@ -12,7 +12,7 @@ module contact_patch_order
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_workspace, only : patch_workspace, prepare_window
    use contact_tangential_problem, only : tangential_problem
-   use contact_tangential_second_order, only : find_edge_terms, second_order, unknown_gap
+   use contact_tangential_second_order, only : bodies_end, find_edge_terms, second_order, unknown_gap
    implicit none (type, external)
    private
 
@@ -157,8 +157,6 @@ contains
       real(wp), allocatable :: un(:, :)
       integer :: ix, iy, jx
 
-      ! parts with reduced interaction have separate displacements
-      if (allocated(problem%parts)) return
       call prepare_window(problem, workspace)
       allocate(un, mold=pn)
       associate (normal => workspace%normal)
@@ -166,8 +164,14 @@ contains
          do iy = box%iy0, box%iy1
             do ix = box%ix0, box%ix1
                jx = ix + direction
-               if (jx < 1 .or. jx > problem%grid%mx .or. .not. pn(ix, iy) > 0.0_wp) cycle
-               if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold) cycle
+               if (.not. pn(ix, iy) > 0.0_wp) cycle
+               if (jx < 1 .or. jx > problem%grid%mx) then
+                  gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = bodies_end
+                  cycle
+               end if
+               if (normal%h(jx, iy) > excluded_threshold) gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = bodies_end
+               ! parts with reduced interaction have separate displacements
+               if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold .or. allocated(problem%parts)) cycle
                ! minus the distance that remains in the leading element, an error of the solution
                gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = max(0.0_wp, normal%h(jx, iy) - normal%h(ix, iy) + un(jx, iy) - un(ix, iy))
             end do

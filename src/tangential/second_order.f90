@@ -18,13 +18,14 @@ module contact_tangential_second_order
    implicit none (type, external)
    private
 
-   public :: find_edge_terms, is_known, second_order, unknown_gap
+   public :: bodies_end, find_edge_terms, is_known, second_order, unknown_gap
 
    !> Edge terms of a tangential problem, and whether its slip is turned
    type :: second_order
       !> Elements with a term, column and row, shape (2, n): the leading ones, then the second and third of their rows
       integer, allocatable :: at(:, :)
-      !> Distance of the surfaces in the element ahead of a leading one [mm], `unknown_gap` where it is not known, shape (mx, my)
+      !> Distance of the surfaces in the element ahead of a leading one [mm], `unknown_gap` where it is not known, `bodies_end`
+      !> where no contact is possible, shape (mx, my)
       real(wp), allocatable :: gap(:, :)
       !> Their terms xx, yy, xy [mm/(N/mm2)], shape (3, n)
       real(wp), allocatable :: kappa(:, :)
@@ -51,6 +52,9 @@ module contact_tangential_second_order
 
    !> Gap that is not known [mm]. Known gaps are not negative, but their changes may take them below zero
    real(wp), parameter :: unknown_gap = -huge(1.0_wp)
+   !> In place of a gap that is not known: the bodies end between this element and the one ahead, so contact ends there at the
+   !> latest
+   real(wp), parameter :: bodies_end = 0.75_wp*unknown_gap
    !> Constants of the half-plane with piecewise constant tractions and steps of one element, by the factorisation of its symbol.
    !> Tractions grow as sqrt(n + d0) behind the edge, n elements from the first one; e0 = exp(l0) scales a term there;
    !> 3/2 - l1 is the ratio of the second to the first traction. l0, l1: Fourier coefficients of the logarithm of the even factor
@@ -60,6 +64,8 @@ module contact_tangential_second_order
    integer, parameter :: passes = 3
    !> Mean position of the edge, used where it is not known [elements]
    real(wp), parameter :: usual_place = 0.5_wp
+   !> Border of an element, and the term of an edge there: the least one where the bodies end
+   real(wp), parameter :: border = 0.5_wp, border_share = (d0 - border)/(1.0_wp - d0 + border)
    !> Bounds for pressures that are not roots of a distance: of the term, of the position and of the other end; chosen
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Passes of positions of edges from gaps, which need slopes, and of slopes from positions; chosen
@@ -95,8 +101,9 @@ contains
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
-      !> Distance of the surfaces in the element ahead [mm], shape (mx, my); `unknown_gap` where it is not known. Only values of
-      !> leading elements are used. The terms are smooth functions of known gaps, also where these pass zero
+      !> Distance of the surfaces in the element ahead [mm], shape (mx, my); `unknown_gap` where it is not known, `bodies_end` where
+      !> no contact is possible. Only values of leading elements are used. The terms are smooth functions of known gaps, also where
+      !> these pass zero
       real(wp), intent(in) :: gap(:, :)
       !> Are pressures a semi-ellipse in each row, at the centres of elements, and not a solution of the contact conditions with
       !> piecewise constant pressures?
@@ -216,6 +223,8 @@ contains
                else if (length(n) > 1) then
                   share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), length(n))
                end if
+               ! pressures grow towards the end of a body, and their ratio does not tell where it is
+               if (ends(gap(ix, iy)) .and. .not. is_root) share(n) = max(share(n), border_share)
                place(n) = direction*ix + d0 - share(n)/(1.0_wp + share(n))
                ix = last
             end do
@@ -272,6 +281,14 @@ contains
 
       is_known = gap > 0.5_wp*unknown_gap
    end function is_known
+
+   !> Do the bodies end at this element?
+   elemental logical function ends(gap)
+      !> [mm]
+      real(wp), intent(in) :: gap
+
+      ends = gap > 0.9_wp*unknown_gap .and. .not. is_known(gap)
+   end function ends
 
    !> Terms behind an oblique edge, one of whose principal values is negative, reduced to a part of the compliance of an element
    pure function bounded(oblique, diagonal) result(terms)
