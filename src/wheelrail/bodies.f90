@@ -152,7 +152,7 @@ contains
             rho = bodies%placement%roller_radius - z
             found = abs(point(1)) < rho
             if (.not. found) return
-            z = bodies%placement%roller_radius - sqrt(rho**2 - point(1)**2)
+            z = z + bodies%placement%roller_drop(point(1), z)
          end if
          facing = plane%axes(3, 3) - z_y*plane%axes(2, 3)
          correction = (z - point(3))/facing

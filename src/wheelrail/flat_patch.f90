@@ -62,12 +62,9 @@ contains
       !> Position along and across the track [mm]
       real(wp), intent(in) :: at(2)
       real(wp) :: point(3)
-      real(wp) :: rho
 
       point = [at, rail%height(at(2))]
-      if (.not. placement%roller_radius > 0.0_wp) return
-      rho = placement%roller_radius - point(3)
-      point(3) = placement%roller_radius - sqrt(max(0.0_wp, rho**2 - at(1)**2))
+      point(3) = point(3) + placement%roller_drop(at(1), point(3))
    end function on_rail
 
    !> Position of the reference of a patch relative to the centre of an element, along x and s of its plane [mm]

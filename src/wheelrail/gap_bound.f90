@@ -105,7 +105,7 @@ contains
             if (bodies%placement%roller_radius > 0.0_wp) then
                rho = bodies%placement%roller_radius - height
                if (.not. near < rho) cycle
-               height = bodies%placement%roller_radius - sqrt(max(0.0_wp, rho**2 - near**2))
+               height = height + bodies%placement%roller_drop(near, height)
             end if
             low(i, j) = height + wheel(j) - rounding
          end do

@@ -83,7 +83,7 @@ contains
             do k = 1, n
                rho = bodies%placement%roller_radius - z(k)
                found(k) = found(k) .and. abs(x(i)) < rho
-               if (found(k)) z(k) = bodies%placement%roller_radius - sqrt(rho**2 - x(i)**2)
+               if (found(k)) z(k) = z(k) + bodies%placement%roller_drop(x(i), z(k))
             end do
          end if
          table(i, rows(:n)) = merge(z(:n), no_surface, found(:n))

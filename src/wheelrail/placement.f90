@@ -43,7 +43,8 @@ contains
       drop = 0.0_wp
       if (.not. self%roller_radius > 0.0_wp) return
       rho = self%roller_radius - z
-      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
+      ! without cancellation, which would leave 1e-7 mm of a radius of 1e9 mm
+      if (rho > 0.0_wp) drop = min(x**2, rho**2)/(rho + sqrt(max(0.0_wp, rho**2 - x**2)))
    end function roller_drop
 
    !> Least height above the axle of a roller that is used [mm]; 0 on a track

@@ -63,7 +63,7 @@ TARGET static int OF(meet)(int pieces, const double *ends, const double *cy, con
       fits &= (MAGNITUDES(q1) <= near * r) & (MAGNITUDES(det) > 0.0);
       p[g] -= dp;
       h[g] -= dh;
-      solved &= MAGNITUDES(dp) + MAGNITUDES(dh) <= tolerance * radius;
+      solved &= MAGNITUDES(dp) + MAGNITUDES(dh) <= tolerance;
       inside &= (p[g] >= c->start) & (p[g] <= c->end);
     }
     if (!ALL_OF(fits)) return 0;

@@ -22,7 +22,7 @@ module contact_wheelrail_wheel_loops
          real(c_double), value :: radius
          !> In the axes of the wheel: a point of the plane for x = 0 [mm], direction of x, direction of the lines
          real(c_double), intent(in) :: base(3), axis(3), along(3)
-         !> Maximum distance from the plane through the axle, and tolerance of the steps; both relative to the radius
+         !> Maximum distance from the plane through the axle, relative to the radius, and tolerance of the steps [mm]
          real(c_double), value :: near, tolerance
          !> Maximum number of steps
          integer(c_int), value :: most_steps

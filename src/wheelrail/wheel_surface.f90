@@ -12,8 +12,9 @@ module contact_wheelrail_wheel_surface
 
    public :: row_from_estimates, wheel_height, wheel_row
 
-   !> Tolerance of a Newton step, relative to the radius: the remaining error is of the order of its square
-   real(wp), parameter :: tolerance = 1.0e-8_wp
+   !> Tolerance of a Newton step, relative to the radius: the remaining error is of the order of its square over the radius of
+   !> curvature of the profile. So a large roller has the tolerance of one whose radius is this multiple of the length of its profile
+   real(wp), parameter :: tolerance = 1.0e-8_wp, large = 10.0_wp
 
 contains
 
@@ -155,7 +156,7 @@ contains
 
       base = seen%origin + seen%axes(:, 2)*s
       call meet_points(size(wheel%y%s) - 1, wheel%y%s, wheel%y%c, wheel%z%c, radius, base, seen%axes(:, 1), seen%axes(:, 3), &
-         & near, tolerance, most_steps, x, piece, place, n, all_found)
+         & near, step_tolerance(wheel, radius), most_steps, x, piece, place, n, all_found)
       done = all_found > 0
    end subroutine meet_together
 
@@ -194,7 +195,7 @@ contains
       !> Position on the profile and distance along the line [mm]: estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
       logical, intent(out) :: found
-      real(wp) :: q(3), y, z, y_s, z_s, r, depth, f(2), j(2, 2), det, step(2), last
+      real(wp) :: q(3), y, z, y_s, z_s, r, depth, f(2), j(2, 2), det, step(2), last, longest
       integer :: iteration, pieces, beyond
       !> Number of successive steps beyond the end of the profile after which the line is taken to miss it
       integer, parameter :: max_beyond = 4
@@ -205,6 +206,7 @@ contains
          last = nodes(pieces + 1)
          place = min(max(place, nodes(1)), last)
          beyond = 0
+         longest = step_tolerance(wheel, radius)
          do iteration = 1, 30
             if (place < nodes(piece) .or. place > nodes(piece + 1)) piece = next_piece(nodes, piece, place)
             q = point + n*k
@@ -227,13 +229,23 @@ contains
             place = place - step(1)
             n = n - step(2)
             if (place < nodes(1) - 1.0_wp .or. place > last + 1.0_wp) return
-            found = abs(step(1)) + abs(step(2)) <= tolerance*radius
+            found = abs(step(1)) + abs(step(2)) <= longest
             beyond = merge(beyond + 1, 0, place < nodes(1) .or. place > last)
             place = min(max(place, nodes(1)), last)
             if (found .or. beyond > max_beyond) return
          end do
       end associate
    end subroutine meet_wheel
+
+   !> Tolerance of a Newton step [mm]
+   pure real(wp) function step_tolerance(wheel, radius) result(longest)
+      !> Profile of a round wheel or roller in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Its radius at the origin of the profile [mm]
+      real(wp), intent(in) :: radius
+
+      longest = tolerance*min(radius, large*(wheel%y%s(size(wheel%y%s)) - wheel%y%s(1)))
+   end function step_tolerance
 
    !> The piece that contains a position, starting from another piece
    pure integer function next_piece(nodes, piece, place) result(next)

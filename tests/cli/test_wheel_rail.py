@@ -368,6 +368,22 @@ class Statements(Case):
         # the common normal goes through both axles
         self.assertAlmostEqual(math.sin(slope), 40.0/(NOMRADR + NOMRADW), delta=2e-4)
 
+    def test_huge_rollers(self):
+        """Rollers of a kilometre and more are a track, with every search: the height of the surface has no cancellation, and lines
+        meet it within a length that does not grow with the radius. From 100 km on pressures were up to half too large, or the
+        force was not found"""
+        for location in (2, 3, 4, 5, 7):
+            found = []
+            for radius in (1e7, 1e6, 1e8, 1e9):
+                text = self.case(side=5, y=3.0, yaw=0.001, location=location, vs=V/radius)
+                results, _ = self.solve(text.replace(" -1 752 0 %g" % NOMRADR, " -1 752 0 %g" % radius))
+                self.assertEqual(results[0]["status"], "solved", (location, radius))
+                totals = results[0]["patches"][0]["totals"]
+                found.append([totals[name]["value"] for name in ("fn", "fx", "fy", "pmax", "pen")])
+            for values in found[1:]:
+                for value, usual in zip(values, found[0]):
+                    self.assertLess(abs(value - usual), 3e-4*abs(usual), (location, values, found[0]))
+
     def test_damping(self):
         """M2 = 2: the damping forces of module 1 are printed in .out, with the sign of the side"""
         lateral = []

@@ -212,7 +212,7 @@ static void try_points(const loops *kind, double *place, double *n) {
     place[k] = 11.5;
     n[k] = 0.0;
   }
-  check(kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 1e-8, 6, x, &piece, place, n), "points of the wheel are found", 8);
+  check(kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 4.6e-6, 6, x, &piece, place, n), "points of the wheel are found", 8);
   for (int k = 0; k < 8; k++) {
     const double t = place[k] - ends[0], r = radius + z[0] + t * (z[1] + t * (z[2] + t * z[3]));
     double q[3];
@@ -226,7 +226,7 @@ static void try_points(const loops *kind, double *place, double *n) {
   memcpy(before[1], n, sizeof before[1]);
   check(piece >= 1 && piece <= 3 && place[0] >= ends[piece - 1] && place[0] <= ends[piece], "the piece is that of the first point", piece);
   ends[3] = fmin(place[0], place[7]) - 1e-3;
-  check(!kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 1e-8, 6, x, &piece, place, n),
+  check(!kind->meet(3, ends, cy[0], cz[0], radius, base, axis, along, 0.5, 4.6e-6, 6, x, &piece, place, n),
         "points beyond the profile are not found", 8);
   check(!memcmp(before[0], place, sizeof before[0]) && !memcmp(before[1], n, sizeof before[1]), "and are not changed", 8);
 }
