@@ -13,7 +13,8 @@ module contact_wheelrail_wheel_surface
    public :: row_from_estimates, wheel_height, wheel_row
 
    !> Tolerance of a Newton step, relative to the radius: the remaining error is of the order of its square over the radius of
-   !> curvature of the profile. So a large roller has the tolerance of one whose radius is this multiple of the length of its profile
+   !> curvature of the profile, so a large roller has the tolerance of one whose radius is this multiple of the length of its
+   !> profile
    real(wp), parameter :: tolerance = 1.0e-8_wp, large = 10.0_wp
 
 contains
