@@ -55,6 +55,7 @@ contains
       result%cphi = problem%spin
       result%flx = 0.0_wp
       result%k_eff = 0.0_wp
+      result%centre = 0.0_wp
       result%sensitivity = 0.0_wp
       result%nplast = 0
       result%outer_iterations = 0

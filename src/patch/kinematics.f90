@@ -25,9 +25,9 @@ contains
    pure subroutine rigid_slip(problem, result, spin_weight)
       !> Creepages, spin with its centre, extra slip, distance per step
       type(patch_problem), intent(in) :: problem
-      !> The rigid slip `wx`, `wy` per step is set [mm]
+      !> The rigid slip `wx`, `wy` per step is set [mm]; in simplified theory its centre of the contact is used
       type(patch_result), intent(inout) :: result
-      !> Weights of the spin term in x and y, for simplified theory [-]; default 1
+      !> Weights of the spin about the centre of the contact, in x and y, for simplified theory [-]; default 1
       real(wp), intent(in), optional :: spin_weight(2)
       real(wp) :: x0, y0, cx, cy, spin(2), offset
       integer :: ix, iy
@@ -38,7 +38,13 @@ contains
       cx = merge(problem%creep(1), 0.0_wp, problem%n_forces < 1)
       cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
       spin = problem%spin_weight*problem%spin
-      if (present(spin_weight)) spin = spin_weight*spin
+      if (present(spin_weight)) then
+         cx = cx - spin(1)*(result%centre(2) - problem%spin_centre(2))
+         cy = cy + spin(2)*(result%centre(1) - problem%spin_centre(1))
+         x0 = result%centre(1) - offset*cos(problem%chi)
+         y0 = result%centre(2) - offset*sin(problem%chi)
+         spin = spin_weight*spin
+      end if
       do ix = 1, problem%grid%mx
          result%wy(ix, 1) = problem%dq*(cy + spin(2)*(problem%grid%x(ix) - x0))
       end do

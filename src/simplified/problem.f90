@@ -20,8 +20,11 @@ module contact_simplified_problem
       !> Flexibility [mm3/N], for the model with a single one
       real(wp) :: flx = 0.0_wp
       type(slope_reduction) :: reduction
-      !> Ellipse of the Hertz solution; zero for non-Hertzian geometries
+      !> Ellipse of the Hertz solution, whose centre is the origin; zero for non-Hertzian geometries
       type(ellipse) :: hertz
+      !> Is the origin the centre of any contact area, as the contact reference of wheel on rail is? Otherwise the centre of a
+      !> non-Hertzian one is that of its bounding box
+      logical :: is_centred = .false.
    end type simplified_model
 
    !> Data on the elements of the tangential problem; constant during the solution
@@ -63,7 +66,10 @@ module contact_simplified_problem
       real(wp) :: force(2) = 0.0_wp
       !> Tolerance of the relative forces [-]
       real(wp) :: eps = 1.0e-6_wp
-      !> The components from here on are set by complete_problem: ellipse with the area of the contact area, and ellipse that
+      !> The components from here on are set by complete_problem. It refers creepages to the centre of the contact, by adding this
+      !> part of the spin [-]
+      real(wp) :: from_spin(2) = 0.0_wp
+      !> Ellipse with the area of the contact area, and ellipse that
       !> determines the flexibilities; flexibilities at vanishing creepage [mm3/N]
       type(ellipse) :: area, reference
       !> Centre of the bounding box of the contact area [mm]
@@ -80,7 +86,7 @@ module contact_simplified_problem
       integer, allocatable :: division(:, :)
       !> Coefficient of friction that was used, shape (my) [-]
       real(wp), allocatable :: mu(:)
-      !> Creepages, prescribed or found [-]
+      !> Creepages at the centre of the contact, prescribed or found [-]
       real(wp) :: creep(2) = 0.0_wp
       !> Flexibilities [mm3/N] before slope reduction, reduction factor [-], flexibilities after it [mm3/N]
       real(wp) :: flx(3) = 0.0_wp, slope = 1.0_wp, compliance(2) = 0.0_wp
@@ -93,13 +99,19 @@ module contact_simplified_problem
 contains
 
    !> Determine ellipses and flexibilities, and allocate the arrays of the solution
+   !>
+   !> The flexibilities of creepages and spin are those of an ellipse that turns about its centre. So a spin about another point is
+   !> one about the centre and a creepage.
    subroutine complete_problem(problem, solution)
-      !> Grid, pressures, model and creepages on entry; ellipses and flexibilities are added
+      !> Grid, pressures, model and creepages on entry; ellipses and flexibilities are added, and creepages refer to the centre of
+      !> the contact
       type(simplified_problem), intent(inout) :: problem
       !> Its arrays get the size of the grid
       type(simplified_solution), intent(inout) :: solution
       type(bounding_box) :: box
+      real(wp) :: middle(2), away(2)
       integer :: mx, my, n
+      logical :: is_ellipse
 
       mx = size(problem%contact, 1)
       my = size(problem%contact, 2)
@@ -107,7 +119,14 @@ contains
       if (n > 0) problem%centre = 0.5_wp*[problem%x(box%ix0) + problem%x(box%ix1), problem%y(box%iy0) + problem%y(box%iy1)]
       problem%area = equivalent_ellipse(n, box, problem%dx, problem%dy)
       problem%reference = problem%area
-      if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz
+      is_ellipse = min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp
+      if (is_ellipse) problem%reference = problem%model%hertz
+      middle = problem%centre
+      if (is_ellipse .or. problem%model%is_centred) middle = 0.0_wp
+      away = middle - problem%spin_centre
+      problem%from_spin = problem%spin*problem%spin_weight*[-away(2), away(1)]
+      problem%creep = problem%creep + problem%from_spin
+      problem%spin_centre = middle
       if (problem%model%choice == material_model%fastsim_single) then
          problem%flx0 = problem%model%flx
       else

@@ -409,6 +409,7 @@ contains
          patch%creep = [slot%motion%cksi, slot%motion%ceta]
          patch%spin = slot%motion%cphi
          patch%spin_centre = 0.0_wp
+         if (allocated(patch%simplified)) patch%simplified%is_centred = .true.
          patch%chi = 0.0_wp
          patch%dq = 1.0_wp
          patch%veloc = 1.0_wp
