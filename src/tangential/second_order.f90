@@ -287,7 +287,7 @@ contains
       !> [mm]
       real(wp), intent(in) :: gap
 
-      ends = gap > 0.9_wp*unknown_gap .and. .not. is_known(gap)
+      ends = gap > 0.5_wp*unknown_gap + 0.5_wp*bodies_end .and. .not. is_known(gap)
    end function ends
 
    !> Terms behind an oblique edge, one of whose principal values is negative, reduced to a part of the compliance of an element
