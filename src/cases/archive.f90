@@ -64,6 +64,8 @@ module contact_cases_archive
       logical, private :: has_ended = .false.
       !> Are values set by the archive?
       logical :: is_reading = .false.
+      !> Have values names of their own, so that any of them may be left out?
+      logical :: has_names = .false.
       !> Do the rules of the published interface of the library apply? With two coefficients of Coulomb friction, the smaller one is
       !> used instead of the static one, and distances of patches are not compared
       logical :: of_library = .false.

@@ -129,7 +129,7 @@ contains
          if (force == force_control%fx_and_fy .and. max(abs(k%fx), abs(k%fy)) <= 1.0_wp .and. hypot(k%fx, k%fy) > 1.0_wp) &
             & call a%refuse("FY", " and " // trim(a%shown("FX")) // " exceed the friction bound: FX**2 + FY**2 = " // &
             & real_text(hypot(k%fx, k%fy)**2) // " is above its upper bound 1")
-         if (a%was_given("SPINXO") .and. .not. a%was_given("SPINYO")) then
+         if (a%was_given("SPINXO") .and. .not. (a%was_given("SPINYO") .or. a%has_names)) then
             call a%warn("SPINXO", " is given without SPINYO; both are set to 0")
             k%spinxo = 0.0_wp
          end if

@@ -58,6 +58,7 @@ contains
       type(toml_reader) :: reader
 
       reader%is_reading = .true.
+      reader%has_names = .true.
       reader%document => document
       reader%case_node = case_node
       reader%problems => problems

@@ -230,6 +230,33 @@ class Readable(unittest.TestCase):
             told = re.search(r"\nh = \[([^]]*)\]", (self.folder / "list.toml").read_text())[1]
             self.assertEqual([float(word) for word in told.split(",")], values)
 
+    def test_spin_centre_with_a_zero(self):
+        """A coordinate of zero is left out of converted files, and is zero when they are read; both were set to zero"""
+        forces = {}
+        for x, y in (0.0, 0.0), (0.7, 0.0), (0.0, 0.7), (0.7, 0.7):
+            (self.folder / "a.inp").write_text(f"""3 MODULE
+                203100 PBTNFS
+                022020 LDCMZE
+                0000101 HGIAOWR
+                999 100 30 1 1e-6
+                1000 0.001 0 0.002 {x} {y} FN CKSI CETA CPHI SPINXO SPINYO
+                0.3 0.3
+                0d 0.3 1000
+                0.28 0.28 82000 82000
+                -3
+                12 12 3 3 1.2
+                0 END""")
+            self.assertEqual(self.run_program("2", "a", "--quiet", "--json")[::2], (0, ""))
+            told = (self.folder / "a.jsonl").read_text()
+            self.assertEqual(self.run_program("convert", "--force", "a.inp")[::2], (0, ""))
+            status, _, errors = self.run_program("2", "a.toml", "--quiet", "--json")
+            self.assertEqual((status, errors), (0, ""))
+            again = (self.folder / "a.jsonl").read_text()
+            found = [json.loads(text.split("\n")[0])["patches"][0]["totals"] for text in (told, again)]
+            self.assertEqual(found[0], found[1], (x, y))
+            forces[x, y] = found[0]["fx"]["value"], found[0]["fy"]["value"]
+        self.assertEqual(len(set(forces.values())), 4, forces)
+
     def test_a_case_by_hand(self):
         status, out, errors = self.check("# a ball\n" + HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n")
         self.assertEqual((status, errors), (0, ""), out)
