@@ -74,7 +74,6 @@ contains
          call a%real("Y1", geometry%y1)
          call a%real("DY1", geometry%dy1)
          call a%end_line()
-         if (n == 1) call a%refuse("NN", " is below its lower bound 2")
          call a%list("B", geometry%profile, n)
       case (distance_form%quadratic_and_sines)
          list = geometry%b

@@ -267,7 +267,7 @@ module contact_text_bounds
       & number_bounds("B(IBASE3)", "mm ...", "parameters of the undeformed distance", &
       & -rigid, rigid, .false., "as B; the radius of a flat body may be 1e20"), &
       & number_bounds("NN", "integer", "number of points of the profile", &
-      & 1.0_wp, 999999.0_wp, .false., "a number of points"), &
+      & 2.0_wp, 999999.0_wp, .false., "two points or more determine a line"), &
       & number_bounds("XM", "mm", "x of the highest point", &
       & -far, far, .false., "1 km from the contact"), &
       & number_bounds("RM", "mm", "radius along x", &
