@@ -134,6 +134,9 @@ contains
          why = "damping: it needs the forces of the case before"
       else if (spec%slip_source == slip_source%given .and. spec%motion /= motion%none) then
          why = "rigid slip that is given element by element"
+      else if (.not. allocated(spec%wheel_rail) .and. spec%grid%needs_geometry() &
+         & .and. spec%geometry%planform /= planform_choice%unrestricted) then
+         why = "a planform: its border lies within elements, and the error of its place has no estimate"
       else if (spec%variation == variation%by_row .and. .not. allocated(spec%wheel_rail) .and. spec%motion /= motion%none) then
          why = "friction that is given row by row"
       else if (spec%has_stress .and. allocated(spec%subsurface%blocks)) then

@@ -238,6 +238,13 @@ class Accuracy(Runs):
             (self.folder / (name + ".inp")).write_text(rolling(**choice) + " 0 MODULE\n")
             said = self.run_program("--accuracy", "1e-3", "2", name, status=1)
             self.assertIn("the grid cannot be chosen with " + why, said)
+        # estimates of the approach were a seventh to a fourteenth of the error, which was called reached
+        planform = rolling().replace("-3 IPOTCN", "1 IPOTCN").replace("14 14 3 5 1.2", "14 14 -4 -6 0.57 0.86")
+        for shape in "2\n1 0 1 0 0 -4", "3\n-9 9 -1.1 1.1 8 9 8 9", "4\n1\n-9 9 -1.1 1.1":
+            text = planform + "1 " + shape.replace("\n", "\n0.002 0 0.001 0 0 0\n", 1) + "\n 0 MODULE\n"
+            (self.folder / "planform.inp").write_text(text)
+            self.assertIn("cannot be chosen with a planform", self.run_program("--accuracy", "1e-3", "2", "planform", status=1))
+            self.assertIn("1 solved", self.run_program("2", "planform"))
         oblique = rolling().replace("0 0.5 30000 CHI", "1.57 0.5 30000 CHI")
         (self.folder / "oblique.inp").write_text(oblique + " 0 MODULE\n")
         self.assertIn("not along x", self.run_program("--accuracy", "1e-3", "2", "oblique", status=1))
