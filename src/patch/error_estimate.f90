@@ -181,6 +181,8 @@ contains
          scale%friction = max(scale%friction, difference)
          if (fine%rows(k)%scale /= error_scale%moment) scale%forces = max(scale%forces, difference)
       end do
+      scale%peak = error_of_peak(problem, result, scale, &
+         & load**power_of_load(fine%rows(fine%place_of("pmax")))*peak_of(level%result%pn), details)/max(result%pmax, tiny(load))
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled
       do k = 1, fine%length
@@ -188,8 +190,7 @@ contains
          difference = difference_of(fine, coarse, k)
          if (difference < 0.0_wp) cycle
          if (fine%rows(k)%name == "pmax") then
-            result%errors%value(k) = error_of_peak(problem, result, scale, &
-               & load**power_of_load(fine%rows(k))*peak_of(level%result%pn), details)
+            result%errors%value(k) = scale%peak*result%pmax
          else
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if

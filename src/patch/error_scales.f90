@@ -100,6 +100,10 @@ module contact_patch_error_scales
       logical :: jumps = .false.
       !> Ratio of element length to relaxation length of viscoelastic bodies, at most 1; 0: elastic
       real(wp) :: relaxation = 0.0_wp
+      !> Number of elements across the contact in the rolling direction
+      real(wp) :: along = 1.0_wp
+      !> Relative error of the largest pressure [-]
+      real(wp) :: peak = 0.0_wp
       !> Order of the highest temperatures
       real(wp) :: heat_order = peak_order
       !> Temperatures of the bodies outside the contact [degC]
@@ -149,11 +153,16 @@ module contact_patch_error_scales
 contains
 
    !> Factor of lower bounds for errors that the levels do not show, as a direction has few elements [-]
-   pure real(wp) function unseen(scale)
+   pure real(wp) function unseen(scale, across)
       !> Number of elements across
       type(scale_type), intent(in) :: scale
+      !> The same of the direction that matters; default: that of the fewest elements
+      real(wp), intent(in), optional :: across
+      real(wp) :: n
 
-      unseen = merge(usual, 1.0_wp, scale%across < resolved)
+      n = scale%across
+      if (present(across)) n = across
+      unseen = merge(usual, 1.0_wp, n < resolved)
    end function unseen
 
    !> Mean coefficient of friction, weighted with pressure [-]
@@ -191,6 +200,7 @@ contains
       scale%across = max(single_row, real(minval(across), wp))
       extent = across*[result%grid%dx, result%grid%dy]
       scale%mean_across = sqrt(real(product(across), wp))
+      scale%along = max(single_row, across(1)*abs(cos(problem%chi)) + across(2)*abs(sin(problem%chi)))
       scale%slender = sqrt(maxval(extent)/minval(extent))
       if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) then
          scale%is_line = .true.

@@ -38,9 +38,13 @@ module contact_patch_level_errors
    !> Full sliding in a shift: largest part of the bound that cancels if slip has the same direction everywhere; chosen
    real(wp), parameter :: one_direction = 0.1_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
-   !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area:
-   !> the usual error by the second order is 2 n^-2 of the rise (seeds 71 and 73). Smallest part that slips, chosen
+   !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area,
+   !> by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise (seeds 71 and 73).
+   !> Smallest part that slips, chosen
    real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, least_slip = 0.1_wp
+   !> The same by the pressures: the heat of a row of elements is in proportion to them. Fraction of the relative error of the
+   !> largest pressure; of wheels (seeds 51601 and 51611)
+   real(wp), parameter :: heat_of_peak = 0.7_wp
    !> Power of the motion with spin, by the second order: factor of the turn of the slip direction times n^-2 (seed 71002)
    real(wp), parameter :: turning_power_floor = 0.03_wp
    !> Frictional power by the second order: the surplus of a single grid is small by chance at some offsets. Factor of n^-2, and
@@ -148,7 +152,6 @@ contains
          return
       case (error_law%peak)
          call bound_temperature(row, difference, scale, e, least)
-         least = unseen(scale)*least
       case default
          e = difference/(coarsening**jump_order - 1.0_wp)
          floor = unseen(scale)*area_floor/scale%across
@@ -175,9 +178,14 @@ contains
       case default
          bulk = maxval(scale%bulk)
       end select
-      slipping = scale%mean_across*max(least_slip, 1.0_wp - scale%sticking)
-      floor = abs(row%value - bulk)*merge((temperature_floor(2) + turning_temperature_floor*scale%turning)/slipping**2, &
-         & temperature_floor(1)/slipping, scale%jumps)
+      slipping = max(least_slip, 1.0_wp - scale%sticking)
+      if (scale%jumps) then
+         floor = unseen(scale)*(temperature_floor(2) + turning_temperature_floor*scale%turning)/(scale%mean_across*slipping)**2
+      else
+         ! tractions of first order are displaced along the rolling direction
+         floor = unseen(scale, scale%along)*temperature_floor(1)/(scale%along*slipping)
+      end if
+      floor = abs(row%value - bulk)*max(floor, heat_of_peak*scale%peak)
       e = difference/(coarsening**merge(normal_order, scale%heat_order, scale%jumps .and. scale%heat_order >= first_order) - 1.0_wp)
    end subroutine bound_temperature
 

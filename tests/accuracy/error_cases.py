@@ -113,9 +113,13 @@ def _layer(random, c, b1, b3, full):
              material=f"gg3 = {c['gg'][0] / 100.0!r}\nlaythk = {thickness!r}\ntau_c0 = 0.0\nk_tau = 0.0\n")
 
 
+#: Surface temperatures of bodies of steel at 20 degC
+STEEL = ('[case.heat]\nmodel = "flash"\nbktemp1 = 20.0\nheatcp1 = 450.0\nlambda1 = 0.05\ndens1 = 7.85e-6\n'
+         "bktemp2 = 20.0\nheatcp2 = 450.0\nlambda2 = 0.05\ndens2 = 7.85e-6\n")
+
+
 def _heat(random, c, b1, b3, full):
-    c["extra"] = ('[case.heat]\nmodel = "flash"\nbktemp1 = 20.0\nheatcp1 = 450.0\nlambda1 = 0.05\ndens1 = 7.85e-6\n'
-                  "bktemp2 = 20.0\nheatcp2 = 450.0\nlambda2 = 0.05\ndens2 = 7.85e-6\n")
+    c["extra"] = STEEL
     c["creep"] = tuple(2.0 * x for x in c["creep"])
 
 
@@ -228,6 +232,14 @@ def _one_force(random, c, b1, b3, full):
     _spun(random, c, full)
 
 
+def _with_heat(change):
+    """A kind with surface temperatures."""
+    def changed(random, c, b1, b3, full):
+        change(random, c, b1, b3, full)
+        _heat(random, c, b1, b3, full)
+    return changed
+
+
 def _two(random, c, b1, b3, full):
     """Two circles side by side, one of them lower."""
     b, n = c["b"], 2001
@@ -245,6 +257,9 @@ CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _for
 FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts, "steps": _steps,
            "slender": _slender, "layer_spin": _layer_spin, "dissimilar_spin": _dissimilar_spin,
            "viscoelastic_spin": _viscoelastic_spin, "falling_forces": _falling_forces, "one_force": _one_force, "two": _two}
+FURTHER |= {f"{name}_heat": _with_heat(change)
+            for name, change in (("dissimilar", _dissimilar_spin), ("layer", _layer_spin), ("viscoelastic", _viscoelastic_spin),
+                                 ("profile", _profile), ("two", _two), ("slender", _slender))}
 #: Kinds without second order: steps of the same length on finer grids
 FIRST_ORDER = ("transient", "steps")
 
@@ -289,6 +304,18 @@ def text_of(c, n, offset, eps=1e-6, options=""):
                   "[case.grid]", 'form = "corner_and_sides"', f"mx = {n + 1}", f"my = {n + 1}", f"xl = {xl!r}", f"yl = {yl!r}",
                   f"dx = {dx!r}", f"dy = {dy!r}", "[case.geometry]", c["geometry"], c["extra"]]
     return "\n".join(lines) + "\n"
+
+
+#: Points below the surface of a patch of wheel and rail [mm]
+WHEEL_POINTS = """[case.stress_output]
+matfil_s = 0
+output_s = 0
+[[case.stress_points]]
+points = "free"
+x = [-2.0, 0.0, 2.0]
+y = [-1.5, 0.0, 1.5]
+z = [0.7, 1.2, 2.0, 3.2, 5.0]
+"""
 
 
 def wheel(random):
@@ -406,4 +433,4 @@ fz = {c["fz"]!r}
 [case.velocity]
 {speed}
 {given}
-"""
+{STEEL}{WHEEL_POINTS}"""

@@ -208,7 +208,7 @@ def judge_wheels(program, seed, count, folder, options, places=1, only=(), pairs
     wheels = [any_wheel(source, profiles) if pairs else wheel(source) for _ in range(count)]
     if only:
         wheels = [wheels[k] for k in only]
-    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], f in WHEEL_PLACES, options)
+    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], True, options)
              for f in (*WHEEL_PLACES[:places], *FINER)}
     return [(c, round(10.0 / c["dx"]), [v for v in (wheel_values(c, [grids[f].get(number, {}) for f in (place, *FINER)])
                                                     for place in WHEEL_PLACES[:places]) if v])
@@ -230,7 +230,9 @@ def wheel_values(c, records):
         parts = [r["patches"][0] for r in records]
         # without slip the power is zero
         values.update({name: ratio_of(parts, name, order, abs(patches[0][name]["value"]) or 1.0)
-                       for name, order in (("pmax", 2), ("contact_area", 1), ("friction_power", 1), ("elastic_energy", 2))
+                       for name, order in (("pmax", 2), ("contact_area", 1), ("friction_power", 1), ("elastic_energy", 2),
+                                           ("max_temp2", 1), ("max_mises", 2), ("max_tresca", 2))
+                       # points below the surface may be too close to it
                        if f"{name}_error" in parts[0]["errors"]})
         values["patch_mz"] = ratio_of(parts, "mz", 1, bound * math.sqrt(patches[0]["contact_area"]["value"] / math.pi))
     return values
