@@ -43,8 +43,8 @@ module contact_cases_stress_errors
    !> the second derivative vanishes; chosen
    real(wp), parameter :: least_curvature = 0.05_wp
    !> Lower bound, for peaks that are not resolved: the error of the largest pressure over the depth in elements to this power, as
-   !> elements carry the load of such a peak, so that only its distribution within the width of an element has an error; ratio of the
-   !> largest equivalent stress to the largest pressure, by Hertz's theory 0.56 to 0.62
+   !> elements carry the load of such a peak, so that only its distribution within the width of an element has an error. Ratio of
+   !> the largest equivalent stress to the largest pressure, by Hertz's theory 0.56 to 0.62
    real(wp), parameter :: peak_decrease = 2.0_wp, peak_share = 0.6_wp
    !> Lower bound: fraction of the error of pressures by the levels. Where it exceeds three times that of second order, errors were
    !> 0.3 to 0.5 of it in the median, from 6 to 70 elements across (seeds 51501, 51511, 51601 and 51611)
