@@ -39,8 +39,8 @@ module contact_patch_level_errors
    real(wp), parameter :: one_direction = 0.1_wp
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area,
-   !> by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise (seeds 71 and 73).
-   !> Smallest part that slips, chosen
+   !> in full sliding by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise
+   !> (seeds 71 and 73). Smallest part that slips, chosen
    real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, least_slip = 0.1_wp
    !> The same by the pressures: the heat of a row of elements is in proportion to them. Fraction of the relative error of the
    !> largest pressure; of wheels (seeds 51601 and 51611)
@@ -168,7 +168,7 @@ contains
       type(scale_type), intent(in) :: scale
       !> Error by the levels, and lower bound [degC]
       real(wp), intent(out) :: e, floor
-      real(wp) :: bulk, slipping
+      real(wp) :: bulk, slipping, sliding
 
       select case (row%name)
       case ("max_temp1")
@@ -182,8 +182,10 @@ contains
       if (scale%jumps) then
          floor = unseen(scale)*(temperature_floor(2) + turning_temperature_floor*scale%turning)/(scale%mean_across*slipping)**2
       else
-         ! tractions of first order are displaced along the rolling direction
-         floor = unseen(scale, scale%along)*temperature_floor(1)/(scale%along*slipping)
+         ! in full sliding tractions of first order have errors along the rolling direction only
+         sliding = sliding_part(scale%sticking)
+         floor = temperature_floor(1)/slipping*(sliding*unseen(scale, scale%along)/scale%along &
+            & + (1.0_wp - sliding)*unseen(scale)/scale%mean_across)
       end if
       floor = abs(row%value - bulk)*max(floor, heat_of_peak*scale%peak)
       e = difference/(coarsening**merge(normal_order, scale%heat_order, scale%jumps .and. scale%heat_order >= first_order) - 1.0_wp)
