@@ -370,8 +370,8 @@ def any_wheel(random, profiles):
     return c
 
 
-def wheel_text(c, factor, profiles, sides=None):
-    """The case of a wheel with elements smaller by a factor, or of given sides (dx, ds) [mm].
+def wheel_text(c, factor, profiles, sides=None, full=False):
+    """The case of a wheel with elements smaller by a factor, or of given sides (dx, ds) [mm]; full: with temperatures and stresses.
 
     Profiles are those of the folder, or those with names of their own.
     """
@@ -433,4 +433,4 @@ fz = {c["fz"]!r}
 [case.velocity]
 {speed}
 {given}
-{STEEL}{WHEEL_POINTS}"""
+{STEEL + WHEEL_POINTS if full else ""}"""

@@ -210,7 +210,7 @@ def judge_wheels(program, seed, count, folder, options, places=1, only=(), pairs
     wheels = [any_wheel(source, profiles) if pairs else wheel(source) for _ in range(count)]
     if only:
         wheels = [wheels[k] for k in only]
-    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], True, options)
+    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles, full=True) for c in wheels], True, options)
              for f in (*WHEEL_PLACES[:places], *FINER)}
     return [(c, round(10.0 / c["dx"]), [v for v in (wheel_values(c, [grids[f].get(number, {}) for f in (place, *FINER)])
                                                     for place in WHEEL_PLACES[:places]) if v])
