@@ -25,7 +25,7 @@ module contact_patch_error_estimate
    use contact_patch_result, only : patch_result
    use contact_patch_sliding_errors, only : find_direction_errors
    use contact_patch_solve, only : solve_patch
-   use contact_patch_traction_errors, only : is_sliding, traction_error
+   use contact_patch_traction_errors, only : errors_in_sliding, is_sliding, is_turning, traction_error
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
    private
@@ -136,7 +136,7 @@ contains
       type(section_details), intent(in), optional :: details
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
-      real(wp) :: load, difference, coarse_energy
+      real(wp) :: load, difference, coarse_energy, parts(2)
       integer :: k
 
       if (result%errors%reason /= "") return
@@ -183,8 +183,15 @@ contains
       end do
       scale%peak = error_of_peak(problem, result, scale, &
          & load**power_of_load(fine%rows(fine%place_of("pmax")))*peak_of(level%result%pn), details)/max(result%pmax, tiny(load))
+      scale%turned_force = turned_force(fine, coarse)/max(scale%force, tiny(load))
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled
+      result%errors%has_turned = scale%has_turned .or. is_turning(scale)
+      if (result%errors%has_turned) then
+         parts = scale%force*(errors_in_sliding(scale) + maxval(result%errors%stopping) + result%errors%window)
+         result%errors%turned = parts(1)
+         result%errors%shortened = parts(2)
+      end if
       do k = 1, fine%length
          if (is_given(problem, fine%rows(k)%name, present(approach_change))) cycle
          difference = difference_of(fine, coarse, k)
@@ -210,6 +217,26 @@ contains
       place = coarse%place_of(fine%rows(row)%name, row)
       if (coarse%rows(place)%name == fine%rows(row)%name) difference = abs(fine%rows(row)%value - coarse%rows(place)%value)
    end function difference_of
+
+   !> Difference of the tangential force between the levels: across it, and along it [N]
+   pure function turned_force(fine, coarse) result(change)
+      !> Totals of both levels
+      type(total_list), intent(in) :: fine, coarse
+      real(wp) :: change(2), force(2)
+
+      force = [fine%rows(fine%place_of("fx"))%value, fine%rows(fine%place_of("fy"))%value]
+      change = to_force(force - [coarse%rows(coarse%place_of("fx"))%value, coarse%rows(coarse%place_of("fy"))%value], &
+         & force/max(norm2(force), tiny(force)))
+   end function turned_force
+
+   !> Components of a vector across and along a direction
+   pure function to_force(vector, along) result(parts)
+      !> Vector; direction of unit length
+      real(wp), intent(in) :: vector(2), along(2)
+      real(wp) :: parts(2)
+
+      parts = [along(1)*vector(2) - along(2)*vector(1), dot_product(along, vector)]
+   end function to_force
 
    !> Power of the motion on both levels, compared with frictional power, in steady rolling
    pure subroutine compare_powers(problem, result, level, load, scale)
@@ -261,6 +288,9 @@ contains
       change = ratio*([level%result%fx, level%result%fy, level%result%mz] - coarse) - ([result%fx, result%fy, result%mz] - fine)
       scale%turned = fine/unit
       scale%not_turned = change/((coarsening**normal_order - 1.0_wp)*unit)
+      fine(1:2) = [result%fx, result%fy]/max(hypot(result%fx, result%fy), tiny(load))
+      scale%turned(1:2) = to_force(scale%turned(1:2), fine(1:2))
+      scale%not_turned(1:2) = to_force(scale%not_turned(1:2), fine(1:2))
    end subroutine compare_directions
 
    !> Derivative of the normal force with respect to the approach: computed, or by Hertz's theory [N/mm]

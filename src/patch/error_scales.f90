@@ -73,6 +73,8 @@ module contact_patch_error_scales
       logical :: is_moment_alone = .false.
       !> FX and FY over the tangential force, magnitudes [-]
       real(wp) :: direction(2) = 0.0_wp
+      !> Difference of the levels in the tangential force across it, by which it turns, and along it, over the friction bound [-]
+      real(wp) :: turned_force(2) = 0.0_wp
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
       !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady
@@ -139,8 +141,8 @@ module contact_patch_error_scales
       real(wp) :: coarse_surplus = 0.0_wp
       !> Is the power of the motion known? Does frictional power equal it in the exact solution?
       logical :: has_motion_power = .false., balances = .false.
-      !> Errors of FX, FY and MZ in full sliding, over the maximum frictional force and moment: of the directions of tractions, and
-      !> by the rest of the difference of the levels [-]; are they known?
+      !> Errors of the force across it, along it, and of MZ in full sliding by the first order, over the maximum frictional force
+      !> and moment: of the directions of tractions, and by the rest of the difference of the levels [-]; are they known?
       real(wp), dimension(3) :: turned = 0.0_wp, not_turned = 0.0_wp
       logical :: has_turned = .false.
       !> Elastic energy of pressures and of tractions, and differences of the levels in them [J]

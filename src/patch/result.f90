@@ -72,6 +72,10 @@ module contact_patch_result
       real(wp) :: traction = 0.0_wp
       !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in rolling [-]
       real(wp) :: cancelled = 0.0_wp
+      !> Errors of the tangential force of a patch that slides, across it, by which it turns, and along it, by which it is shorter
+      !> [N]. They are independent, errors of FX and FY are not; not known where a part adheres
+      real(wp) :: turned = 0.0_wp, shortened = 0.0_wp
+      logical :: has_turned = .false.
       !> Number of elements in contact on the coarse level
       integer :: ncon = 0
    end type error_estimate

@@ -7,6 +7,7 @@
 module contact_wheelrail_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use contact_base_choices, only : force_control, motion, time_link
+   use contact_base_constants, only : pi
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_patch_between_rows, only : section_details
@@ -23,12 +24,20 @@ module contact_wheelrail_error_estimate
 
    public :: estimate_wheel_rail_errors
 
+   !> Vertical error of the place of a patch over the error of its approach: the mesh of the search and the profiles; measured with
+   !> sliding wheels (seed 62001)
+   real(wp), parameter :: misplaced = 2.0_wp
+
    !> Errors of the forces and moments of wheel and rail, in track coordinates
    type :: pair_error
       !> Of the force on the rail [N], and of the moments about the reference of the rail and of the wheel [N mm]
       real(wp), dimension(3) :: force = 0.0_wp, on_rail = 0.0_wp, on_wheel = 0.0_wp
       !> Of the normal forces by errors of friction and of angles, as the vertical force is prescribed; relative [-]
       real(wp) :: load(max_patches) = 0.0_wp
+      !> Of the creepages by the pitch rate, as the longitudinal force is prescribed; relative [-]
+      real(wp) :: creepage(max_patches) = 0.0_wp
+      !> Of the tangential force of the first patch, along x and y of its plane [N]
+      real(wp) :: friction(2) = 0.0_wp
    contains
       !> Add an independent error
       procedure :: add
@@ -141,6 +150,10 @@ contains
             associate (value => slot%result%errors%value)
                local = [value(patch%place_of("fx")), value(patch%place_of("fy")), value(patch%place_of("fn"))]
                spin = value(patch%place_of("mz"))
+               if (slot%result%errors%has_turned) then
+                  call add_turned_force(problem, memory, k, e)
+                  local(1:2) = 0.0_wp
+               end if
                ! without relative motion there are no tangential forces and no errors of them
                do i = 1, 3
                   if (.not. ieee_is_nan(local(i))) call add_force(problem, memory, k, i, local(i), e)
@@ -149,6 +162,7 @@ contains
                moment = spin*slot%plane%axes(:, 3)
                call e%add(problem%force_prescribed, none, moment, moment)
                if (abs(turn(k)) > 0.0_wp) call add_turn(problem, memory, k, turn(k), e)
+               call add_place(problem, memory, k, value(patch%place_of("pen")), e)
                ! the height follows from the approaches of all patches, each weighted with its stiffness
                stiffness = stiffness_of(slot)
                total = total + stiffness
@@ -159,7 +173,13 @@ contains
          end associate
       end do
       do k = 1, memory%used
-         if (e%load(k) > 0.0_wp) call add_error_of_load(e%load(k), memory%slot(k)%result)
+         associate (result => memory%slot(k)%result)
+            if (e%load(k) > 0.0_wp) call add_error_of_load(e%load(k), result)
+            call result%totals(patch)
+            associate (power => result%errors%value(patch%place_of("friction_power")))
+               power = hypot(power, e%creepage(k)*result%friction_power)
+            end associate
+         end associate
       end do
       call result%totals(problem%spec, pair)
       first = pair%place_of("fx_tr")
@@ -168,10 +188,17 @@ contains
       first = pair%place_of("fx_ws")
       result%errors(first:first + 2) = matmul(abs(transpose(memory%geometry%placement%wheelset%axes)), e%force)
       if (keeps_longitudinal_force(problem)) then
-         call omit_given_force(problem, memory, result%errors(first))
+         result%errors(first) = ieee_value(height, ieee_quiet_nan)
          associate (along => result%errors(pair%place_of("fx_tr")))
-            along = along + problem%template%settings%eps*norm2(total_force(memory))
+            along = along + abs(problem%spec%wheelset%fx &
+               & - dot_product(total_force(memory), memory%geometry%placement%wheelset%axes(:, 1)))
          end associate
+         ! the error of FX of a single patch follows from that of FY
+         if (memory%used == 1) then
+            associate (value => memory%slot(1)%result%errors%value)
+               value(patch%place_of("fx"):patch%place_of("fy")) = e%friction
+            end associate
+         end if
       end if
       first = pair%place_of("mx_r_tr")
       result%errors(first:first + 2) = e%on_rail
@@ -186,28 +213,6 @@ contains
 
       keeps = problem%force == force_control%longitudinal_force
    end function keeps_longitudinal_force
-
-   !> A prescribed longitudinal force has no error; that of a single patch follows from its lateral force
-   subroutine omit_given_force(problem, memory, error)
-      type(wheel_rail_problem), intent(in) :: problem
-      !> Errors of a single patch are changed
-      type(wheel_rail_memory), intent(inout) :: memory
-      !> Error of the prescribed force: not known [N]
-      real(wp), intent(out) :: error
-      type(total_list) :: patch
-      real(wp) :: along(3)
-
-      error = ieee_value(error, ieee_quiet_nan)
-      if (memory%used /= 1) return
-      associate (slot => memory%slot(1))
-         along = abs(matmul(memory%geometry%placement%wheelset%axes(:, 1), slot%plane%axes))
-         call slot%result%totals(patch)
-         associate (value => slot%result%errors%value)
-            value(patch%place_of("fx")) = along(2)/along(1)*value(patch%place_of("fy")) &
-               & + problem%template%settings%eps*norm2(slot%force)
-         end associate
-      end associate
-   end subroutine omit_given_force
 
    !> Change of the force on the rail if a patch turns about the track's direction [N]
    pure function turned_force(slot, turn) result(change)
@@ -255,6 +260,72 @@ contains
       call add_change(problem, memory, change, component /= 3, e)
    end subroutine add_force
 
+   !> Add the effect of the errors of the force of a patch that slides, across and along it
+   pure subroutine add_turned_force(problem, memory, k, e)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Patch
+      integer, intent(in) :: k
+      type(pair_error), intent(inout) :: e
+      real(wp) :: change(3, memory%used), along(2)
+
+      associate (slot => memory%slot(k))
+         along = slot%force(1:2)/max(norm2(slot%force(1:2)), tiny(along))
+         change = 0.0_wp
+         change(:, k) = slot%result%errors%turned*matmul(slot%plane%axes(:, 1:2), [-along(2), along(1)])
+         call add_change(problem, memory, change, .true., e)
+         change = 0.0_wp
+         change(:, k) = slot%result%errors%shortened*matmul(slot%plane%axes(:, 1:2), along)
+         call add_change(problem, memory, change, .true., e)
+      end associate
+   end subroutine add_turned_force
+
+   !> Add the effect of an error of the place of a patch, by which its rolling radius and creepage change
+   subroutine add_place(problem, memory, k, approach, e)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Patch
+      integer, intent(in) :: k
+      !> Error of its approach [mm]; NaN: not known
+      real(wp), intent(in) :: approach
+      type(pair_error), intent(inout) :: e
+      real(wp) :: change(3, memory%used)
+
+      if (ieee_is_nan(approach)) return
+      change = 0.0_wp
+      change(:, k) = misplaced*approach/memory%geometry%placement%wheel_radius*change_by_pitch(memory%slot(k))
+      call add_change(problem, memory, change, .true., e)
+   end subroutine add_place
+
+   !> Change of the force of a patch with the longitudinal creepage [N]
+   !>
+   !> Force and creepage have the same direction by the theory of Vermeulen and Johnson, the force the size u of the friction bound
+   !> where the creepage is in proportion to 1 - (1 - u)^(1/3). In full sliding the force turns only.
+   pure function change_by_pitch(slot) result(change)
+      type(patch_slot), intent(in) :: slot
+      real(wp) :: change(3), along(2), friction, u, root, growth
+
+      change = 0.0_wp
+      friction = norm2(slot%force(1:2))
+      if (.not. (friction > 0.0_wp .and. slot%result%fn > 0.0_wp)) return
+      along = slot%force(1:2)/friction
+      u = min(1.0_wp, friction/(slot%result%mu_scal*slot%result%fn))
+      root = (1.0_wp - u)**(1.0_wp/3.0_wp)
+      ! relative change of the force over that of the creepage
+      growth = 3.0_wp*root**2*(1.0_wp - root)/u
+      if (slot%result%errors%has_turned) growth = 0.0_wp
+      change = matmul(slot%plane%axes(:, 1:2), growth*along(1)*along + along(2)*[along(2), -along(1)])*friction/creep_of(slot)
+   end function change_by_pitch
+
+   !> Size of the creepages, with that of the spin at the radius of the contact area [-]
+   pure real(wp) function creep_of(slot) result(creep)
+      type(patch_slot), intent(in) :: slot
+
+      associate (result => slot%result)
+         creep = max(sqrt(result%cksi**2 + result%ceta**2 + result%cphi**2*result%contact_area()/pi), tiny(creep))
+      end associate
+   end function creep_of
+
    !> Add the effect of errors of the forces of patches. If the vertical force is prescribed, the height changes until all patches
    !> carry it again, so that other patches are loaded or unloaded; a single patch keeps its normal force but for the vertical
    !> part of friction. If the longitudinal force is prescribed, the pitch rate changes until it is reached
@@ -266,9 +337,9 @@ contains
       !> Do changes of the normal forces count? Errors of normal forces include them
       logical, intent(in) :: loads
       type(pair_error), intent(inout) :: e
-      real(wp), dimension(3, memory%used) :: change, per_height
+      real(wp), dimension(3, memory%used) :: change, per_height, per_pitch
       real(wp), dimension(3) :: force, on_rail, on_wheel
-      real(wp) :: height, normal
+      real(wp) :: height, pitch
       integer :: m
 
       change = error
@@ -292,14 +363,21 @@ contains
          end do
       end if
       if (keeps_longitudinal_force(problem)) then
-         normal = sum([(memory%slot(m)%result%fn, m=1, memory%used)])
+         do m = 1, memory%used
+            per_pitch(:, m) = change_by_pitch(memory%slot(m))
+         end do
          associate (along => memory%geometry%placement%wheelset%axes(:, 1))
-            force = dot_product(sum(change, dim=2), along)*along
-            do m = 1, memory%used
-               change(:, m) = change(:, m) - memory%slot(m)%result%fn/normal*force
-            end do
+            pitch = dot_product(along, sum(per_pitch, dim=2))
+            if (abs(pitch) > 0.0_wp) then
+               pitch = dot_product(along, sum(change, dim=2))/pitch
+               change = change - pitch*per_pitch
+               do m = 1, memory%used
+                  e%creepage(m) = hypot(e%creepage(m), pitch/creep_of(memory%slot(m)))
+               end do
+            end if
          end associate
       end if
+      e%friction = hypot(e%friction, matmul(change(:, 1), memory%slot(1)%plane%axes(:, 1:2)))
       on_rail = 0.0_wp
       on_wheel = 0.0_wp
       do m = 1, memory%used
