@@ -94,8 +94,9 @@ module contact_patch_traction_errors
    real(wp), parameter :: usual_adhesion = 1.0_wp/3.0_wp, small_adhesion = 0.02_wp, turning_slide = 0.4_wp
    !> Full sliding: part by which forces are shorter, factor of n^-2 and of the part of the bound that cancels, about half of the
    !> usual error; what is added to that part and to the turn for profiles and positions. Moment by the second order of patches of
-   !> wheel and rail: factor of n^-2 and of the part that cancels; part that FX has in it by the centre of pressures across the track; relative error of the place of pressures over that of the approach
-   !> by details of the profiles. Of wheels of any profiles (seeds 411 to 413)
+   !> wheel and rail: factor of n^-2 and of the part that cancels; part that FX has in it by the centre of pressures across the
+   !> track; relative error of the place of pressures over that of the approach by details of the profiles. Of wheels of any
+   !> profiles (seeds 411 to 413)
    real(wp), parameter :: shortened = 0.015_wp, least_turn = 0.02_wp, sliding_moment = 0.25_wp, centre_share = 0.05_wp, &
       & moved_pressures = 0.5_wp
    !> The second order where a part adheres: fraction in adhesion from which on the turn of directions has its full effect, chosen;
