@@ -12,7 +12,7 @@ module contact_patch_between_rows
    implicit none (type, external)
    private
 
-   public :: has_details, parts, section_details, solve_section
+   public :: between, has_details, parts, section_details, solve_section
 
    !> Points of the section per element; odd, so that one is at the centre
    integer, parameter :: parts = 3
@@ -40,6 +40,9 @@ module contact_patch_between_rows
       real(wp) :: approach = 0.0_wp
       !> Pressures at the points [N/mm2]; unallocated if there is no section
       real(wp), allocatable :: p(:)
+      !> Column of elements, and undeformed distance at its points [mm]; unallocated if it is not computed
+      integer :: column = 0
+      real(wp), allocatable :: h(:)
    end type section_details
 
 contains

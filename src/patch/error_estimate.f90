@@ -30,7 +30,7 @@ module contact_patch_error_estimate
    implicit none (type, external)
    private
 
-   public :: add_error_of_load, coarse_level, compare_levels, error_of_forces, estimate_errors, normal_stiffness, &
+   public :: add_error_of_load, coarse_level, compare_levels, error_of_forces, estimate_errors, moment_power, normal_stiffness, &
       & release_coarse_level, solve_coarse_level
 
    !> The coarse level, kept from case to case for its arrays and spectra
@@ -122,7 +122,7 @@ contains
    end subroutine solve_coarse_level
 
    !> Errors from the totals on both levels
-   subroutine compare_levels(problem, order, level, result, approach_change, details)
+   subroutine compare_levels(problem, order, level, result, approach_change, details, rows)
       type(patch_problem), intent(in) :: problem
       !> See estimate_errors
       integer, intent(in) :: order
@@ -134,6 +134,8 @@ contains
       real(wp), intent(in), optional :: approach_change
       !> Pressures with the details between rows of elements; absent if the distance is known at the elements only
       type(section_details), intent(in), optional :: details
+      !> Errors of FX, FY and MZ by few rows [N, N mm]; NaN or absent: not known
+      real(wp), intent(in), optional :: rows(3)
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
       real(wp) :: load, difference, coarse_energy, parts(2)
@@ -184,6 +186,11 @@ contains
       scale%peak = error_of_peak(problem, result, scale, &
          & load**power_of_load(fine%rows(fine%place_of("pmax")))*peak_of(level%result%pn), details)/max(result%pmax, tiny(load))
       scale%turned_force = turned_force(fine, coarse)/max(scale%force, tiny(load))
+      if (present(rows)) then
+         scale%has_rows = .not. any(ieee_is_nan(rows))
+         if (scale%has_rows) scale%rows = rows/max([scale%force, scale%force, scale%moment], tiny(load))
+         scale%turned_rows = to_force(scale%rows(1:2), [result%fx, result%fy]/max(hypot(result%fx, result%fy), tiny(load)))
+      end if
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled
       result%errors%has_turned = scale%has_turned .or. is_turning(scale)

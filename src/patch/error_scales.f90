@@ -75,6 +75,10 @@ module contact_patch_error_scales
       real(wp) :: direction(2) = 0.0_wp
       !> Difference of the levels in the tangential force across it, by which it turns, and along it, over the friction bound [-]
       real(wp) :: turned_force(2) = 0.0_wp
+      !> Errors of FX, FY and MZ by few rows of elements, over the maximum frictional force and moment, and those across the force
+      !> and along it [-]; are they known?
+      real(wp) :: rows(3) = 0.0_wp, turned_rows(2) = 0.0_wp
+      logical :: has_rows = .false.
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
       !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady

@@ -102,6 +102,8 @@ module contact_patch_traction_errors
    !> The second order where a part adheres: fraction in adhesion from which on the turn of directions has its full effect, chosen;
    !> of few elements, bound across the force over that of many (seeds 411 to 413)
    real(wp), parameter :: much_adhesion = 0.2_wp, few_across = 0.7_wp
+   !> Factor of the lower bounds of few elements if the error by the width of rows is computed; chosen
+   real(wp), parameter :: known_rows = 0.3_wp
    !> Turn of directions over their standard deviation, if they change uniformly across the contact
    real(wp), parameter :: uniform_turn = sqrt(12.0_wp)
    !> Grids of patches of wheel and rail are centred along the track: ratio of their errors by the second order to those of grids at
@@ -160,6 +162,7 @@ contains
          & *min(1.0_wp, scale%sticking/much_adhesion))
       ! independent errors
       floor = hypot(floor, turned)
+      if (is_force .and. scale%has_rows) floor = known_rows*floor
       if (scale%in_pair .and. is_second(scale)) floor = centred*floor
       if (is_moment .and. scale%order > first_order .and. .not. (scale%is_line .or. scale%in_pair)) &
          & floor = floor*scale%slender/usual_slender
@@ -174,6 +177,7 @@ contains
       else if (is_force .and. is_first(scale)) then
          e = unit*trusted(e/max(unit, tiny(unit)), usual_ratio*floor, trust_in_first(scale))
       end if
+      if (is_force .and. scale%has_rows) e = hypot(e, rows_of(row, scale)*unit)
       ! not with the exponent: it does not jump with the offset of the grid
       e = e + heat
       if (is_force) floor = max(floor, scale%reversal*share_of_reversal(scale))
@@ -200,7 +204,7 @@ contains
 
       ! of few rows; more show such details, which change approach and forces in the same ratio
       floor = 0.0_wp
-      if (scale%across < resolved) floor = rough_floor(2)/rough_floor(1)*scale%hidden
+      if (scale%across < resolved .and. .not. scale%has_rows) floor = rough_floor(2)/rough_floor(1)*scale%hidden
       floor = max(floor, rough_floor(2)*scale%roughness)
    end function force_of_details
 
@@ -210,7 +214,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       details = scale%roughness
-      if (scale%across < resolved) details = max(details, scale%hidden)
+      if (scale%across < resolved .and. .not. scale%has_rows) details = max(details, scale%hidden)
    end function details_of
 
    !> Error of FX and FY in full sliding with spin by that of the centre of the pressures of few elements: the spin has another
@@ -223,6 +227,23 @@ contains
       if (scale%across < resolved) &
          & floor = scale%swing*displaced_centre*scale%irregular/scale%across**2
    end function centre_of_few
+
+   !> Error of a force or moment by few rows of elements, relative to its scale
+   pure real(wp) function rows_of(row, scale) result(e)
+      !> Force or moment
+      type(total), intent(in) :: row
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      select case (row%name)
+      case ("fx", "fx_rel")
+         e = scale%rows(1)
+      case ("fy", "fy_rel")
+         e = scale%rows(2)
+      case default
+         e = scale%rows(3)
+      end select
+   end function rows_of
 
    !> Factor of the bound of FX or FY by the second order where a part adheres. Few elements do not show their error, which is that
    !> of the area in contact, thus mostly along the force
@@ -254,6 +275,7 @@ contains
          & unseen(scale)*shortened*(least_turn + scale%cancelled)]*scale%irregular/scale%squared
       if (scale%in_pair .and. scale%across >= resolved) usual = centred*usual
       usual(1) = max(usual(1), centre_of_few(scale))
+      if (scale%has_rows) usual = known_rows*usual
       if (scale%has_turned) then
          if (.not. scale%in_pair) usual(1) = max(usual(1), sliding_floor/scale%squared)
          errors = hypot(turned_part*scale%turned(1:2), scale%not_turned(1:2))
@@ -263,6 +285,7 @@ contains
             errors(k) = trusted(errors(k), usual(k), trust_in(scale))
          end do
       end if
+      if (scale%has_rows) errors = hypot(errors, scale%turned_rows)
       ! pressures in other places matter where directions differ
       errors = max(errors, usual, moved_pressures*details_of(scale)*scale%cancelled*[1.0_wp, scale%cancelled])
    end function errors_in_sliding
@@ -286,6 +309,7 @@ contains
             floor = unseen(scale)*sliding_moment*(least_turn + scale%cancelled + centre_share*scale%direction(1)) &
                & *scale%irregular/scale%squared
             if (scale%across >= resolved) floor = centred*floor
+            if (scale%has_rows) floor = known_rows*floor
             floor = max(floor, rough_floor(2)*details_of(scale))
          else
             floor = max(other_component*maxval(errors), displaced_centre*scale%irregular/scale%across**2)
@@ -295,6 +319,7 @@ contains
          else
             e = unit*trusted(part_of(scale, normal_order)*difference/max(unit, tiny(unit)), floor, trust_in(scale))
          end if
+         if (scale%has_rows) e = hypot(e, scale%rows(3)*unit)
       else
          ! the error of the direction is across the force
          if (any(row%name == ["fx    ", "fx_rel"])) errors = errors(2:1:-1)

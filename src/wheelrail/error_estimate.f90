@@ -12,6 +12,7 @@ module contact_wheelrail_error_estimate
    use contact_base_kinds, only : wp
    use contact_patch_between_rows, only : section_details
    use contact_patch_error_estimate, only : add_error_of_load, compare_levels, normal_stiffness, solve_coarse_level
+   use contact_patch_finer_rows, only : find_errors_of_rows
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_wheelrail_carry_over, only : max_patches
@@ -61,6 +62,8 @@ contains
       type(section_details) :: details(max_patches)
       !> Errors of the angles of the patches [rad]
       real(wp) :: turn(max_patches)
+      !> Errors of FX, FY and MZ of a patch by few rows of elements [N, N mm]
+      real(wp) :: rows(3)
       logical :: has_history
       integer :: k
 
@@ -87,12 +90,17 @@ contains
       call find_details(problem, memory, details, turn)
       do k = 1, memory%used
          associate (slot => memory%slot(k))
+            if (slot%result%errors%reason /= "") cycle
+            if (.not. allocated(details(k)%h)) allocate(details(k)%h(0))
+            call find_errors_of_rows(slot%problem, slot%state, slot%coarse, slot%result, details(k)%column, details(k)%h, &
+               & slot%rows, rows, error)
+            if (allocated(error)) return
             if (problem%force_prescribed) then
                call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
-                  & change*slot%plane%axes(3, 3), details=details(k))
+                  & change*slot%plane%axes(3, 3), details=details(k), rows=rows)
             else
                call compare_levels(slot%problem, order_of_errors(slot%result%tangential), slot%coarse, slot%result, &
-                  & details=details(k))
+                  & details=details(k), rows=rows)
             end if
          end associate
       end do

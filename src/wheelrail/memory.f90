@@ -47,6 +47,8 @@ module contact_wheelrail_memory
       type(patch_result) :: result
       !> The coarse level for error estimates; unallocated until they are requested
       type(coarse_level), allocatable :: coarse
+      !> Few rows of elements, finer, for error estimates; unallocated until they are needed
+      type(coarse_level), allocatable :: rows
       type(contact_region) :: region
       type(frame) :: plane
       !> Curved reference surface; unallocated for a flat patch whose slip is that of its reference
@@ -117,12 +119,13 @@ contains
       if (.not. allocated(slot%coarse_workspace)) allocate(slot%coarse_workspace)
    end subroutine make_coarse_workspace
 
-   !> Allocate the coarse level of an estimate of errors, unless it is there
+   !> Allocate the coarse level of an estimate of errors, and that of finer rows, unless they are there
    subroutine make_coarse_level(slot)
       !> Solved patch
       type(patch_slot), intent(inout) :: slot
 
       if (.not. allocated(slot%coarse)) allocate(slot%coarse)
+      if (.not. allocated(slot%rows)) allocate(slot%rows)
    end subroutine make_coarse_level
 
    !> Release the memory that is allocated outside Fortran
@@ -136,6 +139,7 @@ contains
          call release_workspace(memory%slot(k)%workspace)
          if (allocated(memory%slot(k)%coarse_workspace)) call release_workspace(memory%slot(k)%coarse_workspace)
          if (allocated(memory%slot(k)%coarse)) call release_coarse_level(memory%slot(k)%coarse)
+         if (allocated(memory%slot(k)%rows)) call release_coarse_level(memory%slot(k)%rows)
       end do
    end subroutine release_wheel_rail
 

@@ -84,10 +84,14 @@ contains
       else
          call find_distance(problem, geometry%rail_in_track, geometry, slot, ix, h, curve)
       end if
+      details%column = ix
+      details%h = h
       if (.not. has_details(slot%result, ix, h)) return
       allocate(un(slot%problem%grid%mx, slot%problem%grid%my))
       call pressure_displacement(slot%problem, slot%workspace, slot%result%pn, un)
       call solve_section(slot%result, ix, un(ix, :), h, details)
+      details%column = ix
+      details%h = h
       if (.not. details%known .or. problem%spec%search%location /= contact_location%conformal) return
       turn = sum(details%p*curve%alpha)/sum(details%p) - sum(slot%result%pn(ix, :)*slot%curve%alpha)/sum(slot%result%pn(ix, :))
    end subroutine find_section_details
