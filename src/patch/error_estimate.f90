@@ -15,7 +15,7 @@ module contact_patch_error_estimate
    use contact_patch_between_rows, only : section_details
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch, coarsening
-   use contact_patch_error_scales, only : mean_friction, normal_order, scale_type, scales
+   use contact_patch_error_scales, only : mean_friction, normal_order, rows_error, scale_type, scales
    use contact_patch_level_errors, only : error_of, irregularity, scale_of, share_of_residual
    use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
@@ -134,8 +134,8 @@ contains
       real(wp), intent(in), optional :: approach_change
       !> Pressures with the details between rows of elements; absent if the distance is known at the elements only
       type(section_details), intent(in), optional :: details
-      !> Errors of FX, FY and MZ by few rows [N, N mm]; NaN or absent: not known
-      real(wp), intent(in), optional :: rows(3)
+      !> Errors by few rows [N, N mm]; absent: not known
+      type(rows_error), intent(in), optional :: rows
       type(total_list) :: fine, coarse
       type(scale_type) :: scale
       real(wp) :: load, difference, coarse_energy, parts(2)
@@ -187,9 +187,9 @@ contains
          & load**power_of_load(fine%rows(fine%place_of("pmax")))*peak_of(level%result%pn), details)/max(result%pmax, tiny(load))
       scale%turned_force = turned_force(fine, coarse)/max(scale%force, tiny(load))
       if (present(rows)) then
-         scale%has_rows = .not. any(ieee_is_nan(rows))
-         if (scale%has_rows) scale%rows = rows/max([scale%force, scale%force, scale%moment], tiny(load))
-         scale%turned_rows = to_force(scale%rows(1:2), [result%fx, result%fy]/max(hypot(result%fx, result%fy), tiny(load)))
+         scale%rows = rows
+         scale%rows%value = rows%value/max([scale%force, scale%force, scale%moment], tiny(load))
+         scale%turned_rows = to_force(scale%rows%value(1:2), [result%fx, result%fy]/max(hypot(result%fx, result%fy), tiny(load)))
       end if
       result%errors%traction = traction_error(scale)
       result%errors%cancelled = scale%cancelled

@@ -13,7 +13,7 @@ module contact_patch_error_scales
    implicit none (type, external)
    private
 
-   public :: first_order, mean_friction, normal_order, resolved, scale_type, scales, unseen
+   public :: first_order, mean_friction, normal_order, resolved, rows_error, scale_type, scales, unseen
 
    !> Order of the normal problem
    real(wp), parameter :: normal_order = 2.0_wp
@@ -44,6 +44,14 @@ module contact_patch_error_scales
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors,
    !> too; of shifts, whose errors in full sliding are half as large as others (seed 8102)
    real(wp), parameter :: least_adhesion = 0.02_wp, least_in_shifts = 0.25_wp
+
+   !> Errors of FX, FY and MZ by few rows of elements, the computed less the exact ones
+   type :: rows_error
+      !> [N, N mm], or relative to scales
+      real(wp) :: value(3) = 0.0_wp
+      !> Are they known? Are they those of the columns of the coarse level, at whose ends they depend on single elements?
+      logical :: known = .false., scatters = .false.
+   end type rows_error
 
    !> Quantities common to all totals of a patch
    type :: scale_type
@@ -76,9 +84,9 @@ module contact_patch_error_scales
       !> Difference of the levels in the tangential force across it, by which it turns, and along it, over the friction bound [-]
       real(wp) :: turned_force(2) = 0.0_wp
       !> Errors of FX, FY and MZ by few rows of elements, over the maximum frictional force and moment, and those across the force
-      !> and along it [-]; are they known?
-      real(wp) :: rows(3) = 0.0_wp, turned_rows(2) = 0.0_wp
-      logical :: has_rows = .false.
+      !> and along it [-]
+      type(rows_error) :: rows
+      real(wp) :: turned_rows(2) = 0.0_wp
       !> Sum of tangential tractions relative to the sum of traction bounds [-]
       real(wp) :: used = 0.0_wp
       !> Part of the traction bound that does not contribute to the forces, as tractions have different directions, in steady

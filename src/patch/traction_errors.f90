@@ -97,7 +97,7 @@ module contact_patch_traction_errors
    !> wheel and rail: factor of n^-2 and of the part that cancels; part that FX has in it by the centre of pressures across the
    !> track; relative error of the place of pressures over that of the approach by details of the profiles. Of wheels of any
    !> profiles (seeds 411 to 413)
-   real(wp), parameter :: shortened = 0.015_wp, least_turn = 0.02_wp, sliding_moment = 0.25_wp, centre_share = 0.05_wp, &
+   real(wp), parameter :: shortened = 0.025_wp, least_turn = 0.02_wp, sliding_moment = 0.25_wp, centre_share = 0.05_wp, &
       & moved_pressures = 0.5_wp
    !> The second order where a part adheres: fraction in adhesion from which on the turn of directions has its full effect, chosen;
    !> of few elements, bound across the force over that of many (seeds 411 to 413)
@@ -162,7 +162,7 @@ contains
          & *min(1.0_wp, scale%sticking/much_adhesion))
       ! independent errors
       floor = hypot(floor, turned)
-      if (is_force .and. scale%has_rows) floor = known_rows*floor
+      if (is_force .and. scale%rows%known) floor = known_rows*floor
       if (scale%in_pair .and. is_second(scale)) floor = centred*floor
       if (is_moment .and. scale%order > first_order .and. .not. (scale%is_line .or. scale%in_pair)) &
          & floor = floor*scale%slender/usual_slender
@@ -177,7 +177,7 @@ contains
       else if (is_force .and. is_first(scale)) then
          e = unit*trusted(e/max(unit, tiny(unit)), usual_ratio*floor, trust_in_first(scale))
       end if
-      if (is_force .and. scale%has_rows) e = hypot(e, rows_of(row, scale)*unit)
+      if (is_force .and. scale%rows%known) e = hypot(e, by_rows(rows_of(row, scale), floor, scale)*unit)
       ! not with the exponent: it does not jump with the offset of the grid
       e = e + heat
       if (is_force) floor = max(floor, scale%reversal*share_of_reversal(scale))
@@ -204,7 +204,7 @@ contains
 
       ! of few rows; more show such details, which change approach and forces in the same ratio
       floor = 0.0_wp
-      if (scale%across < resolved .and. .not. scale%has_rows) floor = rough_floor(2)/rough_floor(1)*scale%hidden
+      if (scale%across < resolved .and. .not. scale%rows%known) floor = rough_floor(2)/rough_floor(1)*scale%hidden
       floor = max(floor, rough_floor(2)*scale%roughness)
    end function force_of_details
 
@@ -214,7 +214,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       details = scale%roughness
-      if (scale%across < resolved .and. .not. scale%has_rows) details = max(details, scale%hidden)
+      if (scale%across < resolved .and. .not. scale%rows%known) details = max(details, scale%hidden)
    end function details_of
 
    !> Error of FX and FY in full sliding with spin by that of the centre of the pressures of few elements: the spin has another
@@ -228,6 +228,17 @@ contains
          & floor = scale%swing*displaced_centre*scale%irregular/scale%across**2
    end function centre_of_few
 
+   !> Error by few rows of elements, less if it scatters
+   elemental real(wp) function by_rows(value, floor, scale) result(e)
+      !> Computed error, and lower bound
+      real(wp), intent(in) :: value, floor
+      !> See type scale_type
+      type(scale_type), intent(in) :: scale
+
+      e = abs(value)
+      if (scale%rows%scatters) e = trusted(e, floor, trust(1))
+   end function by_rows
+
    !> Error of a force or moment by few rows of elements, relative to its scale
    pure real(wp) function rows_of(row, scale) result(e)
       !> Force or moment
@@ -237,11 +248,11 @@ contains
 
       select case (row%name)
       case ("fx", "fx_rel")
-         e = scale%rows(1)
+         e = scale%rows%value(1)
       case ("fy", "fy_rel")
-         e = scale%rows(2)
+         e = scale%rows%value(2)
       case default
-         e = scale%rows(3)
+         e = scale%rows%value(3)
       end select
    end function rows_of
 
@@ -275,7 +286,7 @@ contains
          & unseen(scale)*shortened*(least_turn + scale%cancelled)]*scale%irregular/scale%squared
       if (scale%in_pair .and. scale%across >= resolved) usual = centred*usual
       usual(1) = max(usual(1), centre_of_few(scale))
-      if (scale%has_rows) usual = known_rows*usual
+      if (scale%rows%known) usual = known_rows*usual
       if (scale%has_turned) then
          if (.not. scale%in_pair) usual(1) = max(usual(1), sliding_floor/scale%squared)
          errors = hypot(turned_part*scale%turned(1:2), scale%not_turned(1:2))
@@ -285,7 +296,7 @@ contains
             errors(k) = trusted(errors(k), usual(k), trust_in(scale))
          end do
       end if
-      if (scale%has_rows) errors = hypot(errors, scale%turned_rows)
+      if (scale%rows%known) errors = hypot(errors, by_rows(scale%turned_rows, usual, scale))
       ! pressures in other places matter where directions differ
       errors = max(errors, usual, moved_pressures*details_of(scale)*scale%cancelled*[1.0_wp, scale%cancelled])
    end function errors_in_sliding
@@ -309,7 +320,7 @@ contains
             floor = unseen(scale)*sliding_moment*(least_turn + scale%cancelled + centre_share*scale%direction(1)) &
                & *scale%irregular/scale%squared
             if (scale%across >= resolved) floor = centred*floor
-            if (scale%has_rows) floor = known_rows*floor
+            if (scale%rows%known) floor = known_rows*floor
             floor = max(floor, rough_floor(2)*details_of(scale))
          else
             floor = max(other_component*maxval(errors), displaced_centre*scale%irregular/scale%across**2)
@@ -319,7 +330,7 @@ contains
          else
             e = unit*trusted(part_of(scale, normal_order)*difference/max(unit, tiny(unit)), floor, trust_in(scale))
          end if
-         if (scale%has_rows) e = hypot(e, scale%rows(3)*unit)
+         if (scale%rows%known) e = hypot(e, by_rows(scale%rows%value(3), floor, scale)*unit)
       else
          ! the error of the direction is across the force
          if (any(row%name == ["fx    ", "fx_rel"])) errors = errors(2:1:-1)

@@ -12,6 +12,7 @@ module contact_wheelrail_error_estimate
    use contact_base_kinds, only : wp
    use contact_patch_between_rows, only : section_details
    use contact_patch_error_estimate, only : add_error_of_load, compare_levels, normal_stiffness, solve_coarse_level
+   use contact_patch_error_scales, only : rows_error
    use contact_patch_finer_rows, only : find_errors_of_rows
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
@@ -62,8 +63,7 @@ contains
       type(section_details) :: details(max_patches)
       !> Errors of the angles of the patches [rad]
       real(wp) :: turn(max_patches)
-      !> Errors of FX, FY and MZ of a patch by few rows of elements [N, N mm]
-      real(wp) :: rows(3)
+      type(rows_error) :: rows
       logical :: has_history
       integer :: k
 
