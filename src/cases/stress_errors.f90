@@ -10,10 +10,10 @@ module contact_cases_stress_errors
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_kinds, only : sliding_part, trusted
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
-   use contact_patch_traction_errors, only : sliding_part, trusted
    use contact_subsurface_invariants, only : stress_invariants
    use contact_subsurface_load, only : new_surface_load, surface_load
    use contact_subsurface_points, only : point_set

@@ -15,6 +15,7 @@ module contact_patch_error_estimate
    use contact_patch_between_rows, only : section_details
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch, coarsening
+   use contact_patch_error_kinds, only : is_sliding, is_turning
    use contact_patch_error_scales, only : mean_friction, normal_order, rows_error, scale_type, scales
    use contact_patch_level_errors, only : error_of, irregularity, scale_of, share_of_residual
    use contact_patch_order, only : order_of_errors
@@ -25,7 +26,7 @@ module contact_patch_error_estimate
    use contact_patch_result, only : patch_result
    use contact_patch_sliding_errors, only : find_direction_errors
    use contact_patch_solve, only : solve_patch
-   use contact_patch_traction_errors, only : errors_in_sliding, is_sliding, is_turning, traction_error
+   use contact_patch_traction_errors, only : errors_in_sliding, traction_error
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
    private

@@ -46,9 +46,9 @@ contains
       type(coarse_level), intent(in) :: level
       !> Solution
       type(patch_result), intent(in) :: result
-      !> Column in which the distance is known at `parts` points per element, and these distances [mm]; without points that of the
-      !> elements is interpolated
+      !> Column in which the distance is known at `parts` points per element
       integer, intent(in) :: column
+      !> These distances [mm]; without points those of the elements are interpolated
       real(wp), intent(in) :: line(:)
       !> Work space
       type(coarse_level), intent(inout) :: finer

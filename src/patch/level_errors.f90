@@ -4,12 +4,14 @@
 module contact_patch_level_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_kinds, only : is_first, is_long_step, is_turning, is_unseen, order_of, part_of, sliding_part, trust_in, &
+      & trusted
    use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unseen
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_result, only : error_estimate
    use contact_patch_step_errors, only : energy_of_forces, energy_of_steps, power_error
-   use contact_patch_traction_errors, only : bound_friction, by_heat, centred, friction_floor, is_first, is_long_step, is_turning, &
-      & is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, trust_in, trusted, unrelaxed
+   use contact_patch_traction_errors, only : bound_friction, by_heat, centred, friction_floor, rough_floor, traction_error, &
+      & unrelaxed
    implicit none (type, external)
    private
 

@@ -7,11 +7,11 @@ module contact_patch_peak_errors
    use contact_numeric_vectors, only : largest_of
    use contact_patch_between_rows, only : section_details
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_kinds, only : trusted
    use contact_patch_error_scales, only : normal_order, resolved, scale_type
    use contact_patch_peak, only : peak_of, place_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
-   use contact_patch_traction_errors, only : trusted
    implicit none (type, external)
    private
 

@@ -5,15 +5,16 @@
 module contact_patch_traction_errors
    use contact_base_kinds, only : wp
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_error_kinds, only : is_first, is_long_step, is_second, is_sliding, is_turning, is_unseen, order_of, part_of, &
+      & sliding_part, trust_in, trust_in_first, trusted, usual_ratio
    use contact_patch_error_scales, only : first_order, normal_order, resolved, scale_type, unseen
    use contact_patch_quantities, only : error_law, error_scale, total
    use contact_patch_step_errors, only : force_error
    implicit none (type, external)
    private
 
-   public :: bound_friction, by_heat, centred, coupled_friction_floor, errors_in_sliding, friction_floor, is_first, &
-      & is_long_step, is_sliding, is_turning, is_unseen, order_of, part_of, rough_floor, sliding_part, traction_error, &
-      & trust_in, trusted, unrelaxed
+   public :: bound_friction, by_heat, centred, coupled_friction_floor, errors_in_sliding, friction_floor, rough_floor, &
+      & traction_error, unrelaxed
 
    !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
    !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
@@ -72,10 +73,6 @@ module contact_patch_traction_errors
    !> rolling direction, where the spin has another velocity. The error is 0.03 to 0.4, in the median 0.14, of the change along a
    !> step; half of that, of 46 contacts (kind forces, seed 99901)
    real(wp), parameter :: displaced_spin = 0.07_wp
-   !> In sliding, and for a moment alone, differences of the levels by the first order scatter more: those above this multiple of
-   !> the lower bound are reduced with this exponent, see trusted; fraction in adhesion up to which sliding dominates; the exponent
-   !> returns to 1 at twice this fraction
-   real(wp), parameter :: usual_ratio = 2.0_wp, sliding_trust = 0.6_wp, sliding = 0.03_wp
    !> Forces and moment in full sliding, where the error of first order is known: its part that remains, as a change of direction
    !> changes the slip as well; lower bound, factor of n^-2, for contacts in which slip has the same direction everywhere. Of wheels
    !> (seed 62001) and contacts (seed 99411)
@@ -102,22 +99,21 @@ module contact_patch_traction_errors
    !> The second order where a part adheres: fraction in adhesion from which on the turn of directions has its full effect, chosen;
    !> of few elements, bound across the force over that of many (seeds 411 to 413)
    real(wp), parameter :: much_adhesion = 0.2_wp, few_across = 0.7_wp
-   !> Factor of the lower bounds of few elements if the error by the width of rows is computed; chosen
-   real(wp), parameter :: known_rows = 0.3_wp
+   !> Factor of the lower bounds of few elements if the error by the width of rows is computed, chosen; exponent for errors of rows
+   !> on the columns of the coarse level, see trusted (seeds 411 to 413)
+   real(wp), parameter :: known_rows = 0.3_wp, rows_trust = 0.5_wp
    !> Turn of directions over their standard deviation, if they change uniformly across the contact
    real(wp), parameter :: uniform_turn = sqrt(12.0_wp)
    !> Grids of patches of wheel and rail are centred along the track: ratio of their errors by the second order to those of grids at
    !> any offset, fitted to wheels of any profiles and confirmed by those of doc/validation/accuracy_estimates.md
    real(wp), parameter :: centred = 0.75_wp
-   !> Exponent of the ratio of an error by the levels to the general error, if larger than 1: of an error that jumps with the offset
-   !> of the grid the levels are two samples, and the general error is that usual for this number of elements. For forces and power
-   !> with the second-order scheme, of like and of unlike bodies
-   real(wp), parameter :: trust(2) = [0.7_wp, 0.8_wp]
    !> Line contact in rolling: factor of n^-2, by order. Near full sliding both levels may lose the same elements in adhesion; of
    !> Carter's solution at 20 to 99.5 % of the friction bound, 17 to 101 elements
    real(wp), parameter :: line_floor(2) = [1.5_wp, 0.25_wp]
 
 contains
+
+
 
    !> Error of a force, moment or creepage by the levels, and its lower bound
    pure subroutine bound_friction(row, difference, unit, scale, e, floor)
@@ -187,6 +183,7 @@ contains
    end subroutine bound_friction
 
    !> Relative change of the creepage per change of the force over the friction bound, by the theory of Vermeulen and Johnson: the
+
    !> creepage is proportional to 1 - (1 - u)^(1/3)
    pure real(wp) function change_of_creepage(used) result(ratio)
       !> Part u of the friction bound that is used
@@ -218,6 +215,7 @@ contains
    end function details_of
 
    !> Error of FX and FY in full sliding with spin by that of the centre of the pressures of few elements: the spin has another
+
    !> velocity there, which turns the slip. Over the friction bound
    pure real(wp) function centre_of_few(scale) result(floor)
       !> See type scale_type
@@ -236,7 +234,7 @@ contains
       type(scale_type), intent(in) :: scale
 
       e = abs(value)
-      if (scale%rows%scatters) e = trusted(e, floor, trust(1))
+      if (scale%rows%scatters) e = trusted(e, floor, rows_trust)
    end function by_rows
 
    !> Error of a force or moment by few rows of elements, relative to its scale
@@ -257,6 +255,7 @@ contains
    end function rows_of
 
    !> Factor of the bound of FX or FY by the second order where a part adheres. Few elements do not show their error, which is that
+
    !> of the area in contact, thus mostly along the force
    pure real(wp) function along_force(row, scale) result(factor)
       !> Force
@@ -272,6 +271,7 @@ contains
 
    !> Errors of the force in full sliding of like elastic bodies in steady rolling, over the friction bound: across it, and along it
    !>
+
    !> Errors of the directions of slip turn the force, and shorten it where these directions differ.
    pure function errors_in_sliding(scale) result(errors)
       !> See type scale_type
@@ -349,17 +349,6 @@ contains
       share = merge(reversal_by_spin, reversal_in_shifts, scale%order < normal_order)
    end function share_of_reversal
 
-   !> Ratio of the error of the finer level to the difference of the levels; 1 if errors have no clean order
-   pure real(wp) function part_of(scale, order) result(part)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-      !> Order of the error
-      real(wp), intent(in) :: order
-
-      part = 1.0_wp
-      if (scale%clean) part = 1.0_wp/(coarsening**order - 1.0_wp)
-   end function part_of
-
    !> Additional error if friction follows temperatures, whose errors have another order
    pure real(wp) function by_heat(scale, part, difference, unit) result(e)
       !> See type scale_type
@@ -402,6 +391,7 @@ contains
    end function friction_floor
 
    !> First-order contribution of elements that do not resolve the relaxation of the bodies, over the root of the fraction in
+
    !> adhesion
    pure real(wp) function unrelaxed(scale) result(floor)
       !> See type scale_type
@@ -427,15 +417,8 @@ contains
       end if
    end function driven_floor
 
-   !> Is it a step of transient rolling for which the second-order scheme is not suited?
-   pure logical function is_long_step(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_long_step = scale%steps .and. scale%order <= first_order
-   end function is_long_step
-
    !> Relative error of tangential tractions in cases in which levels show little of it at a single point: in sliding and transient
+
    !> rolling, and if friction follows temperatures; zero otherwise
    pure real(wp) function traction_error(scale) result(e)
       !> See type scale_type; with differences of the levels
@@ -448,91 +431,7 @@ contains
       if (is_long_step(scale)) e = e + force_error(scale%friction, scale%adhesion, scale%mean_across)/scale%used
    end function traction_error
 
-   !> Are tractions of both levels not comparable? Steps of one element are not steps of one element on a coarser level
-   pure logical function is_unseen(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_unseen = scale%steps .and. scale%order > first_order
-   end function is_unseen
-
-   !> Is it steady rolling by the first-order scheme, without a layer?
-   pure logical function is_first(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_first = scale%clean .and. scale%order <= first_order
-   end function is_first
-
-   !> Exponent for the differences of levels of forces by the first-order scheme, see trusted
-   pure real(wp) function trust_in_first(scale) result(power)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      power = sliding_trust
-      if (.not. scale%is_moment_alone) power = 1.0_wp - (1.0_wp - sliding_trust)*sliding_part(scale%sticking)
-   end function trust_in_first
-
-   !> Weight of the errors of sliding: 1 in nearly full sliding, 0 from some adhesion on [-]
-   elemental real(wp) function sliding_part(sticking) result(part)
-      !> Fraction of the elements that sticks [-]
-      real(wp), intent(in) :: sticking
-
-      part = min(1.0_wp, max(0.0_wp, 2.0_wp - sticking/sliding))
-   end function sliding_part
-
-   !> Exponent for the differences of levels of forces and power, see trusted
-   pure real(wp) function trust_in(scale) result(power)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
-   end function trust_in
-
    !> Is it full sliding of like bodies with a constant coefficient of friction in steady rolling by the first-order scheme?
-   !> The error of first order is that of the direction of slip
-   pure logical function is_sliding(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_sliding = is_first(scale) .and. .not. (scale%is_moment_alone .or. scale%sticking > 0.0_wp .or. scale%is_line &
-         & .or. scale%coupling > 0.0_wp .or. scale%falling > 0.0_wp .or. scale%warmed > 0.0_wp)
-   end function is_sliding
-
-   !> Is it steady rolling by the second-order scheme, unless both forces are prescribed?
-   pure logical function is_second(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_second = scale%jumps .and. scale%order < normal_order .and. .not. scale%is_moment_alone
-   end function is_second
 
    !> Is it full sliding of like elastic bodies in steady rolling by the second-order scheme, with a coefficient of friction that
-   !> does not depend on slip? Only directions of slip have errors
-   pure logical function is_turning(scale)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      is_turning = is_second(scale) .and. .not. (scale%sticking > 0.0_wp .or. scale%is_line .or. scale%coupling > 0.0_wp &
-         & .or. scale%relaxation > 0.0_wp .or. scale%falling > 0.0_wp)
-   end function is_turning
-
-   !> Order of the tangential problem: in full sliding no element changes its state
-   pure real(wp) function order_of(scale) result(order)
-      !> See type scale_type
-      type(scale_type), intent(in) :: scale
-
-      order = merge(normal_order, scale%order, is_turning(scale))
-   end function order_of
-
-   !> Error from the differences of levels and the general error
-   pure real(wp) function trusted(by_levels, floor, power) result(e)
-      !> Error by the levels, and general error
-      real(wp), intent(in) :: by_levels, floor
-      !> Exponent of the ratio of both, if larger than 1
-      real(wp), intent(in) :: power
-
-      e = by_levels
-      if (by_levels > floor .and. floor > 0.0_wp) e = floor*(by_levels/floor)**power
-   end function trusted
 end module contact_patch_traction_errors

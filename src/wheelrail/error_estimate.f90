@@ -28,7 +28,7 @@ module contact_wheelrail_error_estimate
 
    !> Vertical error of the place of a patch over the error of its approach: the mesh of the search and the profiles; measured with
    !> sliding wheels (seed 62001)
-   real(wp), parameter :: misplaced = 1.0_wp
+   real(wp), parameter :: misplaced = 1.75_wp
 
    !> Errors of the forces and moments of wheel and rail, in track coordinates
    type :: pair_error
