@@ -5,7 +5,7 @@ set(CONTACT_REFERENCE ${PROJECT_SOURCE_DIR}/../shared/reference CACHE PATH
 # Compile tests without optimisation: the tested code is compiled in its rooms, with optimisation and instrumentation.
 # With -O1 scopes with cases and results take a minute, because the compiler copies the release of their components into each
 function(contact_quick_compilation target)
-  target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O0>)
+  target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<NOT:$<CONFIG:Debug>>>:-O0>)
   if(CONTACT_SANITIZE)
     # An optimised test with full instrumentation takes a minute to compile; without it some seconds.
     # Options of the sources follow those of the target
