@@ -102,6 +102,9 @@ module contact_patch_traction_errors
    !> Factor of the lower bounds of few elements if the error by the width of rows is computed, chosen; exponent for errors of rows
    !> on the columns of the coarse level, see trusted (seeds 411 to 413)
    real(wp), parameter :: known_rows = 0.3_wp, rows_trust = 0.5_wp
+   !> Change of the approach by details between rows up to which profiles may be smooth; rough ones turn patches as well. Chosen
+   !> between wheels of any profiles (seeds 411 to 413: 0.05) and a rough rail (seed 88202 of tests/stability/hard_wheels.py: 0.17)
+   real(wp), parameter :: smooth_details = 0.05_wp
    !> Turn of directions over their standard deviation, if they change uniformly across the contact
    real(wp), parameter :: uniform_turn = sqrt(12.0_wp)
    !> Grids of patches of wheel and rail are centred along the track: ratio of their errors by the second order to those of grids at
@@ -298,7 +301,8 @@ contains
       end if
       if (scale%rows%known) errors = hypot(errors, by_rows(scale%turned_rows, usual, scale))
       ! pressures in other places matter where directions differ
-      errors = max(errors, usual, moved_pressures*details_of(scale)*scale%cancelled*[1.0_wp, scale%cancelled])
+      errors = max(errors, usual, moved_pressures*details_of(scale)*scale%cancelled*[1.0_wp, scale%cancelled], &
+         & rough_floor(2)*max(scale%roughness, scale%hidden - smooth_details))
    end function errors_in_sliding
 
    !> Error of a force or moment in full sliding of like elastic bodies in steady rolling, and its lower bound
