@@ -17,8 +17,8 @@ module contact_patch_peak_errors
 
    public :: error_of_peak
 
-   !> Lower bound times n^-2, half the rms over offsets of a Hertzian peak; its second difference over an element is 4 n^-2 of the
-   !> peak
+   !> Lower bound times n^-2, half the rms over offsets of a Hertzian peak with as many elements in both directions; its second
+   !> difference over an element is 4 n^-2 of the peak
    real(wp), parameter :: peak_floor = 0.15_wp, smooth_bend = 4.0_wp
    !> Tractions of unlike bodies increase pressures within regions that elements do not resolve: factor of the difference parameter
    !> K times n^-2; of the hard cases
@@ -77,14 +77,16 @@ contains
       shape = [shape_of(result%pn(:, at(2)), at(1)), shape_of(result%pn(at(1), :), at(2))]
       ! the peak may belong to a part of the contact, and be narrower than the contact
       across = min(scale%across, real(minval(shape%n, mask=shape%n > 0), wp))
-      bend = maxval(shape%bend)/result%pmax
+      ! deviations along both directions are independent
+      bend = norm2(shape%bend)/sqrt(real(max(1, count(shape%n > 0)), wp))/result%pmax
       cusp = 0.0_wp
       do k = 1, size(shape)
          if (shape(k)%n > 0) cusp = max(cusp, shape(k)%cusp/result%pmax &
             & - usual_bend*smooth_bend/min(scale%across, real(shape(k)%n, wp))**2)
       end do
       peak = peak_of(result%pn)
-      floor = peak_floor*max(1.0_wp/(scale%across - narrower)**2, bend/smooth_bend)
+      floor = peak_floor*max(hypot(1.0_wp/(scale%across - narrower)**2, &
+         & 1.0_wp/(scale%mean_across**2/scale%across - narrower)**2)/sqrt(2.0_wp), bend/smooth_bend)
       e = abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp))/result%pmax
       e = trusted(e, floor, merge(peak_trust(2), peak_trust(1), scale%coupling > 0.0_wp)*min(1.0_wp, across/clear_peak)**3)
       if (scale%coupling > 0.0_wp) floor = max(floor, coupled_floor*scale%coupling/scale%across**2, &
