@@ -101,9 +101,8 @@ contains
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
-      !> Distance of the surfaces in the element ahead [mm], shape (mx, my); `unknown_gap` where it is not known, `bodies_end` where
-      !> no contact is possible. Only values of leading elements are used. The terms are smooth functions of known gaps, also where
-      !> these pass zero
+      !> Distance of the surfaces in the element ahead [mm], shape (mx, my), see `gap` of the result. Only values of leading
+      !> elements are used. The terms are smooth functions of known gaps, also where these pass zero
       real(wp), intent(in) :: gap(:, :)
       !> Are pressures a semi-ellipse in each row, at the centres of elements, and not a solution of the contact conditions with
       !> piecewise constant pressures?

@@ -37,7 +37,8 @@ CONFIGURATIONS = {"frictionless": dict(t=0), "approach": dict(n=0, eps=1e-10), "
                   "Fastsim": dict(b=2, m=2), "Fastsim, forces": dict(b=2, m=2, f=2, cx=-0.4, cy=0.3),
                   "FaStrip, force": dict(b=3, m=5, f=1, cx=0.5), "Fastsim, three": dict(b=3, m=3), "FaStrip": dict(b=2, m=5),
                   "FaStrip plain": dict(b=2, m=6), "Fastsim, any surface": dict(m=3), "FaStrip, any surface": dict(m=5),
-                  "Fastsim, one, shift": dict(m=2, t=1, reduction=[0.8, 1.0, 0.0]), "layer": dict(m=4), "layer, shift": dict(m=4, t=1),
+                  "Fastsim, one, shift": dict(m=2, t=1, reduction=[0.8, 1.0, 0.0]), "layer": dict(m=4),
+                  "layer, shift": dict(m=4, t=1),
                   "elastic layer": dict(m=4, layer=[9000.0, 0.02, 0.0, 0.0]), "linear falling": dict(l=2),
                   "rational falling": dict(l=3), "exponential falling": dict(l=4, t=2)}
 
