@@ -60,7 +60,7 @@ contains
       if (allocated(reason) .or. .not. complete) status = -1
    end subroutine write_empty
 
-   !> Close a file that is deleted next. What HDF5 has not written yet is written into memory, so that it cannot fail
+   !> Close a file that is deleted next. What HDF5 has not written yet is written into memory, where no disk is full
    subroutine close_deleted(file)
       !> Identifier of the file, opened by a descriptor of the system (the driver "sec2")
       integer(hid_t), intent(in) :: file
@@ -80,6 +80,8 @@ contains
          call c_f_pointer(address, descriptor)
          call divert_to_memory(descriptor)
       end if
-      call h5fclose_f(file, status)
+      ! without memory this may fail again; then the file is left to HDF5, open and without a name
+      call h5fflush_f(file, h5f_scope_global_f, status)
+      if (status >= 0) call h5fclose_f(file, status)
    end subroutine close_deleted
 end module contact_hdf5_failing_disk
