@@ -21,7 +21,7 @@ module contact_capi_problem
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
-   use contact_wheelrail_spec, only : wheel_rail_spec, wheelset_spec
+   use contact_wheelrail_spec, only : wheelset_spec
    implicit none (type, external)
    private
 
@@ -285,7 +285,7 @@ contains
 
       digits%c1 = 1
       digits%z = 0
-      allocate(spec%wheel_rail, source=wheel_rail_spec())
+      allocate(spec%wheel_rail)
       spec%wheel_rail%track%nomradr = 0.0_wp
       spec%wheel_rail%rail_profile%zigzag = 150.0_wp*pi/180.0_wp
    end subroutine set_wheel_rail_defaults

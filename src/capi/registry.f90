@@ -92,11 +92,12 @@ contains
    subroutine begin_run(work_folder, out_folder, name, screen)
       character(len=*), intent(in) :: work_folder, out_folder, name
       logical, intent(in) :: screen
+      type(log_type) :: fresh
       character(len=:), allocatable :: path, reason
       integer :: i, k
 
       call set_folders(work_folder, out_folder, name)
-      library%log = log_type()
+      library%log = fresh
       if (screen) library%log%screen = output_unit
       call place_result(library%name // ".out", path)
       call library%log%out%open_file(path, reason)
@@ -394,6 +395,7 @@ contains
    subroutine stop_library(stopped)
       !> False if a problem is in use, or no run was in progress
       logical, intent(out) :: stopped
+      type(log_type) :: fresh
       integer :: k
       logical :: complete, dumped, freed
 
@@ -415,7 +417,7 @@ contains
             & "the .out file of the library is not complete; is the disk full?")
          if (.not. (complete .or. dumped)) call set_last_error(library_code%other, &
             & "the .out file and the input file of the library (flag 2002) are not complete; is the disk full?")
-         library%log = log_type()
+         library%log = fresh
          library%phase = finalised
       end if
       !$omp end critical (contact_registry)

@@ -5,7 +5,6 @@ module contact_cases_changed_parts
    use contact_cases_collector, only : collector
    use contact_cases_spec, only : case_parts, case_spec, kinematics_spec, part_source
    use contact_cases_whole_case, only : visit_case
-   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
@@ -90,7 +89,7 @@ contains
       type(case_spec) :: initial
       type(case_parts) :: one
 
-      if (allocated(spec%wheel_rail)) allocate(initial%wheel_rail, source=wheel_rail_spec())
+      if (allocated(spec%wheel_rail)) allocate(initial%wheel_rail)
       associate (parts => spec%parts)
          parts%friction = given
          parts%rolling = given

@@ -18,7 +18,6 @@ module contact_cases_patch_setup
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
    use contact_simplified_flexibility, only : ellipse, slope_reduction
-   use contact_simplified_problem, only : simplified_model
    use contact_cases_numbers, only : require_positive
    implicit none (type, external)
    private
@@ -247,8 +246,8 @@ contains
          ! friction follows from the rigid slip velocity, particles have no memory
          problem%remembers_friction = .false.
       end if
-      if (.not. allocated(problem%simplified)) allocate(problem%simplified)
-      problem%simplified = simplified_model()
+      if (allocated(problem%simplified)) deallocate(problem%simplified)
+      allocate(problem%simplified)
       associate (model => problem%simplified)
          model%choice = spec%material_model
          model%flx = spec%material%flx

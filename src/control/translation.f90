@@ -3,7 +3,6 @@ module contact_control_translation
    use contact_base_choices, only : slip_source
    use contact_cases_spec, only : case_spec, part_source
    use contact_control_digits, only : case_digits, choice_of, digit_of
-   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
@@ -73,7 +72,7 @@ contains
       type(case_digits), intent(in) :: digits
       type(case_spec), intent(inout) :: spec
 
-      if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail, source=wheel_rail_spec())
+      if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail)
       spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
       spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
       spec%wheel_rail%search%gap_weight = digits%gapwgt

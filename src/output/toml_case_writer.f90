@@ -125,7 +125,6 @@ contains
       integer, intent(in) :: before
       type(element_memory) :: old
 
-      old = element_memory()
       if (before > 0) then
          old%module_number = self%elements(before)%module_number
          old%reid = self%elements(before)%reid

@@ -160,6 +160,7 @@ contains
       !> On entry meshes of the previous gap, whose arrays are kept
       type(gap_curve), allocatable, intent(inout) :: closer(:)
       type(gap_curve), allocatable :: fewer(:)
+      type(gap_curve) :: another
       real(wp) :: y, lowest, smallest
       integer :: i, n, first, last
 
@@ -175,7 +176,7 @@ contains
          n = n + 1
          if (n == 1 .and. gap%is_surveyed) &
             & call lateral_positions(wheel, placement, rail, [gap%y(1), gap%y(gap%n) + gap%dy], gap%lateral)
-         if (n > size(closer)) closer = [closer, gap_curve()]
+         if (n > size(closer)) closer = [closer, another]
          first = max(1, i - shown)
          last = min(gap%n, i + shown)
          call lay_mesh(rail, gap%y(first), gap%dy/finer, (last - first)*finer + 1, closer(n))

@@ -96,7 +96,7 @@ def unknown_choices(text, keys, words):
 
 def unset_components(texts):
     """Components of derived types that are read and never set; types with structure constructors are not judged"""
-    code = [re.sub(r" *&\n *&", " ", re.sub(r"^ *!.*\n", "", text, flags=re.MULTILINE)) for text in texts]
+    code = [joined(text) for text in texts]
     used, owners, constructed = {}, {}, set()
     for text in code:
         for line in text.splitlines():
@@ -111,6 +111,28 @@ def unset_components(texts):
             sets = re.compile(SETS.format(name))
             if not any(sets.search(line) for line in used[name]):
                 yield f"{min(kinds)}%{name}"
+
+
+def joined(text):
+    """The statements of a source, each on one line, without lines of comments"""
+    return re.sub(r" *&\n *&", " ", re.sub(r"^ *!.*\n", "", text, flags=re.MULTILINE))
+
+
+def lacks_default(declaration):
+    """Does a declaration of components have one that a structure constructor must give?"""
+    left, _, names = declaration.partition("::")
+    while re.search(r"\([^()]*\)|\[[^][]*\]", names):
+        names = re.sub(r"\([^()]*\)|\[[^][]*\]", "", names)
+    return not re.search("allocatable|pointer|procedure", left) and any("=" not in name for name in names.split(",") if name)
+
+
+def incomplete_constructors(texts):
+    """Structure constructors without values, `kind()`, of types with a component that has no default of its own: gfortran accepts
+    them, the standard and other compilers do not. A variable of the type, or allocate, has the same value"""
+    code = [joined(text) for text in texts]
+    needy = {kind for text in code for kind, body in TYPE.findall(text) if any(lacks_default(line) for line in body.splitlines())}
+    for text in code:
+        yield from (name for name in re.findall(r"(?<!type\()(?<!class\()(?<![%\w])(\w+)\(\)", text) if name in needy)
 
 
 def main():
@@ -143,6 +165,9 @@ def main():
              "s%bend = 1.0_wp\nif (s%cusp == 0.0_wp) e = s%bend + s%cusp\n")
     assert list(unset_components([shape])) == ["shape%cusp"], "components that are never set"
     assert not list(unset_components([shape, "call find(&\n & s%cusp)\n"])), "a component that a call may set"
+    kinds = ("type :: whole\n integer :: n(2) = [1, 2], m = max(1, 2)\n real, allocatable :: x(:)\nend type whole\n"
+             "type :: needy\n type(whole) :: part\nend type needy\na = whole()\nallocate(b, source=needy())\ntype(needy) :: c\n")
+    assert list(incomplete_constructors([kinds])) == ["needy"], "structure constructors that lack a value"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
     keys = {f"{group}.{key}" if group else key: name
@@ -152,10 +177,14 @@ def main():
     assert list(unknown_choices('"motion = ""none"", ""shift"" &\n   &or ""rest"""', keys, words)) == ['motion = "rest"']
     files = sorted(pathlib.Path(top, "src").rglob("*.f90"))
     unset = list(unset_components(file.read_text(encoding="utf-8") for file in files))
+    tests = sorted(file for folder in ("tests", "examples") for file in pathlib.Path(top, folder).rglob("*.f90"))
+    incomplete = sorted(incomplete_constructors(file.read_text(encoding="utf-8") for file in files + tests))
     left_out = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
-    bad = len(left_out) + len(unset)
+    bad = len(left_out) + len(unset) + len(incomplete)
     if unset:
         print(f"FAILED components that are read and never set: {', '.join(unset)}")
+    if incomplete:
+        print(f"FAILED structure constructors without values for all components: {', '.join(incomplete)}")
     if left_out:
         print(f"FAILED {top} holds {left_out[:10]}: left by a test that ran there, or misplaced")
     for file in files:

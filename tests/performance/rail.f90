@@ -16,7 +16,7 @@ program performance_rail
    use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_regions, only : find_regions
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : search_spec, wheel_rail_spec
+   use contact_wheelrail_spec, only : search_spec
    use omp_lib, only : omp_set_num_threads
    implicit none (type, external)
 
@@ -228,7 +228,7 @@ contains
       spec%material%gg = 82000.0_wp
       allocate(spec%friction%sets(1))
       spec%friction%sets(1) = friction_set(fstat=0.3_wp, fkin=0.3_wp)
-      allocate(spec%wheel_rail, source=wheel_rail_spec())
+      allocate(spec%wheel_rail)
       associate (pair => spec%wheel_rail)
          pair%wheel_profile%name = trim(source) // "/examples/profiles/S1002.prw"
          pair%wheelset%fz = 10000.0_wp

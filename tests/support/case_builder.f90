@@ -88,9 +88,11 @@ contains
    subroutine start_case(case, spec)
       type(test_case), intent(inout) :: case
       type(case_spec), intent(in) :: spec
+      type(test_case) :: fresh
 
+      fresh%spec = spec
       call case%release()
-      case = test_case(spec)
+      case = fresh
    end subroutine start_case
 
    !> Normal compression with a tight tolerance, the initial state of all cases below

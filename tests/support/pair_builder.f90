@@ -9,7 +9,6 @@ module contact_test_pair_builder
    use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
    use contact_wheelrail_result, only : wheel_rail_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
@@ -132,6 +131,6 @@ contains
       spec%material%gg = gg
       allocate(spec%friction%sets(1))
       spec%friction%sets(1) = friction_set(fstat=mu, fkin=mu)
-      allocate(spec%wheel_rail, source=wheel_rail_spec())
+      allocate(spec%wheel_rail)
    end function common_case
 end module contact_test_pair_builder

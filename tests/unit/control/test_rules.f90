@@ -10,7 +10,6 @@ program test_rules
    use contact_control_rule_text, only : allowed_digits, describe_broken_rule, letter_of
    use contact_control_translation, only : apply_digits, digits_of
    use contact_test_harness, only : test_suite
-   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    type(test_suite) :: suite
    integer :: i
@@ -32,7 +31,7 @@ contains
       integer, parameter :: heats(3) = [0, 1, 3], forms(11) = [0, 1, 2, 3, 4, -1, -2, -3, -4, -5, -6]
       logical :: met(size(choice_rules))
       type(case_digits) :: digits, again
-      type(case_spec) :: spec
+      type(case_spec) :: fresh, spec
       type(error_type), allocatable :: error
       integer :: b, c, e, f, h, k, l, m, module_number, n, t, broken, wrong
 
@@ -53,7 +52,7 @@ contains
                               if (module_number == 1 .and. b >= 2 .and. b <= 4) b = 0
                               digits = case_digits(b=b, t=t, n=n, f=f, l=laws(l), d=2, c=kernels(c), m=m, z=2, e=slips(e), &
                                  & h=heats(h), r=1)
-                              spec = case_spec()
+                              spec = fresh
                               call apply_digits(digits, module_number, spec)
                               ! no form before the first one, or if the grid is that of a wheel
                               spec%grid%form = merge(0, forms(mod(t + l + 3*h + m, size(forms)) + 1), module_number == 1)
@@ -140,7 +139,7 @@ contains
          good = bad
          good%kinematics%pen = 0.0_wp
       case ("KZRAIL")
-         allocate(bad%wheel_rail, source=wheel_rail_spec())
+         allocate(bad%wheel_rail)
          bad%force = 3
          bad%wheel_rail%rail%kz = 0.0_wp
          good = bad

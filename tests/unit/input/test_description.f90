@@ -149,7 +149,6 @@ program test_description
    use contact_test_harness, only : test_suite
    use contact_text_bounds, only : bounds_table
    use contact_text_lexer, only : input_lexer
-   use contact_wheelrail_spec, only : wheel_rail_spec
    use description_archives, only : collector, filler
    use contact_friction_law, only : friction_driver, friction_law
    use contact_friction_new_law, only : friction_model, new_friction_law
@@ -309,8 +308,8 @@ contains
 
       write(label, '("form ", I0)') form
       if (form >= first_law) write(label, '("L = ", I0, ", V = ", I0)') law_of(form), (form - first_law)/size(laws)
-      allocate(written%wheel_rail, source=wheel_rail_spec())
-      allocate(found%wheel_rail, source=wheel_rail_spec())
+      allocate(written%wheel_rail)
+      allocate(found%wheel_rail)
       allocate(written%friction%sets(3))
       written%friction%sets = friction_set()
       written%wheel_rail%rail_profile%name = "a name"
