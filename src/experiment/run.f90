@@ -9,7 +9,7 @@
 module contact_experiment_run
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use contact_base_case_status, only : case_state
+   use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : heat_source
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_guard, only : cause_text, do_guarded, free_left_blocks, guard_end, new_owner
@@ -275,7 +275,8 @@ contains
             exit
          end if
          call apply_settings(state, requested, this)
-         state%head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
+         state%head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, &
+            & state%run%finished + 1, status=case_status())
          state%in_case = .true.
          call compute_case(state, this, go_on)
          state%in_case = .false.
