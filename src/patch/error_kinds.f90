@@ -82,6 +82,7 @@ contains
       power = merge(trust(2), trust(1), scale%coupling > 0.0_wp)
    end function trust_in
 
+   !> Is it full sliding of like bodies with a constant coefficient of friction in steady rolling by the first-order scheme?
    !> The error of first order is that of the direction of slip
    pure logical function is_sliding(scale)
       !> See type scale_type
@@ -99,6 +100,7 @@ contains
       is_second = scale%jumps .and. scale%order < normal_order .and. .not. scale%is_moment_alone
    end function is_second
 
+   !> Is it full sliding of like elastic bodies in steady rolling by the second-order scheme, with a coefficient of friction that
    !> does not depend on slip? Only directions of slip have errors
    pure logical function is_turning(scale)
       !> See type scale_type
