@@ -183,6 +183,7 @@ contains
    pure real(wp) function error_of_pair(memory, spec, pair) result(e)
       !> Solved patches, with errors
       type(wheel_rail_memory), intent(in) :: memory
+      !> Profiles and positions that were solved
       type(wheel_rail_spec), intent(in) :: spec
       !> Totals of wheel and rail, with errors
       type(wheel_rail_result), intent(in) :: pair

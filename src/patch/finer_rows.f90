@@ -9,6 +9,7 @@ module contact_patch_finer_rows
    use contact_base_constants, only : excluded_threshold
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_between_rows, only : between, parts
    use contact_patch_error_estimate, only : coarse_level, moment_power
@@ -24,9 +25,9 @@ module contact_patch_finer_rows
 
    !> Rows in contact that are too few for a coarser level, see contact_patch_coarse_level; rows of the grid needed for cubics
    integer, parameter :: few_rows = 5, fewest_rows = 4
-   !> Columns in contact from which on those of the coarse level are used, of which 9 are left; with 6 the differences were up to 30
-   !> times the errors (seeds 411 to 413)
-   integer, parameter :: many_columns = 27
+   !> Columns in contact from which on those of the coarse level are used, of which six are left. Errors of few columns scatter, so
+   !> they count less, see rows_error; with all columns a solution costs as much as the original one. Chosen
+   integer, parameter :: many_columns = 18
    !> Rows and columns beside the contact that are included; chosen
    integer, parameter :: beside = 1
    !> Smallest tolerance; a third of it remains in the forces, less than the errors of few rows. Chosen
@@ -95,9 +96,9 @@ contains
 
       is_simple = problem%motion == motion%steady_rolling .and. problem%solves_for_pressure() .and. problem%model%is_flat() &
          & .and. .not. (allocated(problem%parts) .or. allocated(problem%given_pressure) .or. allocated(problem%extra_slip) &
-         & .or. allocated(problem%static_mu) .or. allocated(problem%simplified) .or. allocated(problem%thermal) &
-         & .or. allocated(problem%model%tabulated))
-      if (is_simple .and. allocated(problem%friction)) is_simple = .not. problem%friction%varies_by_row()
+         & .or. allocated(problem%static_mu) .or. allocated(problem%simplified) .or. allocated(problem%model%tabulated))
+      if (is_simple .and. allocated(problem%friction)) is_simple = .not. (problem%friction%varies_by_row() &
+         & .or. problem%friction%driver() == friction_driver%temperature)
    end function is_simple
 
    !> Distance between the rows less that interpolated from the rows, at all points of a column [mm]
@@ -156,6 +157,8 @@ contains
          problem%force_prescribed = .true.
          if (allocated(problem%pressure_estimate)) deallocate(problem%pressure_estimate)
          if (allocated(problem%damping)) deallocate(problem%damping)
+         ! temperatures do not act on forces here
+         if (allocated(problem%thermal)) deallocate(problem%thermal)
          problem%estimate = estimate_choice%unchanged
          problem%sensitivity = sensitivity_choice%none
          problem%want_exterior = .false.

@@ -1,4 +1,4 @@
-"""What estimated errors cost: python3 estimate_cost.py [--count N] [--wheels N] [--seed S] [--orders 1,2] [--across 20,40,64]
+"""What estimated errors cost: python3 estimate_cost.py [--count N] [--wheels N] [--pairs N] [--seed S] [--orders 1,2] [--across 20,40,64]
 
 Random contacts of all kinds, each on grids with the given numbers of elements across it, and wheels on rails with the elements of
 their cases, are run without and with --errors. Counted are the instructions of the whole process by callgrind, which do not depend
@@ -17,7 +17,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from error_cases import CHANGES, FURTHER, contact, text_of, wheel, wheel_text
+from error_cases import CHANGES, FURTHER, any_wheel, contact, text_of, wheel, wheel_text, write_profiles
 
 #: Largest part that estimates may add to the instructions of a run
 LIMIT = 0.15
@@ -41,6 +41,8 @@ def texts_of(asked):
             yield n, f"{k} {c['kind']}", text_of(c, round(n * c["margin"]), offset)
     for k in range(asked.wheels):
         yield "wheels", f"{k} wheel", wheel_text(wheel(source), 1.0, profiles)
+    for k in range(asked.pairs):
+        yield "pairs", f"{k} pair", wheel_text(any_wheel(source, profiles), 1.0, profiles)
 
 
 def compare(program, folder, number, text, order):
@@ -55,6 +57,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=24, help="number of contacts")
     parser.add_argument("--wheels", type=int, default=8, help="number of wheels on rails")
+    parser.add_argument("--pairs", type=int, default=0, help="number of wheels of any profiles")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(CHANGES), help=f"of {', '.join(CHANGES | FURTHER)}")
     parser.add_argument("--orders", default="1,2", help="orders of the scheme")
@@ -67,6 +70,8 @@ def main():
     program, rows = os.environ["CONTACT_PROGRAM"], {}
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(asked.jobs) as pool:
         folder = Path(name)
+        if asked.pairs:
+            write_profiles(folder)
         (folder / "empty.inp").write_text(" 0 MODULE\n")
         start = instructions(program, folder, "empty")
         runs = [(order, group, label, pool.submit(compare, program, folder, number, text, order))
