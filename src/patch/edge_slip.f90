@@ -8,6 +8,7 @@
 !> the first element have an error of the change of direction to the next one. No coarser level shows either. See
 !> doc/theory/errors.md.
 module contact_patch_edge_slip
+   use contact_base_choices, only : motion
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -16,8 +17,10 @@ module contact_patch_edge_slip
    implicit none (type, external)
    private
 
-   public :: edge_slip_error
+   public :: edge_slip_error, hidden_adhesion
 
+   !> Distance of the leading edge from the second element of a row [elements]
+   real(wp), parameter :: to_edge = 1.5_wp
    !> Ratio of the error of the forces to the sum over the rows; distance of the centre of the leading element from the edge
    !> [elements]; exponent of the number of slipping elements by which the error decreases; ratio of beta to the coefficient of
    !> friction below which levels show most of it, and exponent of smaller ones; ratio of the error to the change of the tractions
@@ -96,6 +99,34 @@ contains
 
       part = elements**(-resolved_power)
    end function part_of_wide
+
+   !> Number of rows that slip altogether although they would adhere next to their leading edge: adhesion narrower than an element
+   !>
+   !> Slip decreases towards the leading edge, but tractions of the first element, ahead of which there are none, have an error
+   !> that adds to its slip. So the slip there is extrapolated from the two elements behind it.
+   pure integer function hidden_adhesion(problem, result) result(rows)
+      !> The problem that was solved
+      type(patch_problem), intent(in) :: problem
+      !> Solved
+      type(patch_result), intent(in) :: result
+      real(wp) :: slip(2, 2)
+      integer :: iy, ix, k, n
+
+      rows = 0
+      if (.not. (problem%motion == motion%steady_rolling .and. allocated(result%sx))) return
+      do iy = 1, result%grid%my
+         n = 0
+         do k = 1, result%grid%mx
+            ix = merge(result%grid%mx + 1 - k, k, rolling_direction(problem) > 0)
+            if (.not. result%pn(ix, iy) > 0.0_wp) cycle
+            if (result%division(ix, iy) == element%adhesion) exit
+            n = n + 1
+            if (n == 2 .or. n == 3) slip(:, n - 1) = [result%sx(ix, iy), result%sy(ix, iy)]
+         end do
+         if (k <= result%grid%mx .or. n < 3) cycle
+         if (dot_product(to_edge*(slip(:, 1) - slip(:, 2)) + slip(:, 1), slip(:, 1)) < 0.0_wp) rows = rows + 1
+      end do
+   end function hidden_adhesion
 
    !> What the estimate needs of a row
    pure type(row_type) function row_of(result, iy, direction) result(row)

@@ -6,7 +6,7 @@ module contact_patch_error_scales
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_numeric_elliptic, only : complete_elliptic, elliptic_integrals
-   use contact_patch_edge_slip, only : edge_slip_error
+   use contact_patch_edge_slip, only : edge_slip_error, hidden_adhesion
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_turning, only : turned_round, turns
@@ -236,7 +236,7 @@ contains
       scale%creep = max(abs(result%cksi), abs(result%ceta))
       scale%power = max(scale%force*hypot(result%cksi, result%ceta), scale%moment*abs(result%cphi))*result%dq/ &
          & (nmm_per_joule*result%dt)
-      scale%sticking = real(result%nadh, wp)/result%ncon
+      scale%sticking = real(result%nadh + hidden_adhesion(problem, result), wp)/result%ncon
       scale%adhesion = max(merge(least_in_shifts, least_adhesion, problem%motion == motion%shift), scale%sticking)
       if (problem%model%coupled()) then
          scale%coupling = abs(problem%model%material%ak)
