@@ -19,8 +19,9 @@ module contact_patch_edge_slip
 
    public :: edge_slip_error, hidden_adhesion
 
-   !> Distance of the leading edge from the second element of a row [elements]
-   real(wp), parameter :: to_edge = 1.5_wp
+   !> Distance from the second element of a row at which slip changes its direction if half an element or more would adhere
+   !> [elements]
+   real(wp), parameter :: to_edge = 1.0_wp
    !> Ratio of the error of the forces to the sum over the rows; distance of the centre of the leading element from the edge
    !> [elements]; exponent of the number of slipping elements by which the error decreases; ratio of beta to the coefficient of
    !> friction below which levels show most of it, and exponent of smaller ones; ratio of the error to the change of the tractions
@@ -100,7 +101,8 @@ contains
       part = elements**(-resolved_power)
    end function part_of_wide
 
-   !> Number of rows that slip altogether although they would adhere next to their leading edge: adhesion narrower than an element
+   !> Number of rows that slip altogether although they would adhere next to their leading edge: adhesion narrower than an element,
+   !> by the first order
    !>
    !> Slip decreases towards the leading edge, but tractions of the first element, ahead of which there are none, have an error
    !> that adds to its slip. So the slip there is extrapolated from the two elements behind it.

@@ -236,7 +236,8 @@ contains
       scale%creep = max(abs(result%cksi), abs(result%ceta))
       scale%power = max(scale%force*hypot(result%cksi, result%ceta), scale%moment*abs(result%cphi))*result%dq/ &
          & (nmm_per_joule*result%dt)
-      scale%sticking = real(result%nadh + hidden_adhesion(problem, result), wp)/result%ncon
+      scale%sticking = real(result%nadh, wp)/result%ncon
+      if (order == 1) scale%sticking = scale%sticking + real(hidden_adhesion(problem, result), wp)/result%ncon
       scale%adhesion = max(merge(least_in_shifts, least_adhesion, problem%motion == motion%shift), scale%sticking)
       if (problem%model%coupled()) then
          scale%coupling = abs(problem%model%material%ak)

@@ -1,4 +1,4 @@
-"""What estimated errors cost: python3 estimate_cost.py [--count N] [--wheels N] [--pairs N] [--seed S] [--orders 1,2] [--across 20,40,64]
+"""What estimated errors cost: python3 estimate_cost.py [--count N] [--wheels N] [--pairs N] [--seed S] [--across 20,40,64]
 
 Random contacts of all kinds, each on grids with the given numbers of elements across it, and wheels on rails with the elements of
 their cases, are run without and with --errors. Counted are the instructions of the whole process by callgrind, which do not depend
