@@ -18,6 +18,7 @@ module contact_cases_patch_setup
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
    use contact_simplified_flexibility, only : ellipse, slope_reduction
+   use contact_simplified_problem, only : simplified_model
    use contact_cases_numbers, only : require_positive
    implicit none (type, external)
    private
@@ -237,6 +238,7 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      type(simplified_model) :: fresh
 
       if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) then
          if (allocated(problem%simplified)) deallocate(problem%simplified)
@@ -246,8 +248,8 @@ contains
          ! friction follows from the rigid slip velocity, particles have no memory
          problem%remembers_friction = .false.
       end if
-      if (allocated(problem%simplified)) deallocate(problem%simplified)
-      allocate(problem%simplified)
+      if (.not. allocated(problem%simplified)) allocate(problem%simplified)
+      problem%simplified = fresh
       associate (model => problem%simplified)
          model%choice = spec%material_model
          model%flx = spec%material%flx

@@ -211,21 +211,20 @@ contains
       type(wheel_rail_result), intent(in) :: pair
       type(total_list) :: list
       character(len=5), parameter :: names(4) = ["fx_tr", "fy_tr", "fz_tr", "z_ws "]
-      real(wp) :: bound, scale(size(names))
+      real(wp) :: scale(size(names))
       integer :: k, place
 
       e = 0.0_wp
       if (.not. allocated(pair%errors)) return
-      bound = 0.0_wp
       scale = 0.0_wp
       do k = 1, memory%used
          associate (patch => memory%slot(k)%result)
             scale(4) = max(scale(4), patch%pen)
-            bound = bound + patch%grid%dx*patch%grid%dy*sum(patch%mu*patch%pn)
+            scale(1) = scale(1) + patch%grid%dx*patch%grid%dy*sum(patch%mu*patch%pn)
          end associate
       end do
       call pair%totals(spec, list)
-      scale(1:3) = [bound, bound, abs(list%rows(list%place_of(names(3)))%value)]
+      scale(2:3) = [scale(1), abs(list%rows(list%place_of(names(3)))%value)]
       do k = 1, size(names)
          place = list%place_of(names(k))
          ! without estimate for one of them; a prescribed one has no error

@@ -116,13 +116,14 @@ contains
       real(wp), intent(in) :: un(:)
       !> See has_details
       real(wp), intent(in) :: fine(:)
-      !> Not known without pressures where contact is possible
-      type(section_details), intent(out) :: details
+      !> Pressures are set; not known where contact is not possible
+      type(section_details), intent(inout) :: details
       real(wp) :: rest(size(un)), pn(size(un)), p(size(fine)), given(size(fine))
       logical :: within(size(fine))
       real(wp) :: step, load
       integer :: i, i0, i1
 
+      details%known = .false.
       associate (grid => result%grid)
          pn = result%pn(ix, :)
          load = sum(pn)*grid%dy

@@ -13,8 +13,8 @@ module contact_patch_traction_errors
    implicit none (type, external)
    private
 
-   public :: bound_friction, by_heat, centred, coupled_friction_floor, errors_in_sliding, friction_floor, rough_floor, &
-      & traction_error, unrelaxed
+   public :: bound_friction, by_heat, centred, coupled_friction_floor, errors_in_sliding, friction_floor, growth_of_force, &
+      & rough_floor, traction_error, unrelaxed
 
    !> Rough surfaces, whose heights between element centres no level contains: factors of the standard deviation of heights over the
    !> approach, in normal force and approach, and in forces; of rough profiles of tests/stability/hard_wheels.py, seeds 1 to 3
@@ -116,7 +116,6 @@ module contact_patch_traction_errors
 
 contains
 
-
    !> Error of a force, moment or creepage by the levels, and its lower bound
    pure subroutine bound_friction(row, difference, unit, scale, e, floor)
       !> Total of the finer level, with law and scale
@@ -184,23 +183,33 @@ contains
          & merge(line_floor(2), line_floor(1), scale%order > first_order)/scale%across**2)
    end subroutine bound_friction
 
-   !> Relative change of the creepage per change of the force over the friction bound, by the theory of Vermeulen and Johnson: the
-   !> creepage is proportional to 1 - (1 - u)^(1/3)
+   !> Relative change of the creepage per change of the force over the friction bound
    pure real(wp) function change_of_creepage(used) result(ratio)
       !> Part u of the friction bound that is used
       real(wp), intent(in) :: used
+      real(wp) :: u
+
+      u = min(max(used, least_used), most_used)
+      ratio = 1.0_wp/(u*growth_of_force(u))
+   end function change_of_creepage
+
+   !> Relative change of the tangential force over that of the creepage, by the theory of Vermeulen and Johnson: the creepage is in
+   !> proportion to 1 - (1 - u)^(1/3)
+   pure real(wp) function growth_of_force(used) result(growth)
+      !> Part u of the friction bound that is used, above 0 and at most 1
+      real(wp), intent(in) :: used
       real(wp) :: root
 
-      root = (1.0_wp - min(max(used, least_used), most_used))**(1.0_wp/3.0_wp)
-      ratio = 1.0_wp/(3.0_wp*root**2*(1.0_wp - root))
-   end function change_of_creepage
+      root = (1.0_wp - used)**(1.0_wp/3.0_wp)
+      growth = 3.0_wp*root**2*(1.0_wp - root)/used
+   end function growth_of_force
 
    !> Error of forces by heights that no level contains, of rough surfaces and between rows of elements, over the friction bound
    pure real(wp) function force_of_details(scale) result(floor)
       !> See type scale_type
       type(scale_type), intent(in) :: scale
 
-      ! of few rows; more show such details, which change approach and forces in the same ratio
+      ! of few rows; more show such details, which change approach and forces in the same ratio. Computed rows include most of them
       floor = 0.0_wp
       if (scale%across < resolved) floor = merge(1.0_wp, 1.0_wp/rough_floor(1), scale%rows%known)*rough_floor(2)*scale%hidden
       floor = max(floor, rough_floor(2)*scale%roughness)

@@ -16,6 +16,7 @@ module contact_wheelrail_error_estimate
    use contact_patch_finer_rows, only : find_errors_of_rows
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
+   use contact_patch_traction_errors, only : growth_of_force
    use contact_wheelrail_carry_over, only : max_patches
    use contact_wheelrail_memory, only : make_coarse_level, patch_slot, total_force, wheel_rail_memory
    use contact_wheelrail_problem, only : wheel_rail_problem
@@ -307,21 +308,18 @@ contains
 
    !> Change of the force of a patch with the longitudinal creepage [N]
    !>
-   !> Force and creepage have the same direction by the theory of Vermeulen and Johnson, the force the size u of the friction bound
-   !> where the creepage is in proportion to 1 - (1 - u)^(1/3). In full sliding the force turns only.
+   !> Force and creepage have the same direction by the theory of Vermeulen and Johnson. In full sliding the force turns only.
    pure function change_by_pitch(slot) result(change)
       type(patch_slot), intent(in) :: slot
-      real(wp) :: change(3), along(2), friction, u, root, growth
+      real(wp) :: change(3), along(2), friction, growth
 
       change = 0.0_wp
       friction = norm2(slot%force(1:2))
       if (.not. (friction > 0.0_wp .and. slot%result%fn > 0.0_wp)) return
       along = slot%force(1:2)/friction
-      u = min(1.0_wp, friction/(slot%result%mu_scal*slot%result%fn))
-      root = (1.0_wp - u)**(1.0_wp/3.0_wp)
-      ! relative change of the force over that of the creepage
-      growth = 3.0_wp*root**2*(1.0_wp - root)/u
-      if (slot%result%errors%has_turned) growth = 0.0_wp
+      growth = 0.0_wp
+      if (.not. slot%result%errors%has_turned) &
+         & growth = growth_of_force(min(1.0_wp, friction/(slot%result%mu_scal*slot%result%fn)))
       change = matmul(slot%plane%axes(:, 1:2), growth*along(1)*along + along(2)*[along(2), -along(1)])*friction/creep_of(slot)
    end function change_by_pitch
 

@@ -47,7 +47,7 @@ module contact_wheelrail_memory
       type(patch_result) :: result
       !> The coarse level for error estimates; unallocated until they are requested
       type(coarse_level), allocatable :: coarse
-      !> Few rows of elements, finer, for error estimates; unallocated until they are needed
+      !> Few rows of elements, finer, for error estimates; unallocated until they are requested
       type(coarse_level), allocatable :: rows
       type(contact_region) :: region
       type(frame) :: plane

@@ -93,8 +93,6 @@ contains
       allocate(un(slot%problem%grid%mx, slot%problem%grid%my))
       call pressure_displacement(slot%problem, slot%workspace, slot%result%pn, un)
       call solve_section(slot%result, ix, un(ix, :), h, details)
-      details%column = ix
-      details%h = h
       if (.not. details%known .or. problem%spec%search%location /= contact_location%conformal) return
       turn = sum(details%p*curve%alpha)/sum(details%p) - sum(slot%result%pn(ix, :)*slot%curve%alpha)/sum(slot%result%pn(ix, :))
    end subroutine find_section_details
