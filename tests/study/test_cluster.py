@@ -24,7 +24,7 @@ class Cluster:
     """A scheduler and a varying set of workers: separate processes on the loopback device"""
 
     def __init__(self, folder):
-        self.folder, self.processes = folder, []
+        self.folder, self.processes, self.readers = folder, [], []
         self.scheduler = self.start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
         self.address = re.search(r"tcp://127\.0\.0\.1:\d+", self.line_with(self.scheduler, "Scheduler at")).group()
 
@@ -41,7 +41,8 @@ class Cluster:
         """A line of the output of a process; the rest is read so that the process never blocks"""
         for line in process.stderr:
             if words in line:
-                threading.Thread(target=lambda: [None for _ in process.stderr], daemon=True).start()
+                self.readers.append(threading.Thread(target=lambda: [None for _ in process.stderr], daemon=True))
+                self.readers[-1].start()
                 return line
         raise AssertionError(f"the process ended without the output {words}")
 
@@ -60,6 +61,10 @@ class Cluster:
                 process.kill()
         for process in self.processes:
             process.wait()
+        # a file that is closed while it is read is an error in its thread
+        for reader in self.readers:
+            reader.join()
+        for process in self.processes:
             process.stderr.close()
 
 
