@@ -3,7 +3,7 @@ module contact_grid_element_division
    implicit none (type, external)
    private
 
-   public :: element, bounding_box, contact_box, copy_states, list_elements, set_states
+   public :: element, bounding_box, contact_box, copy_states, list_elements, set_states, widest_strip
 
    type :: element_list
       integer :: exterior = 0, adhesion = 1, slip = 2, plastic = 3
@@ -49,6 +49,21 @@ contains
          end do
       end do
    end function contact_box
+
+   !> Largest number of adjacent rows with elements in contact: the width of the widest strip, where rows without contact separate
+   !> strips along x
+   pure integer function widest_strip(division) result(widest)
+      !> Element states, shape (mx, my)
+      integer, contiguous, intent(in) :: division(:, :)
+      integer :: iy, rows
+
+      widest = 0
+      rows = 0
+      do iy = 1, size(division, 2)
+         rows = merge(rows + 1, 0, any(division(:, iy) > element%exterior))
+         widest = max(widest, rows)
+      end do
+   end function widest_strip
 
    !> Elements for tables, in increasing index
    subroutine list_elements(division, all_elements, at)

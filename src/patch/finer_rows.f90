@@ -10,7 +10,7 @@ module contact_patch_finer_rows
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver
-   use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_grid_element_division, only : bounding_box, contact_box, widest_strip
    use contact_patch_between_rows, only : between, parts
    use contact_patch_error_estimate, only : coarse_level, moment_power
    use contact_patch_error_scales, only : rows_error
@@ -63,7 +63,7 @@ contains
 
       if (.not. is_simple(problem) .or. result%ncon == 0) return
       box = contact_box(result%division)
-      if (box%iy1 - box%iy0 + 1 > few_rows .or. problem%grid%my < fewest_rows) return
+      if (widest_strip(result%division) > few_rows .or. problem%grid%my < fewest_rows) return
       on_level = box%ix1 - box%ix0 + 1 >= many_columns .and. level%problem%grid%my == problem%grid%my
       if (on_level) then
          call refine_rows(level%problem, level%state, contact_box(level%result%division), correction(problem, column, line), &
@@ -96,7 +96,7 @@ contains
       type(patch_problem), intent(in) :: problem
 
       is_simple = problem%motion == motion%steady_rolling .and. problem%solves_for_pressure() .and. problem%model%is_flat() &
-         & .and. .not. (allocated(problem%parts) .or. allocated(problem%given_pressure) .or. allocated(problem%extra_slip) &
+         & .and. .not. (allocated(problem%given_pressure) .or. allocated(problem%extra_slip) &
          & .or. allocated(problem%static_mu) .or. allocated(problem%simplified) .or. allocated(problem%model%tabulated))
       if (is_simple .and. allocated(problem%friction)) is_simple = .not. (problem%friction%varies_by_row() &
          & .or. problem%friction%driver() == friction_driver%temperature)
@@ -155,6 +155,9 @@ contains
                problem%h(ix, i) = between(h, parts*(first - 1) + i) + change(parts*(first - 1) + i)
             end do
          end do
+         if (allocated(problem%parts)) then
+            problem%parts%label = coarse%parts%label(columns(1):columns(2), [(first + (i - 1)/parts, i=1, grid%my)])
+         end if
          problem%force_prescribed = .true.
          if (allocated(problem%pressure_estimate)) deallocate(problem%pressure_estimate)
          if (allocated(problem%damping)) deallocate(problem%damping)

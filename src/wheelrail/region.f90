@@ -26,6 +26,8 @@ module contact_wheelrail_region
       real(wp) :: common(2) = 0.0_wp, share = 0.0_wp
       !> The same as the reference at the deepest point
       real(wp) :: deepest(3) = 0.0_wp
+      !> Is the reference the deepest point of a parabola through three points of the mesh, not a mean?
+      logical :: by_parabola = .false.
       !> Sum of weights
       real(wp) :: weight = 0.0_wp
       !> Smallest gap [mm], negative for interpenetration
@@ -164,6 +166,7 @@ contains
          x = place(1)
       end if
       region%touches = .true.
+      region%by_parabola = .true.
       region%x = x
       region%y = place(2)
       region%alpha = place(3)

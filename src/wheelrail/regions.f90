@@ -16,7 +16,7 @@ module contact_wheelrail_regions
    implicit none (type, external)
    private
 
-   public :: collect_regions, find_regions, found_regions, remove_region, smallest_gap
+   public :: collect_regions, few_points, find_regions, found_regions, remove_region, smallest_gap
 
    !> Results of a search for regions; arrays are kept from one search to the next
    type :: found_regions

@@ -15,7 +15,8 @@ module contact_wheelrail_section_distance
    use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
-   use contact_wheelrail_region, only : find_deepest
+   use contact_wheelrail_region, only : far_away, find_deepest
+   use contact_wheelrail_regions, only : few_points
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
@@ -24,10 +25,8 @@ module contact_wheelrail_section_distance
 
    !> Fewest rows of elements in which details are sought
    integer, parameter :: fewest_rows = 5
-   !> References of regions with at most this number of intervals of the mesh are not means, see contact_wheelrail_regions
-   integer, parameter :: fewest_points = 4
-   !> Error of the angle of such a region over the change of the inclination across it: a wheel on one row of elements on the flange
-   !> (seed 77 of tests/stability/hard_wheels.py) had 0.04
+   !> Least error of the angle of a region with fewer intervals of the mesh than few_points, over the change of the inclination
+   !> across it: a wheel on one row of elements on the flange (seed 77 of tests/stability/hard_wheels.py) had 0.04
    real(wp), parameter :: small_turn = 0.05_wp
 
 contains
@@ -107,8 +106,9 @@ contains
       !> [rad]; not changed for variable bodies and curved references
       real(wp), intent(inout) :: turn(:)
       type(gap_curve) :: fine
-      real(wp) :: lowest, deepest(3)
+      real(wp) :: lowest, deepest(3), least
       integer :: k, first, last
+      logical :: is_small
 
       associate (geometry => memory%geometry, gap => memory%geometry%gap)
          if (geometry%searches_table .or. problem%spec%search%location == contact_location%conformal) return
@@ -117,21 +117,46 @@ contains
                first = max(1, floor((bounds(1) - gap%y(1))/gap%dy) + 1)
                last = min(gap%n, ceiling((bounds(2) - gap%y(1))/gap%dy) + 1)
             end associate
-            if (last - first < fewest_points) then
-               turn(k) = small_turn*abs(gap%alpha(last) - gap%alpha(first))
-               cycle
+            is_small = memory%slot(k)%region%by_parabola .and. .not. allocated(memory%slot(k)%region%seeds)
+            if (is_small) then
+               least = 0.0_wp
+               if (last - first < few_points) least = small_turn*abs(gap%alpha(last) - gap%alpha(first))
+               first = max(1, first - 1)
+               last = min(gap%n, last + 1)
             end if
             call measure_part(geometry%rail_in_track, problem%wheel, geometry%placement, gap%y(first), gap%dy/parts, &
                & (last - first)*parts + 1, fine)
-            if (problem%spec%search%location == contact_location%first_contact) then
-               call find_deepest(fine, fine%gap, 1, fine%n, lowest, deepest)
-               turn(k) = deepest(3) - memory%slot(k)%region%deepest(3)
-               cycle
-            end if
-            turn(k) = mean_angle(fine, 1, problem%weight_power) - mean_angle(fine, parts, problem%weight_power)
+            associate (region => memory%slot(k)%region)
+               if (problem%spec%search%location == contact_location%first_contact) then
+                  call find_deepest(fine, fine%gap, 1, fine%n, lowest, deepest)
+                  turn(k) = deepest(3) - region%deepest(3)
+               else if (is_small) then
+                  call keep_stretch(fine, region%deepest(2))
+                  turn(k) = mean_angle(fine, 1, problem%weight_power) - region%deepest(3)
+               else
+                  turn(k) = mean_angle(fine, 1, problem%weight_power) - mean_angle(fine, parts, problem%weight_power)
+               end if
+            end associate
+            if (is_small) turn(k) = sign(max(abs(turn(k)), least), turn(k))
          end do
       end associate
    end subroutine find_turns
+
+   !> Keep the stretch of interpenetration at a lateral position, and open the gap elsewhere: neighbours are other regions
+   pure subroutine keep_stretch(gap, y)
+      !> Gap at the present height
+      type(gap_curve), intent(inout) :: gap
+      !> [mm], track coordinates
+      real(wp), intent(in) :: y
+      integer :: i, first, last
+
+      i = minloc(abs(gap%y(:gap%n) - y), dim=1)
+      if (.not. gap%gap(i) < 0.0_wp) return
+      first = findloc(gap%gap(:i) < 0.0_wp, .false., dim=1, back=.true.) + 1
+      last = i - 1 + findloc([gap%gap(i:gap%n) < 0.0_wp, .false.], .false., dim=1) - 1
+      gap%gap(:first - 1) = far_away
+      gap%gap(last + 1:gap%n) = far_away
+   end subroutine keep_stretch
 
    !> Mean inclination of the rail where the bodies overlap, weighted as in contact_wheelrail_region [rad]
    pure real(wp) function mean_angle(gap, step, weight_power) result(angle)
