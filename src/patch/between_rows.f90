@@ -12,7 +12,7 @@ module contact_patch_between_rows
    implicit none (type, external)
    private
 
-   public :: between, has_details, parts, section_details, solve_section
+   public :: between, cubic_weights, has_details, parts, section_details, solve_section
 
    !> Points of the section per element; odd, so that one is at the centre
    integer, parameter :: parts = 3
@@ -88,16 +88,30 @@ contains
       real(wp), intent(in) :: line(:)
       !> Index of the point
       integer, intent(in) :: i
-      real(wp) :: at, t
+      real(wp) :: weight(4)
       integer :: k
 
-      ! position in elements, the first centre at 1
-      at = 0.5_wp + (i - 0.5_wp)/parts
-      k = min(max(int(at), 2), size(line) - 2)
-      t = at - k
-      value = -t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp*line(k - 1) + (t**2 - 1.0_wp)*(t - 2.0_wp)/2.0_wp*line(k) &
-         & - t*(t + 1.0_wp)*(t - 2.0_wp)/2.0_wp*line(k + 1) + t*(t**2 - 1.0_wp)/6.0_wp*line(k + 2)
+      call cubic_weights(0.5_wp + (i - 0.5_wp)/parts, size(line), k, weight)
+      value = dot_product(weight, line(k - 1:k + 2))
    end function between
+
+   !> Weights of the four nearest centres in the value of the cubic polynomial through them
+   pure subroutine cubic_weights(at, n, k, weight)
+      !> Position in elements, the first centre at 1
+      real(wp), intent(in) :: at
+      !> Number of centres; at least four
+      integer, intent(in) :: n
+      !> The second of the four centres
+      integer, intent(out) :: k
+      !> Weights of the centres k - 1 to k + 2 [-]
+      real(wp), intent(out) :: weight(4)
+      real(wp) :: t
+
+      k = min(max(int(at), 2), n - 2)
+      t = at - k
+      weight = [-t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp, (t**2 - 1.0_wp)*(t - 2.0_wp)/2.0_wp, &
+         & -t*(t + 1.0_wp)*(t - 2.0_wp)/2.0_wp, t*(t**2 - 1.0_wp)/6.0_wp]
+   end subroutine cubic_weights
 
    !> Modulus of both bodies, by Hertz's theory [N/mm2]
    pure real(wp) function modulus(result)
