@@ -21,6 +21,8 @@ module contact_cases_given
       logical :: pitch_rate = .false., longitudinal_force = .false., speed = .false., roller_rate = .false.
       !> Has there been a case with friction, and are the velocities or creepages given last displacements and rotations of a shift?
       logical :: has_motion = .false., are_shifts = .false.
+      !> Are the rates of the rail, those of the flexible wheelset, the extra rigid slip given last those of a shift?
+      logical :: rail_shifts = .false., flexible_shifts = .false., slip_shifts = .false.
       !> Was it judged whether the number of outer iterations suits the bodies? Without friction it does not matter
       logical :: outer_iterations_judged = .false.
    end type given_numbers

@@ -210,7 +210,10 @@ contains
       if (n == 0) call a%fail("", "the list EXRHS has one entry for each element, but there is no grid that can be used")
       if (allocated(spec%extra_slip)) slip = reshape(spec%extra_slip, [size(spec%extra_slip)])
       call a%list("EXRHS", slip, 2*n)
-      if (a%is_reading .and. a%is_good) spec%extra_slip = reshape(slip, [2, n])
+      if (a%is_reading .and. a%is_good) then
+         spec%extra_slip = reshape(slip, [2, n])
+         spec%given%slip_shifts = spec%motion == motion%shift
+      end if
       call a%close_group()
    end subroutine visit_grid_and_geometry
 
@@ -324,6 +327,7 @@ contains
          call a%open_group("deviations")
          call visit_deviations(a, wheel_rail%rail)
          call a%close_group()
+         if (a%is_reading) given%rail_shifts = spec%motion == motion%shift
          if (spec%force == force_control%massless_rail) then
             call a%open_group("springs")
             call visit_springs(a, wheel_rail%rail)
@@ -370,6 +374,7 @@ contains
             call a%open_group("flexibility")
             call visit_flexibility(a, wheel_rail%wheelset)
             call a%close_group()
+            if (a%is_reading) given%flexible_shifts = spec%motion == motion%shift
          end if
       end associate
    end subroutine visit_wheelset

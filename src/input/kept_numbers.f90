@@ -3,7 +3,7 @@
 !> A choice may need numbers of a group that the case keeps. They have initial values if no earlier case has given them, and
 !> kept velocities may belong to another kind of motion; neither may be used silently.
 module contact_input_kept_numbers
-   use contact_base_choices, only : force_control, material_model, motion, pressure_model
+   use contact_base_choices, only : force_control, material_model, motion, pressure_model, slip_source
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, part_source
    use contact_input_control, only : add_for_digit, control_words
@@ -28,14 +28,16 @@ contains
       if (allocated(spec%wheel_rail)) then
          call check_track(words, spec, problems)
          if (spec%parts%velocity /= part_source%given) call check_velocities(words, spec, problems)
+         call check_rates(words, spec, problems)
          if (spec%parts%wheel_profile == part_source%given .and. spec%parts%flexibility /= part_source%given .and. &
             & any(abs([spec%wheel_rail%wheelset%flexible, spec%wheel_rail%wheelset%flexible_rate]) > 0.0_wp)) &
             & call add_for_digit(problems, words, severity%warning, "E", "the flexible deviations of the wheelset are kept " // &
             & "from an earlier case, although the case gives a new wheelset; deviations of 0 end them")
-      else if (spec%motion >= motion%transient_rolling .and. spec%parts%material == part_source%renewed .and. &
-         & .not. spec%given%rolling) then
-         call add_for_digit(problems, words, severity%warning, "C", "CHI, DQ and VELOC are kept, but a case without " // &
-            & "rolling has set them to 0, 1 mm and 1 mm/s")
+      else
+         call check_slip(words, spec, problems)
+         if (spec%motion >= motion%transient_rolling .and. spec%parts%material == part_source%renewed .and. &
+            & .not. spec%given%rolling) call add_for_digit(problems, words, severity%warning, "C", "CHI, DQ and VELOC are " // &
+            & "kept, but a case without rolling has set them to 0, 1 mm and 1 mm/s")
       end if
    end subroutine check_kept_numbers
 
@@ -109,11 +111,53 @@ contains
          else
             if (.not. given%speed) call report(words, problems, "E", "VS", "a rail", velocities)
          end if
-         if (given%are_shifts .neqv. spec%motion == motion%shift) call add_for_digit(problems, words, severity%error, "E", &
-            & "the velocities are kept, but in shifts they are displacements and rotations, in rolling rates: after a change " // &
-            & "between shift and rolling new ones are needed")
+         call check_kind(words, "E", velocities, given%are_shifts, spec%motion, problems)
       end associate
    end subroutine check_velocities
+
+   !> Rates of the rail and of the flexible wheelset; without friction they are not used
+   subroutine check_rates(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      if (spec%motion == motion%none) return
+      associate (rail => spec%wheel_rail%rail)
+         if (spec%parts%deviations /= part_source%given .and. any(abs([rail%vy, rail%vz, rail%vroll]) > 0.0_wp)) &
+            & call check_kind(words, "Z", "the velocities of the rail", spec%given%rail_shifts, spec%motion, problems)
+      end associate
+      if (spec%parts%flexibility /= part_source%given .and. any(abs(spec%wheel_rail%wheelset%flexible_rate) > 0.0_wp)) &
+         & call check_kind(words, "E", "the velocities of the flexible deviations", spec%given%flexible_shifts, spec%motion, &
+         & problems)
+   end subroutine check_rates
+
+   !> The extra rigid slip of the elements; without friction it is not used
+   subroutine check_slip(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      if (spec%motion == motion%none .or. spec%slip_source /= slip_source%given) return
+      if (spec%parts%extra_slip == part_source%given .or. .not. allocated(spec%extra_slip)) return
+      if (any(abs(spec%extra_slip) > 0.0_wp)) call check_kind(words, "E", "the values of the extra rigid slip", &
+         & spec%given%slip_shifts, spec%motion, problems)
+   end subroutine check_slip
+
+   !> Report values that are kept although a change between shift and rolling has changed their meaning
+   subroutine check_kind(words, digit, group, are_shifts, moves, problems)
+      type(control_words), intent(in) :: words
+      !> Digit that keeps the group, and its name
+      character(len=*), intent(in) :: digit, group
+      !> Were the values given for a shift?
+      logical, intent(in) :: are_shifts
+      !> Motion of the case, member of motion
+      integer, intent(in) :: moves
+      type(problem_list), intent(inout) :: problems
+
+      if (are_shifts .neqv. moves == motion%shift) call add_for_digit(problems, words, severity%error, digit, group // &
+         & " are kept, but in shifts they are displacements and rotations, in rolling rates: after a change between shift and " // &
+         & "rolling new ones are needed")
+   end subroutine check_kind
 
    !> Report numbers that no case has given
    subroutine report(words, problems, digit, names, choice, group)

@@ -169,13 +169,15 @@ contains
       call has_problem(suite, problems, "the velocities are kept, but in shifts", "velocities as shifts")
       call read_next("1202100", "0111001", here, first, spec, problems, error)
       call is_good(suite, problems, error, "velocities of steady rolling in transient rolling")
-      call read_next("1201100", "0111002", here // nl // "0.01 0. 0. 0. 0. -1e-5", first, spec, problems, error)
+      call read_next("1201100", "0111022", "0. 0. 0. 0. 0. 0." // nl // here // nl // "0.01 0. 0. 0. 0. -1e-5", first, spec, &
+         & problems, error)
       call is_good(suite, problems, error, "shifts of this case")
       first = spec
       call read_next("1203100", "0111001", here, first, spec, problems, error)
       call has_problem(suite, problems, "the velocities are kept, but in shifts", "shifts as velocities")
       call read_next("1200100", "0111001", here, first, spec, problems, error)
       call is_good(suite, problems, error, "shifts are not used without friction")
+      call kept_rates(suite)
 
       call read_text(new_case(), first, problems, error)
       call read_next("5203100", "0111000", "", first, spec, problems, error)
@@ -199,6 +201,42 @@ contains
       call has_problem(suite, problems, "the flexible deviations of the wheelset are kept", "a new wheelset, bent as before", &
          & severity%warning)
    end subroutine kept_numbers
+
+   !> Rates of the rail and of the flexible wheelset that are kept after a change between rolling and shift
+   subroutine kept_rates(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: first, spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: here = "0. 0.5 10000. 0. 0. 0.", shift = here // nl // "0.01 0. 0. 0. 0. -1e-5"
+      character(len=*), parameter :: deviations = "0. 0. 0. 0. 0. 0.", rates = "1. 0. 0. 0. 0. 0."
+
+      call read_text(new_case(), first, problems, error)
+      call read_next("1203100", "0111020", rates, first, spec, problems, error)
+      call is_good(suite, problems, error, "deviations of the rail")
+      first = spec
+      call read_next("1201100", "0111002", shift, first, spec, problems, error)
+      call is_good(suite, problems, error, "deviations of the rail without velocities in a shift")
+      call read_next("1203100", "0111020", "0. 0. 0. 1. 0. 0.", first, spec, problems, error)
+      call is_good(suite, problems, error, "a velocity of the rail")
+      first = spec
+      call read_next("1201100", "0111002", shift, first, spec, problems, error)
+      call has_problem(suite, problems, "the velocities of the rail are kept, but in shifts", "as a shift of the rail")
+      call read_next("1201100", "0111022", "0. 0. 0. 1. 0. 0." // nl // shift, first, spec, problems, error)
+      call is_good(suite, problems, error, "a shift of the rail")
+
+      call read_text(new_case(), first, problems, error)
+      call read_next("1203100", "0111004", here // nl // "2000. 0. 0. 0. 0. -4." // nl // deviations // nl // rates, first, spec, &
+         & problems, error)
+      call is_good(suite, problems, error, "a velocity of the flexible wheelset")
+      first = spec
+      call read_next("1202100", "0111002", here // nl // "2000. 0. 0. 0. 0. -4.", first, spec, problems, error)
+      call is_good(suite, problems, error, "kept in transient rolling")
+      call read_next("1201100", "0111002", shift, first, spec, problems, error)
+      call has_problem(suite, problems, "the velocities of the flexible deviations are kept, but in shifts", "as a shift")
+      call read_next("1200100", "0111001", here, first, spec, problems, error)
+      call is_good(suite, problems, error, "and not used without friction")
+   end subroutine kept_rates
 
    !> A case after `previous` with its control words and groups
    subroutine read_next(word1, word2, groups, previous, spec, problems, error)

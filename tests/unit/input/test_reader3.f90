@@ -463,7 +463,8 @@ contains
    !> What digits of a later case demand of the one before
    subroutine digits_of_two_cases(suite)
       type(test_suite), intent(inout) :: suite
-      character(len=*), parameter :: kept = "2=0100000|6=|7=|8=|9=|10=|11=|12="
+      character(len=*), parameter :: kept = "2=0100000|6=|7=|8=|9=|10=|11=|12=", extra = &
+         & "2=0022029|10=1 1 0 0 1 1|12=0.01 0 0.01 0 0 0;", extra_kept = "2=0102001|6=|9=|10=|11=|12="
 
       call wrong_second(suite, "", kept // "|1=203101", "no case has given any")
       call wrong_second(suite, "", kept // "|1=203102|12=0 0", "no case has given any")
@@ -486,6 +487,13 @@ contains
       call right_second(suite, "2=0022520|8=.3 .3 1 1;1 1 1", kept // "|2=0101300")
       call right_second(suite, "", kept // "|2=0101700")
       call dubious_second(suite, "1=201100|7=", kept // "|2=0101000", "CHI, DQ and VELOC are kept")
+      ! an extra rigid slip of rolling is not one of a shift
+      call right_second(suite, extra // "0.001 0.002", "1=202100|" // extra_kept)
+      call wrong_second(suite, extra // "0.001 0.002", "1=201100|7=|" // extra_kept, "the extra rigid slip are kept, but in shifts")
+      call wrong_second(suite, "1=201100|7=|" // extra // "0.001 0.002", extra_kept, "the extra rigid slip are kept, but in shifts")
+      call right_second(suite, extra // "0 0", "1=201100|7=|" // extra_kept)
+      call right_second(suite, extra // "0.001 0.002", "1=200100|7=|" // extra_kept)
+      call right_second(suite, extra // "0.001 0.002", "1=201100|7=|" // extra // "0.001 0.002")
    end subroutine digits_of_two_cases
 
    !> Values of the iteration, kinematics and rolling groups
