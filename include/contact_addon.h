@@ -197,7 +197,7 @@ void cntc_setnormalforce(const int *ire, const int *icp, const double *fn);
 void cntc_setundeformeddistc(const int *ire, const int *icp, const int *ibase, const int *nparam,
                              const double *prmudf);
 
-/* Set creepages, in shifts the shift (basic contact); set T before.
+/* Set creepages, in shifts the shift (basic contact).
  *   vx, vy: longitudinal and lateral creepage [-], in shifts (T = 1) distances [L]
  *   phi: spin [A/L], in shifts rotation [A] */
 void cntc_setcreepages(const int *ire, const int *icp, const double *vx, const double *vy,

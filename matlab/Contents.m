@@ -89,7 +89,7 @@
 %   cntc_setpenetration         - prescribe the approach of the bodies (basic contact); sets N = 0.
 %   cntc_setnormalforce         - prescribe the normal force (basic contact); sets N = 1.
 %   cntc_setundeformeddistc     - set the undeformed distance (basic contact), after cntc_setpotcontact.
-%   cntc_setcreepages           - set creepages, in shifts the shift (basic contact); set T before.
+%   cntc_setcreepages           - set creepages, in shifts the shift (basic contact).
 %   cntc_setextrarigidslip      - set the extra term of the rigid slip (basic contact).
 %
 % The library: settings of wheel and rail.

@@ -1,5 +1,5 @@
 function cntc_setcreepages( ire, icp, vx, vy, phi )
-% CNTC_SETCREEPAGES  Set creepages, in shifts the shift (basic contact); set T before.
+% CNTC_SETCREEPAGES  Set creepages, in shifts the shift (basic contact).
 %
 %   cntc_setcreepages( ire, icp, vx, vy, phi )
 %

@@ -10,10 +10,11 @@ module contact_capi_calculate
    use contact_capi_calculate3, only : finish_contact, solve_contact
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : report_error, first_refusal, keep_status, library_log, log_message
+   use contact_capi_motion, only : settle_motion
    use contact_capi_problem, only : library_problem, max_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type
    use contact_control_digits, only : case_digits
-   use contact_control_library_codes, only : code_text
+   use contact_control_library_codes, only : code_text, library_code
    use contact_control_translation, only : apply_digits
    implicit none (type, external)
    private
@@ -93,6 +94,10 @@ contains
          log = library_log()
          problem%cases = problem%cases + 1
          if (problem%module_number == 1) call check_data(problem, code, error)
+      end if
+      if (.not. allocated(error)) then
+         code = library_code%other
+         call settle_motion(this, problem, error)
       end if
       if (.not. allocated(error)) then
          call choose(this, problem, digits)

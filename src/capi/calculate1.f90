@@ -78,9 +78,9 @@ contains
       ! patches of a case that is only checked have no fields, and are not available
       problem%has_result = problem%spec%solve
       associate (result => problem%wheel_rail_result)
-         problem%stored%wheelset%z = result%z_ws
-         problem%stored%wheelset%vpitch = result%vpitch
          if (problem%spec%solve) then
+            problem%stored%wheelset%z = result%z_ws
+            problem%stored%wheelset%vpitch = result%vpitch
             status = result%status
             if (.not. status%is_solved()) then
                code = code_of_wheel_rail(status, size(result%patches))

@@ -1,9 +1,10 @@
 !> Settings of the geometry and the motion of contact problems (module 3)
 module contact_capi_contact
-   use contact_base_choices, only : grid_form, motion, slip_source
+   use contact_base_choices, only : grid_form, slip_source
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : raised
    use contact_capi_messages, only : fits, is_heard, log_message
+   use contact_capi_motion, only : creepages_of, follow_digits
    use contact_capi_problem, only : library_problem
    use contact_capi_caller, only : caller
    use contact_cases_grid_inputs, only : largest_grid, visit_grid
@@ -147,24 +148,16 @@ contains
       if (a%is_good) n = digit
    end subroutine set_normal
 
-   !> Set creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
+   !> Set creepages and spin; in shifts displacements and a rotation
    subroutine set_creepages(a, problem)
       type(caller), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
-      real(wp) :: creep, spin, values(3)
 
-      creep = 1.0_wp
-      spin = inward(problem%units, quantity%spin)
-      if (problem%motion() == motion%shift) then
-         creep = inward(problem%units, quantity%length)
-         spin = inward(problem%units, quantity%angle)
-      end if
-      values = a%numbers(1)%v(:3)*[creep, creep, spin]
-      associate (kinematics => problem%stored%kinematics)
-         if (.not. fits(a%call_of, "CKSI CETA CPHI", values)) return
-         kinematics%cksi = values(1)
-         kinematics%ceta = values(2)
-         kinematics%cphi = values(3)
+      associate (numbers => a%numbers(1)%v(:3))
+         if (.not. fits(a%call_of, "CKSI CETA CPHI", creepages_of(problem, numbers))) return
+         problem%given%numbers = numbers
+         problem%given%values%is_new = .true.
+         call follow_digits(problem)
       end associate
    end subroutine set_creepages
 
@@ -186,6 +179,8 @@ contains
       problem%spec%slip_grid = [problem%spec%grid%mx, problem%spec%grid%my]
       problem%digits%e = 1
       problem%spec%slip_source = slip_source%given
+      problem%given%slip%is_new = .true.
+      call follow_digits(problem)
       if (is_heard(2)) call log_message(2, a%call_of, integer_text(given) // " values for " // integer_text(n) // " elements")
    end subroutine set_extra_slip
 

@@ -7,6 +7,7 @@ module contact_capi_flags
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
    use contact_capi_messages, only : begin_setting, report_error, end_setting, fits, is_heard, log_message, warn
+   use contact_capi_motion, only : follow_digits
    use contact_capi_problem, only : library_problem
    use contact_capi_timers, only : set_timer_level
    use contact_cases_accuracy_plan, only : largest_accuracy
@@ -100,6 +101,7 @@ contains
          & integer_text(stored))
       if (is_heard(2)) call log_message(2, this, flag_text(code, stored))
       call store_flag(this, code, stored, problem)
+      if (code == flag%tang .or. code == flag%config) call follow_digits(problem)
 
    contains
 

@@ -1,12 +1,13 @@
 !> Entry that reads the settings of wheel and rail from an input file
 module contact_capi_input_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int
+   use contact_base_choices, only : motion
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_capi_arguments, only : integer_of, path_of, set_argument
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : report_error, log_message
-   use contact_capi_problem, only : library_problem
+   use contact_capi_problem, only : kind_of_motion, library_problem
    use contact_capi_profiles, only : read_given_profile
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_given, only : all_given
@@ -174,6 +175,12 @@ contains
       problem%digits = digits
       problem%spec = spec
       problem%stored%wheelset = spec%wheel_rail%wheelset
+      if (digits%e > 0) then
+         problem%given%values = kind_of_motion(for_shift=spec%motion == motion%shift, is_new=.false.)
+         problem%given%flexible = problem%given%values
+         problem%given%for_roller = spec%wheel_rail%roller
+      end if
+      if (digits%z > 0) problem%given%rail = kind_of_motion(for_shift=spec%motion == motion%shift, is_new=.false.)
       ! a complete case replaces settings that were refused
       if (allocated(problem%refused)) deallocate(problem%refused)
       ! subsurface stresses are calculated by a separate routine

@@ -25,8 +25,8 @@ module contact_capi_problem
    implicit none (type, external)
    private
 
-   public :: library_problem, given_profile, refused_setting, new_problem, release_problem, abandon_results, abandon_problem, &
-      & max_patches
+   public :: library_problem, given_profile, kind_of_motion, refused_setting, new_problem, release_problem, &
+      & abandon_results, abandon_problem, max_patches
 
    !> Maximum number of patches that can be addressed
    integer, parameter :: max_patches = 9
@@ -57,6 +57,25 @@ module contact_capi_problem
       !> Values of module 1
       type(wheelset_spec) :: wheelset
    end type stored_values
+
+   !> For which motion values were given that in shifts are displacements and rotations
+   type :: kind_of_motion
+      !> For a shift?
+      logical :: for_shift = .false.
+      !> Has no calculation used the values yet? Until then they belong to the motion of the current digit T
+      logical :: is_new = .false.
+   end type kind_of_motion
+
+   !> Values as given whose meaning and unit depend on the digits T and C1: creepages of contact problems, velocities of a wheelset
+   type :: given_motion
+      !> Creepages and spin, or as first number the forward velocity or the pitch rate of the roller, in the units of the caller
+      real(wp) :: numbers(3) = 0.0_wp
+      type(kind_of_motion) :: values
+      !> Is the first number the pitch rate of a roller?
+      logical :: for_roller = .false.
+      !> The extra rigid slip of the elements; rates of the flexible wheelset and of the rail
+      type(kind_of_motion) :: slip, flexible, rail
+   end type given_motion
 
    !> A profile, prepared when it was given
    type :: given_profile
@@ -93,6 +112,7 @@ module contact_capi_problem
       !> Input of the next calculation, except for the stored values
       type(case_spec) :: spec
       type(stored_values) :: stored
+      type(given_motion) :: given
       !> Last case as solved, if its accuracy determined the grid; unallocated otherwise
       type(case_spec), allocatable :: solved
       !> Profiles of module 1

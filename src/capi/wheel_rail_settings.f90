@@ -2,6 +2,7 @@
 module contact_capi_wheel_rail_settings
    use contact_base_kinds, only : wp
    use contact_capi_messages, only : log_message
+   use contact_capi_motion, only : follow_digits
    use contact_capi_problem, only : library_problem
    use contact_capi_caller, only : caller
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_springs, &
@@ -43,6 +44,8 @@ contains
          problem%digits%z = merge(0, 3, method == 0)
          wheel_rail%track = track
          wheel_rail%rail = rail
+         if (method == 2 .or. method == 3) problem%given%rail%is_new = .true.
+         call follow_digits(problem)
       end associate
    end subroutine set_track
 
@@ -113,7 +116,6 @@ contains
             e = max(1, e)
          case ("cntc_setWheelsetVelocity")
             if (method == 1) call log_message(1, a%call_of, "method 1 is treated as 2")
-            if (is_roller) wheelset%vs = 0.0_wp
             if (e <= 1) e = max(2, method)
          case default
             if (method >= 4) then
@@ -123,6 +125,12 @@ contains
             end if
          end select
          problem%stored%wheelset = wheelset
+         if (routine == "cntc_setWheelsetFlexibility") problem%given%flexible%is_new = .true.
+         if (routine == "cntc_setWheelsetVelocity") then
+            problem%given%numbers(1) = a%numbers(1)%v(1)
+            problem%given%values%is_new = .true.
+         end if
+         call follow_digits(problem)
       end associate
    end subroutine set_wheelset
 end module contact_capi_wheel_rail_settings
