@@ -116,6 +116,11 @@ contains
       else
          call finish_contact(this, problem, log, status, code)
       end if
+      if (.not. allocated(error) .and. problem%spec%solve) then
+         problem%bodies%material = problem%spec%material
+         problem%bodies%kernel = problem%spec%kernel
+         problem%bodies%motion = problem%spec%motion
+      end if
       call keep_status(problem, status)
    end subroutine calculate_case
 

@@ -13,7 +13,7 @@ module contact_capi_problem
    use contact_base_kept_blocks, only : kept_blocks
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
-   use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, rolling_spec
+   use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, material_spec, rolling_spec
    use contact_control_digits, only : case_digits, choice_of
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
@@ -101,6 +101,13 @@ module contact_capi_problem
       character(len=:), allocatable :: reason
    end type refused_setting
 
+   !> What stresses below the surface need of the last case that was solved; settings may be those of the next one
+   type :: solved_bodies
+      type(material_spec) :: material
+      !> Members of kernel_model and motion
+      integer :: kernel = 0, motion = 0
+   end type solved_bodies
+
    !> One problem, with data kept from case to case
    type, extends(problem_slot) :: library_problem
       !> Result element; contact patch, -1 in module 1; module
@@ -115,6 +122,7 @@ module contact_capi_problem
       type(given_motion) :: given
       !> Last case as solved, if its accuracy determined the grid; unallocated otherwise
       type(case_spec), allocatable :: solved
+      type(solved_bodies) :: bodies
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
       !> Folder to which names of profiles are relative, in the last calculation

@@ -186,18 +186,20 @@ contains
       integer, parameter :: signs(3) = [orientation%along, orientation%across, orientation%across]
       type(quantity_type) :: units(3)
       real(wp) :: creep(3)
-      logical :: left
+      logical :: left, is_shift
 
+      is_shift = problem%given%values%for_shift
       creep = [problem%stored%kinematics%cksi, problem%stored%kinematics%ceta, problem%stored%kinematics%cphi]
       left = .false.
       if (problem%module_number == 1) then
          left = problem%spec%wheel_rail%left
          associate (patch => problem%wheel_rail_result%patches(a%call_of%icp)%contact)
             creep = [patch%cksi, patch%ceta, patch%cphi]
+            is_shift = patch%motion == motion%shift
          end associate
       end if
       units = [quantity%number, quantity%number, quantity%spin]
-      if (problem%motion() == motion%shift) units = [quantity%length, quantity%length, quantity%angle]
+      if (is_shift) units = [quantity%length, quantity%length, quantity%angle]
       call a%set_each_result(creep*outward(problem%units, units, signs, left))
    end subroutine get_creepages
 
@@ -217,7 +219,7 @@ contains
       associate (units => problem%units)
          side = merge(-1.0_wp, 1.0_wp, view%left)
          per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
-         if (problem%motion() == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
+         if (view%patch%motion == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
             & + [0.0_wp, 0.0_wp, side*inward(units, quantity%angle)]
          per_output = [inward(units, quantity%force), 1.0_wp, side, side*inward(units, quantity%moment)]
       end associate

@@ -191,9 +191,9 @@ contains
       character(len=:), allocatable :: file
       logical :: left
 
-      request%kernel = problem%spec%kernel
-      request%material = problem%spec%material
-      request%motion = problem%spec%motion
+      request%kernel = problem%bodies%kernel
+      request%material = problem%bodies%material
+      request%motion = problem%bodies%motion
       request%has_stress = .true.
       request%subsurface = problem%spec%subsurface
       if (number > 0) then

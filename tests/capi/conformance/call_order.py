@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The order of the settings before a calculation does not matter, and values whose meaning has changed are not used silently.
 
-usage: call_order.py contact | pair | kept
+usage: call_order.py contact | pair | kept | results
 """
 import random
 import sys
@@ -165,7 +165,27 @@ def kept():
     check("belong to a roller" in message(-1), "a pitch rate on a track")
 
 
+def results():
+    """Results do not change with settings for the next case"""
+    for next_motion in (1, 3):
+        start(3, "un_si")
+        for setting in contact_settings(1e-3, 4 - next_motion):
+            setting()
+        same(message(1), "0 ", "a contact problem in m")
+        cntc.subs_addblock(1, 1, 1, 9, [0.0], [0.0, 1e-3], [5e-4, 2e-3])
+        got = []
+        for setting in (lambda: None, flag(1, "ic_tang", next_motion),
+                        lambda: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.3, 1e9, 2e9])):
+            setting()
+            same(cntc.subs_calculate(1, 1), 0, "stresses")
+            got.append([cntc.subs_getresults(1, 1, 1, range(1, 22)), cntc.getsensitivities(1, 1), cntc.getcreepages(1, 1)])
+        for later in got[1:]:
+            for before, after in zip(got[0], later):
+                close(after, before, 0.0, f"results of T = {4 - next_motion} after other settings")
+        cntc.finalize(1)
+
+
 if __name__ == "__main__":
     cntc.initlibrary(idebug=0)
-    {"contact": contact, "pair": pair, "kept": kept}[sys.argv[1]]()
+    {"contact": contact, "pair": pair, "kept": kept, "results": results}[sys.argv[1]]()
     finish()
