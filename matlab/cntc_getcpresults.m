@@ -7,7 +7,7 @@ function [ sol ] = cntc_getcpresults( ire, icp )
 %   sol        struct like that of loadcase. For wheel and rail it includes the profiles prr and prw, so that
 %              plot3d( sol, opt ) needs no other profiles. The radius of rollers is not known (Inf).
 %
-% Use CONTACT units (mm, tractions on the rail); profiles are in mm whatever the units.
+% Results are in CONTACT units (mm, N, tractions on the rail), whatever the units of the problem.
 %
 % See also: loadcase, plot3d, cntc_gettractions.
 
@@ -34,6 +34,9 @@ function [ sol ] = cntc_getcpresults( ire, icp )
       cntc_mex('error', 0, -1);
    end
 
+   units = cntc_getflags(ire, whole, CNTC.if_units);
+   cntc_setflags(ire, whole, CNTC.if_units, CNTC.un_cntc);
+   restored = onCleanup(@() cntc_setflags(ire, whole, CNTC.if_units, units));
    flags = cntc_getflags(ire, whole, [CNTC.ic_config, CNTC.ic_tang, CNTC.ic_discns, CNTC.ic_mater, CNTC.ic_heat]);
    p     = cntc_getparameters(ire, icp, 1);
    sol   = struct('config',0, 'h_digit',flags(5));

@@ -741,9 +741,19 @@ def resetcalculationtime(ire: Number = 1, icp: Number = 1) -> None:
 def getcpresults(ire: Number = 1, icp: Number = 1) -> dict[str, Any]:
     """Inputs and results of a patch of wheel/rail contact, with the names of the Matlab function loadcase.
 
-    Profiles are in mm, so the units of the problem have to be those of CONTACT (``un_cntc``).
+    They are in the units of CONTACT (``un_cntc``: mm, N, tractions on the rail), whatever those of the problem.
     """
     element, patch = _element(ire), _patch(icp)
+    units = getflags(element, -1, CNTC["if_units"])
+    setflags(element, -1, CNTC["if_units"], CNTC["un_cntc"])
+    try:
+        return _cpresults(element, patch)
+    finally:
+        setflags(element, -1, CNTC["if_units"], units)
+
+
+def _cpresults(element: int, patch: int) -> dict[str, Any]:
+    """The same in the current units"""
     config, t_digit, d_digit, m_digit, h_digit = (int(value) for value in getflags(
         element, -1, [CNTC[name] for name in ("ic_config", "ic_tang", "ic_discns", "ic_mater", "ic_heat")]))
     kinematics = getparameters(element, patch, 1)

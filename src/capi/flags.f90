@@ -262,6 +262,7 @@ contains
       end if
       associate (spec => problem%spec)
          select case (code)
+         case (flag%units); number = problem%units%code
          case (flag%ncase); number = problem%cases
          case (flag%own_angle)
             number = 0

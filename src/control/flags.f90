@@ -41,7 +41,7 @@ module contact_control_flags
 
    !> All flags, with the range of module 1 where the modules differ
    type(flag_row), parameter :: flag_table(*) = [ &
-      & flag_row(flag%units, "  ", 1934, 1937, out_of_range%refused, .true., .false.), &
+      & flag_row(flag%units, "  ", 1934, 1937, out_of_range%refused), &
       & flag_row(flag%config, "C1", 0, 5, out_of_range%nearest), &
       & flag_row(flag%pvtime, "P ", 0, 3, out_of_range%nearest), &
       & flag_row(flag%bound, "B ", 0, 6, out_of_range%nearest), &

@@ -260,6 +260,12 @@ check(isequal([sol.config, sol.d_digit, sol.mater.m_digit, sol.kincns.t_digit, s
               double(cntc_getflags(1, -1, [CNTC.ic_config, CNTC.ic_discns, CNTC.ic_mater, CNTC.ic_tang, CNTC.ic_heat]))(:)') && ...
       sol.d_digit~=sol.mater.m_digit, 'digits of getcpresults');
 check(sol.config==0, 'left');
+cntc_setflags(1, -1, CNTC.if_units, CNTC.un_spck);
+other = cntc_getcpresults(1, 1);
+check(cntc_getflags(1, -1, CNTC.if_units)==CNTC.un_spck, 'units after getcpresults are as before');
+check_near(other.x, sol.x, 1e-12, 'getcpresults in mm');
+check_near(other.px, sol.px, 1e-9*max(abs(sol.px(:))), 'tractions on the rail');
+cntc_setflags(1, -1, CNTC.if_units, CNTC.un_cntc);
 opt.rw_surf = 'prr';
 plot3d(sol, opt);
 check_near(cntc_getprofilevalues(1, -1, [0 0])', [0 0], 0, 'profile is there');

@@ -153,6 +153,14 @@ def patch_as_in_matlab():
     same(len(patch["prr"]["ProfileY"]), len(points), "rail profile")
     same(patch["prw"]["ProfileS"].shape, patch["prw"]["ProfileZ"].shape, "wheel profile")
     close(patch["meta"]["y_r"], 717.5 - gauge, 2e-3, "marker of the rail")
+    for ire, units in ((2, "un_si"), (3, "un_spck")):
+        set_up(ire, 1, units)
+        other = cntc.getcpresults(ire, 1)
+        same(int(cntc.getflags(ire, -1, CNTC["if_units"])[0]), CNTC[units], f"{units}: units are as before")
+        for name in ("x", "y", "pn", "px", "ux"):
+            close(other[name], patch[name], 2e-4*np.abs(patch[name]).max(), f"{units}: {name} in mm, on the rail")
+        for name in ("z_w", "zcp_r", "yaw_w", "deltcp_r"):
+            close(other["meta"][name], patch["meta"][name], 1e-6, f"{units}: {name}")
     check("temp1" not in patch and "taucrt" not in patch, "fields of effects that did not act are absent")
 
 
