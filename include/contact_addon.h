@@ -333,7 +333,7 @@ void cntc_getnumcontactpatches(const int *ire, int *npatch);
  *   1-4       contact reference x, y, z [L] and its angle [A] in track coordinates
  *   5-9       x, y, z, s [L], angle [A] in rail coordinates; 10-14 the same in wheel coordinates
  *   15, 16    centre of pressure x, y in track coordinates [L]
- *   18, 19    deflections of the rail dy, dz [L]
+ *   18, 19    deflections of the rail dy, dz [L]; dy of a left rail is that of its mirror image
  *   21-25     wheel marker x, y, z [L], roll, yaw [A]; 26-28 rail marker y, z [L], roll [A]; track coordinates
  *   30-33     contact reference x, y, z [L], angle [A] in wheelset coordinates
  *   34-38     wheel marker x, y, z [L], roll, yaw [A] in wheelset coordinates */
@@ -381,7 +381,8 @@ void cntc_getcontactforces(const int *ire, const int *icp, double *fn, double *t
  *   rvalues in threes, forces Fx, Fy, Fz [F] and moments Mx, My, Mz [F L]:
  *   1-6       track directions, about the rail marker; 7-12 wheelset directions, about the wheel marker
  *   13-18     rail directions, about the rail marker; 19-24 wheel directions, about the wheel marker
- *   They act on the rail, in Simpack units on the wheel. */
+ *   They act on the rail, in Simpack units on the wheel. With damping its forces are included, which totals of files and
+ *   prescribed forces do not contain. */
 void cntc_getglobalforces(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
 /* Get the areas of contact, adhesion and slip.

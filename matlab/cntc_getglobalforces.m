@@ -7,7 +7,8 @@ function [ rvalues ] = cntc_getglobalforces( ire, icp )
 %   rvalues in threes, forces Fx, Fy, Fz [F] and moments Mx, My, Mz [F L]:
 %   1-6       track directions, about the rail marker; 7-12 wheelset directions, about the wheel marker
 %   13-18     rail directions, about the rail marker; 19-24 wheel directions, about the wheel marker
-%   They act on the rail, in Simpack units on the wheel.
+%   They act on the rail, in Simpack units on the wheel. With damping its forces are included, which totals of files and
+%   prescribed forces do not contain.
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
