@@ -287,6 +287,7 @@ void cntc_getflags(const int *ire, const int *icp, const int *lenflg, const int 
 /* Get parameters of kinematics, material or friction.
  *   itask     values
  *   1         veloc [V], chi [A], dq [L], spinxo, spinyo [L], tau_c0 [F/L2]
+ *             of wheel and rail spinxo, spinyo: contact reference in the coordinates of the elements, in steps (T = 1, 2)
  *   2         gg1, gg2, gg [F/L2], poiss1, poiss2, poiss, ak [-], flx1, flx2, flx3 [L3/F], k0_mf, alfamf, betamf,
  *             k_eff [-], gg3 [F/L2], laythk [L], tau_c0 [F/L2], k_tau [F/L3], cdampn, cdampt [T], dfnmax, dftmax [F/T]
  *   3         lmeth, nvf, memdst [mm], mem_s0 [mm/s], nvf times alpha [rad] or [mm], fstat, fkin [-] */

@@ -55,7 +55,8 @@ function [ sol ] = cntc_getcpresults( ire, icp )
    sol.y = yc1 + (0:sol.my-1)*sol.dy;
    if (wheel_rail)
       sol.config = flags(1);
-      sol.meta   = add_places(sol.meta, ire, icp, npatch);
+      % on rollers the first coordinate of the wheelset is not a position along a track
+      sol.meta   = add_places(sol.meta, ire, icp, npatch, sol.config<4);
       sol.prr    = get_profile(ire, 0);
       sol.prw    = get_profile(ire, 1);
    end
@@ -65,12 +66,12 @@ end % function cntc_getcpresults
 
 %------------------------------------------------------------------------------------------------------
 
-function [ meta ] = add_places( meta, ire, icp, npatch )
+function [ meta ] = add_places( meta, ire, icp, npatch, on_track )
 % Positions of wheelset, wheel, rail and contact
 
    ws  = cntc_getwheelsetposition(ire);
    loc = cntc_getcontactlocation(ire, icp);
-   meta.s_ws  = ws(1);    meta.th_ws = ws(6);
+   meta.s_ws  = ws(1)*on_track;    meta.th_ws = ws(6);
    meta.xcp_r = loc(5);   meta.ycp_r = loc(6);   meta.zcp_r = loc(7);   meta.deltcp_r = loc(9);
    meta.xcp_w = loc(10);  meta.ycp_w = loc(11);  meta.zcp_w = loc(12);
    meta.x_w   = loc(21);  meta.y_w   = loc(22);  meta.z_w   = loc(23);

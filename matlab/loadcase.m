@@ -18,6 +18,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   h_digit, d_digit  control digits HEAT and, in module 1, DISCNS
 %   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics; mater.ga, .si, .ak are the
 %                     combined modulus, Poisson ratio and difference parameter, fric.fstat the static coefficient of friction
+%   meta.spinxo, meta.spinyo   in steps (T = 1, 2) of wheel and rail: contact reference in the coordinates x, y of the elements [mm]
 %   meta.status       how the case ended: 'solved' or 'not converged'; '' in files of other programs
 %   meta.reason       which iteration did not reach its tolerance, and by how much; '' for solved cases
 %   mx, my            numbers of elements along and across the rolling direction

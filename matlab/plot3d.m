@@ -120,6 +120,7 @@ function [ opt ] = plot3d( sol, opt, prr, prw, subs )
    check_blocks(subs, sol, opt);
    if (with_profiles)
       [prr, prw] = get_profiles(sol, opt, prr, prw);
+      sol = from_reference(sol);
    end
 
    if (~opt.addplot)
@@ -172,6 +173,21 @@ function [ sol ] = completed( sol )
    end
 
 end % function completed
+
+%------------------------------------------------------------------------------------------------------
+
+function [ sol ] = from_reference( sol )
+% Positions of the elements relative to the contact reference, as the surfaces have them; in steps (T = 1, 2) of wheel and rail
+% elements have another origin
+
+   for i = 1 : numel(sol)
+      if (isfield(sol(i).meta,'spinxo'))
+         sol(i).x = sol(i).x - sol(i).meta.spinxo;
+         sol(i).y = sol(i).y - sol(i).meta.spinyo;
+      end
+   end
+
+end % function from_reference
 
 %------------------------------------------------------------------------------------------------------
 

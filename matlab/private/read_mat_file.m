@@ -20,6 +20,10 @@ function [ s ] = read_mat_file( fname, icase )
    s = struct('config',rows(4,9), 'h_digit',rows(6,2));
    s.meta   = read_meta(rows, fmt);
    [s.meta.status, s.meta.reason] = read_status(comments{1});
+   if (isempty(s.meta.status) && any(s.config==[0 4]) && s.meta.ipatch>0)
+      % the established program does not mirror the contact reference of a left wheel with its elements
+      s.meta.spinyo = -s.meta.spinyo;
+   end
    s.mater  = read_material(rows(5,:));
    s.fric   = read_friction(rows(6,:));
    s.kincns = struct('t_digit',rows(5,1), 'chi',rows(4,7), 'dq',rows(4,8), 'veloc',rows(6,3));

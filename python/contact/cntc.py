@@ -767,7 +767,9 @@ def _cpresults(element: int, patch: int) -> dict[str, Any]:
         "mater": {"m_digit": m_digit, "tau_c0": tau_c0},
         "h_digit": h_digit,
         "meta": {
-            "spinxo": kinematics["spinxo"], "spinyo": kinematics["spinyo"], "s_ws": wheelset[0],
+            "spinxo": kinematics["spinxo"], "spinyo": kinematics["spinyo"],
+            # on rollers the first coordinate of the wheelset is not a position along a track
+            "s_ws": wheelset[0] if config < 4 else 0.0,
             **dict(zip(("x_w", "y_w", "z_w", "roll_w", "yaw_w"), place[20:25])),
             **dict(zip(("y_r", "z_r", "roll_r"), place[25:28])),
             **dict(zip(("xcp_r", "ycp_r", "zcp_r"), place[4:7])), "deltcp_r": place[8],

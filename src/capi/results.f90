@@ -48,6 +48,10 @@ contains
             end associate
          end if
          list(4:6) = [kinematics%spinxo, kinematics%spinyo, problem%spec%material%tau_c0]
+         if (problem%module_number == 1) then
+            list(4:5) = problem%wheel_rail_result%patches(icp)%grid_reference
+            if (problem%spec%wheel_rail%left) list(5) = -list(5)
+         end if
          list = list*outward(units, [quantity%velocity, quantity%angle, quantity%length, quantity%length, quantity%length, &
             & quantity%pressure])
       end associate

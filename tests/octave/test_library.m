@@ -266,7 +266,21 @@ check(cntc_getflags(1, -1, CNTC.if_units)==CNTC.un_spck, 'units after getcpresul
 check_near(other.x, sol.x, 1e-12, 'getcpresults in mm');
 check_near(other.px, sol.px, 1e-9*max(abs(sol.px(:))), 'tractions on the rail');
 cntc_setflags(1, -1, CNTC.if_units, CNTC.un_cntc);
-opt.rw_surf = 'prr';
+% in a step elements have another origin; surfaces show them where wheel and rail touch
+cntc_setflags(1, -1, CNTC.ic_tang, 2);
+cntc_calculate(1, -1);
+step = cntc_getcpresults(1, 1);
+check(hypot(step.meta.spinxo, step.meta.spinyo)>2, 'contact reference in the coordinates of the elements of a step');
+for body = 'rw'
+   opt = plot3d;   opt.field = 'pn';   opt.rw_surf = ['pr' body];
+   plot3d(step, opt);
+   drawn = get(findobj(gca, 'type','surface', 'facecolor','flat')(1));
+   check(min(drawn.xdata(:))<step.meta.(['xcp_' body]) && max(drawn.xdata(:))>step.meta.(['xcp_' body]), 'x of a step on a surface');
+   check(min(drawn.ydata(:))<step.meta.(['ycp_' body]) && max(drawn.ydata(:))>step.meta.(['ycp_' body]), 'y of a step on a surface');
+end
+cntc_setflags(1, -1, CNTC.ic_tang, 3);
+cntc_calculate(1, -1);
+opt = plot3d;   opt.rw_surf = 'prr';
 plot3d(sol, opt);
 check_near(cntc_getprofilevalues(1, -1, [0 0])', [0 0], 0, 'profile is there');
 n = cntc_getprofilevalues(1, 0, [1 -1]);

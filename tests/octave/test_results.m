@@ -74,6 +74,16 @@ for icase = [2 9]
 end
 check_near(out.tot_forc.fz_tr, 60000*ones(1,10), 60, 'vertical forces');
 check_near(out.ws_pos.y(2:3), [1.5 3.0], 1e-9, 'lateral positions');
+% the contact reference in the coordinates of the elements, of a left wheel: the established program does not mirror it
+lines = strsplit(fileread('wheel_on_rail.0007a.mat'), "\n");
+places = sscanf(lines{6}, '%f');
+lines{6} = sprintf(' %.6g', [places(1:9); -2; 3]);
+f = fopen('steps.0001a.mat', 'w');   fprintf(f, "%s\n", lines{:});   fclose(f);
+s1 = loadcase('steps');
+check(s1.config==0 && isequal([s1.meta.spinxo s1.meta.spinyo], [-2 3]), 'contact reference of a left wheel');
+f = fopen('steps.0001a.mat', 'w');   fprintf(f, "%s\n", strrep(lines{1}, 'STATUS', 'other'), lines{2:end});   fclose(f);
+s1 = loadcase('steps');
+check(isequal([s1.meta.spinxo s1.meta.spinyo], [-2 -3]), 'of the established program');
 [s1, s2] = loadcase('wheel_on_rail', 2, -1);
 check(isequal(s1.pn, loadcase('wheel_on_rail', 2, 1).pn) && isempty(s2), 'patches in separate structs');
 check(numel(parse_out3('wheel_on_rail').force.fn)==10 && all(isnan(parse_out3('wheel_on_rail').force.fn)), ...

@@ -153,6 +153,16 @@ def patch_as_in_matlab():
     same(len(patch["prr"]["ProfileY"]), len(points), "rail profile")
     same(patch["prw"]["ProfileS"].shape, patch["prw"]["ProfileZ"].shape, "wheel profile")
     close(patch["meta"]["y_r"], 717.5 - gauge, 2e-3, "marker of the rail")
+    for side in (0, 1):
+        set_up(2, side)
+        cntc.setflags(2, -1, CNTC["ic_tang"], 2)
+        same(cntc.calculate(2, -1), 0, "a step")
+        step = cntc.getcpresults(2, 1)
+        # pressures of a step are around the contact reference in the coordinates of the elements
+        where = [(step["pn"].sum(axis)*step[name]).sum()/step["pn"].sum() for axis, name in ((0, "x"), (1, "y"))]
+        check(np.hypot(*where) > 2.0, "elements of a step have another origin")
+        close([step["meta"]["spinxo"], step["meta"]["spinyo"]], where, 0.5, "contact reference of a step")
+    same((patch["meta"]["spinxo"], patch["meta"]["spinyo"]), (0.0, 0.0), "contact reference in steady rolling")
     for ire, units in ((2, "un_si"), (3, "un_spck")):
         set_up(ire, 1, units)
         other = cntc.getcpresults(ire, 1)
