@@ -8,6 +8,7 @@ module contact_patch_derivatives
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_parts, only : displacement_between
    use contact_normal_responses, only : pressure_responses
    use contact_patch_kinematics, only : shift_by_slip
    use contact_patch_order, only : edge_slip, spin_offset_of
@@ -223,7 +224,7 @@ contains
                   & mask=solution%division /= element%plastic)
             end do
             if (.not. allocated(t%second)) cycle
-            call gap_changes(response(:, :, k), box, t, workspace%window, gap)
+            call gap_changes(problem, response(:, :, k), box, t, workspace%window, gap)
             call edge_slip(problem, t, workspace%box%diagonal(2), solution%p, at, &
                & result%pn(box%ix0:box%ix1, box%iy0:box%iy1), pressure, gap, slip, angle)
             do j = 1, 3
@@ -262,7 +263,8 @@ contains
    !>
    !> In contact displacements follow the undeformed distance, which is extrapolated ahead by a parabola through the last three
    !> elements.
-   subroutine gap_changes(response, box, t, window, gap)
+   subroutine gap_changes(problem, response, box, t, window, gap)
+      type(patch_problem), intent(in) :: problem
       !> Change of the pressures, shape of the grid
       real(wp), contiguous, intent(in) :: response(:, :)
       type(bounding_box), intent(in) :: box
@@ -279,7 +281,7 @@ contains
       integer :: ix, iy, jx, jy, k, n
 
       allocate(un, mold=response)
-      call window%normal(response, un)
+      call displacement_between(problem%parts, window, response, un)
       gap = 0.0_wp
       do iy = 1, t%my
          jy = box%iy0 + iy - 1

@@ -9,6 +9,7 @@ module contact_patch_order
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : reason_length, solve_report
    use contact_grid_element_division, only : bounding_box
+   use contact_normal_parts, only : displacement_between
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_workspace, only : patch_workspace, prepare_window
    use contact_tangential_problem, only : tangential_problem
@@ -160,7 +161,7 @@ contains
       call prepare_window(problem, workspace)
       allocate(un, mold=pn)
       associate (normal => workspace%normal)
-         call workspace%window%normal(pn, un)
+         call displacement_between(problem%parts, workspace%window, pn, un)
          do iy = box%iy0, box%iy1
             do ix = box%ix0, box%ix1
                jx = ix + direction
@@ -170,8 +171,11 @@ contains
                   cycle
                end if
                if (normal%h(jx, iy) > excluded_threshold) gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = bodies_end
-               ! parts with reduced interaction have separate displacements
-               if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold .or. allocated(problem%parts)) cycle
+               if (pn(jx, iy) > 0.0_wp .or. normal%h(jx, iy) > excluded_threshold) cycle
+               if (allocated(problem%parts)) then
+                  ! displacements are those of a part
+                  if (problem%parts%label(jx, iy) == 0) cycle
+               end if
                ! minus the distance that remains in the leading element, an error of the solution
                gap(ix - box%ix0 + 1, iy - box%iy0 + 1) = max(0.0_wp, normal%h(jx, iy) - normal%h(ix, iy) + un(jx, iy) - un(ix, iy))
             end do

@@ -1,6 +1,6 @@
 !> Choices that few cases make: planforms of several parts, parts of the spin, FaStrip as published, memory backwards
 program test_further_choices
-   use contact_base_choices, only : material_model, motion, normal_control, slip_source
+   use contact_base_choices, only : material_model, motion, normal_control, planform_choice, slip_source
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
@@ -11,6 +11,7 @@ program test_further_choices
 
    call suite%start("further choices")
    call parts()
+   call parts_in_rolling()
    call spin_parts()
    call original_fastrip()
    call backwards()
@@ -62,6 +63,35 @@ contains
       call two%release()
       call alone%release()
    end subroutine parts
+
+   !> Parts with factors 1 roll as one, with both orders, also where the leading edge of one part is next to the other one
+   subroutine parts_in_rolling()
+      type(test_case) :: one, two
+      integer, parameter :: models(2) = [material_model%elastic, material_model%viscoelastic], order(3) = [1, 2, 2]
+      integer :: k, m
+
+      do m = 1, size(models)
+         do k = 1, size(order)
+            one%spec = grid_case(0.01_wp, 0.005_wp, 100.0_wp, 15, 15, 0.2_wp, 0.3_wp, eps=1.0e-8_wp)
+            call creep(one%spec, merge(motion%transient_rolling, motion%steady_rolling, k == 3 .and. m == 1), 0.002_wp, &
+               & -0.001_wp, 0.002_wp)
+            one%spec%material_model = models(m)
+            one%spec%material%fg = 1.0_wp
+            one%spec%material%tc = 1.0e-3_wp
+            one%spec%iteration%order = order(k)
+            two%spec = one%spec
+            two%spec%geometry%planform = planform_choice%weighted_rectangles
+            two%spec%geometry%rectangles = reshape([-9.0_wp, 0.3_wp, -9.0_wp, 9.0_wp, -9.0_wp, 9.0_wp, -9.0_wp, 9.0_wp], [4, 2])
+            two%spec%geometry%interaction = spread([1.0_wp, 1.0_wp], 1, 2)
+            call one%run(suite, "a whole in rolling")
+            call two%run(suite, "parts in rolling")
+            call suite%close_to([two%result%fx, two%result%fy], [one%result%fx, one%result%fy], 1.0e-5_wp*one%result%fn, &
+               & "parts roll as one")
+         end do
+      end do
+      call one%release()
+      call two%release()
+   end subroutine parts_in_rolling
 
    !> E = 2 and 3: a part of the spin is cancelled, as by an extra term in each element
    subroutine spin_parts()
