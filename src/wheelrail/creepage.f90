@@ -47,8 +47,9 @@ contains
 
    !> Creepages in rolling
    !>
-   !> V is the mean of the velocities of translation and of the wheel's circumference; on a roller it is the mean of the two
-   !> circumferential velocities. If the wheel neither travels nor turns, V is the sliding velocity.
+   !> V is the mean of the velocities of translation and of the wheel's circumference; on a roller it is that with which the
+   !> surfaces pass through the contact, the mean of the two circumferential velocities if the wheel stays above the roller. If the
+   !> wheel neither travels nor turns, V is the sliding velocity.
    pure function flat_creepage(rail, wheel, spin_axis, pitch_rate, on_rail, on_wheel, delta, roller) result(motion)
       !> Motion of rail (or roller) and wheel
       type(rigid_motion), intent(in) :: rail, wheel
@@ -61,14 +62,15 @@ contains
       !> Does the wheel run on a roller? Otherwise on a track
       logical, intent(in) :: roller
       type(contact_motion) :: motion
-      real(wp) :: p(3), q(3), circumference(3), translation
+      real(wp) :: p(3), q(3), circumference(3), translation, carried
 
       p = in_contact_axes(velocity_of(rail, on_rail), delta)
       q = in_contact_axes(velocity_of(wheel, on_wheel), delta)
       circumference = in_contact_axes(cross(pitch_rate*spin_axis, on_wheel - wheel%origin), delta)
       translation = q(1) - p(1) - circumference(1)
       if (roller) then
-         motion%veloc = 0.5_wp*abs(p(1) + q(1))
+         carried = q(1) - circumference(1)
+         motion%veloc = abs(0.5_wp*(p(1) + q(1)) - velocity_on_roller(rail, wheel, p(1), carried, on_rail, on_wheel))
          if (circumference(1) > 0.0_wp) motion%chi = pi
       else
          motion%veloc = 0.5_wp*(abs(translation) + abs(circumference(1)))
@@ -86,6 +88,22 @@ contains
       motion%ceta = (p(2) - q(2))/motion%veloc
       motion%cphi = normal_part(rail%rotation - wheel%rotation, delta)/motion%veloc
    end function flat_creepage
+
+   !> Longitudinal velocity of the contact on a roller, between those of the two axles [mm/s]
+   pure real(wp) function velocity_on_roller(roller, wheel, surface, carried, on_roller, on_wheel) result(velocity)
+      !> Motion of both bodies, with their axles as origins
+      type(rigid_motion), intent(in) :: roller, wheel
+      !> Longitudinal velocity of the roller's surface, and of the wheel without its rotation about the axle [mm/s]
+      real(wp), intent(in) :: surface, carried
+      !> Contact reference on the two bodies [mm]
+      real(wp), intent(in) :: on_roller(3), on_wheel(3)
+      real(wp) :: radius(2), axle
+
+      radius = [norm2(on_roller([1, 3]) - roller%origin([1, 3])), norm2(on_wheel([1, 3]) - wheel%origin([1, 3]))]
+      ! without the rotation about the axle
+      axle = surface - roller%rotation(2)*(on_roller(3) - roller%origin(3))
+      velocity = axle + (carried - axle)*radius(1)/sum(radius)
+   end function velocity_on_roller
 
    !> Shift of one step, from displacements and rotations
    pure function flat_shift(rail, wheel, on_rail, on_wheel, delta) result(motion)

@@ -287,7 +287,11 @@ def motion(scene, case, placed, totals, patches, findings):
             names = ("cksi", "ceta", "cphi")
             around = np.cross(placed.set_axes @ np.array([0.0, moved["speed"][5], 0.0]), at_wheel - placed.set_origin)[0]
             if scene["roller"]:
-                reference = 0.5 * abs(v_rail[0] + v_wheel[0])
+                # relative to the contact, which is on the line between both axles
+                axle = v_rail[0] - moved["speed"][0] * (at_rail[2] - scene["roller"])
+                radii = [scene["roller"] - at_rail[2], np.linalg.norm((at_wheel - placed.set_origin)[[0, 2]])]
+                contact = axle + (v_wheel[0] - around - axle) * radii[0] / sum(radii)
+                reference = abs(0.5 * (v_rail[0] + v_wheel[0]) - contact)
             else:
                 reference = 0.5 * (abs(v_wheel[0] - v_rail[0] - around) + abs(around))
         if reference < 1e-6:

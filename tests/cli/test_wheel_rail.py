@@ -181,7 +181,9 @@ class Velocities(Case):
             if side < 4:
                 rolling = 0.5*(abs(b[0] - a[0] - c[0]) + abs(c[0]))
             else:
-                rolling = 0.5*abs(a[0] + b[0])
+                # mean velocity of the surfaces relative to the contact, which is on the line between both axles
+                radius = [NOMRADR - on_rail[2], on_wheel[2] - (totals["z_ws"] - NOMRADW)]
+                rolling = abs(0.5*(a[0] + b[0]) - (b[0] - c[0])*radius[0]/sum(radius))
             self.assertAlmostEqual(p["cksi"], (a[0] - b[0])/rolling, delta=2e-6, msg="CKSI side %d" % side)
             self.assertAlmostEqual(p["ceta"], (a[1] - b[1])/rolling, delta=2e-6, msg="CETA side %d" % side)
             droll, dyaw, dpitch = rates[3:]

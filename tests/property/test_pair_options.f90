@@ -36,6 +36,8 @@ contains
       ! a gauge would put the top of a rail at height zero, but not that of a roller
       track%spec%wheel_rail%track%gaught = -1.0_wp
       track%spec%wheel_rail%track%raily0 = 755.0_wp
+      ! the contact moves along with a wheelset that yaws
+      track%spec%wheel_rail%wheelset%vyaw = -0.5_wp
       ! a curve yaws rail and roller about the centre of the track
       track%spec%wheel_rail%track%curvature = 2.0e-6_wp
       call track%run(suite, "track")

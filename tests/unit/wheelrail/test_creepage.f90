@@ -67,6 +67,13 @@ contains
       motion = flat_creepage(rail, wheel, axle, -2.0_wp, place, place, 0.0_wp, .true.)
       call suite%close_to([motion%cksi, motion%ceta, motion%cphi, motion%veloc, motion%chi], &
          & [0.0_wp, 0.0_wp, 0.0_wp, 1000.0_wp, 0.0_wp], 1.0e-12_wp, "on a roller without slip")
+      ! the axle travels with 300 mm/s on the roller, the contact with a third of it: its radius is half of that of the wheel
+      wheel%velocity = [300.0_wp, 0.0_wp, 0.0_wp]
+      wheel%rotation = -2.6_wp*axle
+      motion = flat_creepage(rail, wheel, axle, -2.6_wp, place, place, 0.0_wp, .true.)
+      call suite%close_to([motion%cksi, motion%ceta, motion%cphi, motion%veloc, motion%chi], &
+         & [0.0_wp, 0.0_wp, 0.0_wp, 1100.0_wp, 0.0_wp], 1.0e-12_wp, "travelling on a roller without slip")
+      wheel%velocity = 0.0_wp
 
       wheel%rotation = 0.0_wp
       rail%rotation = 0.0_wp
