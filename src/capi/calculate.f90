@@ -119,6 +119,7 @@ contains
       if (.not. allocated(error) .and. problem%spec%solve) then
          problem%bodies%material = problem%spec%material
          problem%bodies%kernel = problem%spec%kernel
+         problem%bodies%material_model = problem%spec%material_model
          problem%bodies%motion = problem%spec%motion
       end if
       call keep_status(problem, status)

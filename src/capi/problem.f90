@@ -104,8 +104,8 @@ module contact_capi_problem
    !> What stresses below the surface need of the last case that was solved; settings may be those of the next one
    type :: solved_bodies
       type(material_spec) :: material
-      !> Members of kernel_model and motion
-      integer :: kernel = 0, motion = 0
+      !> Members of kernel_model, material_model and motion
+      integer :: kernel = 0, material_model = 0, motion = 0
    end type solved_bodies
 
    !> One problem, with data kept from case to case

@@ -13,7 +13,7 @@ module contact_capi_subsurface
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
-   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_subsurface
    use contact_cases_subsurface_inputs, only : block_option, longest_list, visit_block, visit_option
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : outward, quantity
@@ -193,6 +193,7 @@ contains
 
       request%kernel = problem%bodies%kernel
       request%material = problem%bodies%material
+      request%material_model = problem%bodies%material_model
       request%motion = problem%bodies%motion
       request%has_stress = .true.
       request%subsurface = problem%spec%subsurface
@@ -210,7 +211,7 @@ contains
       if (.not. allocated(error) .and. allocated(patch%subsurface)) then
          log = library_log()
          !$omp critical (contact_printing)
-         call warn_of_steps(patch, log)
+         call warn_of_subsurface(request, patch, log)
          call write_subsurface(log, request, patch)
          !$omp end critical (contact_printing)
          if (request%subsurface%matfil >= 1) then

@@ -23,7 +23,7 @@ module contact_cases_accuracy
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, part_source
-   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_subsurface
    use contact_patch_error_estimate, only : error_of_forces
    use contact_patch_order, only : order_of_errors
    use contact_patch_quantities, only : total_list
@@ -78,7 +78,7 @@ contains
       end if
       if (.not. allocated(error) .and. spec%has_stress .and. result%status%has_result()) then
          call subsurface_stresses(solved, result, error)
-         if (.not. allocated(error)) call warn_of_steps(result, log)
+         if (.not. allocated(error)) call warn_of_subsurface(solved, result, log)
       end if
       call log%write_deferred()
       session%curvatures = 0.0_wp

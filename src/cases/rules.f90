@@ -88,6 +88,14 @@ module contact_cases_rules
       & choice_rule(choice_kind%material_model, choice_kind%kernel, [material_model%viscoelastic, e(2:)], &
       & [kernel_model%piecewise_constant, e(2:)], 0, "viscoelastic material", "needs half-spaces with constant tractions", &
       & "other influence coefficients have no memory"), &
+      & choice_rule(choice_kind%material_model, choice_kind%pressure, [material_model%viscoelastic, e(2:)], &
+      & [pressure_model%full, pressure_model%thin_sheet, pressure_model%elliptical, pressure_model%parabolical, &
+      & pressure_model%sdec, pressure_model%kpec], 0, "viscoelastic material", "cannot be used with ANALYN", &
+      & "its pressures follow from one modulus; KPEC takes displacements with their memory"), &
+      & choice_rule(choice_kind%material_model, choice_kind%pressure, [material_model%viscoelastic, e(2:)], &
+      & [pressure_model%full, pressure_model%thin_sheet, pressure_model%sdec, pressure_model%kpec, e(5:)], 3, &
+      & "viscoelastic material", "is meant for pressures that are solved for", &
+      & "those on Hertz's ellipse are symmetric, and its size is that without memory", only_warns=.true.), &
       & choice_rule(choice_kind%material_model, choice_kind%motion, [fastrip, e(4:)], [still_or_steady, e(3:)], 0, "FaStrip", &
       & "needs steady rolling or no motion", "Fastsim can do shifts and transient rolling"), &
       & choice_rule(choice_kind%slip_source, choice_kind%material_model, &

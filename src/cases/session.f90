@@ -10,7 +10,7 @@ module contact_cases_session
    use contact_cases_patch_setup, only : set_problem
    use contact_cases_spec, only : case_spec
    use contact_cases_stress_errors, only : estimate_stress_errors
-   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_subsurface
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure
@@ -137,7 +137,7 @@ contains
       if (.not. spec%has_stress) return
       call subsurface_stresses(spec, result, error, shelf=session%shelf)
       if (allocated(error)) return
-      call warn_of_steps(result, log)
+      call warn_of_subsurface(spec, result, log)
       if (spec%estimates_errors) call estimate_stress_errors(spec, session%coarse%result, result)
    end subroutine solve_in_folder
 

@@ -104,6 +104,8 @@ module contact_cases_spec
    contains
       !> Do the late responses of viscoelastic bodies differ so much that pressures and tangential tractions are coupled?
       procedure :: relaxes_apart
+      !> Moduli of rigidity of the response of viscoelastic bodies without memory
+      procedure :: immediate_moduli
       !> Kalker's difference parameter K of two bodies [-]
       procedure :: difference_parameter
       !> Do pressures and tangential tractions affect each other, because the materials differ?
@@ -262,6 +264,15 @@ contains
       relaxes_apart = abs(at_once(1) - at_once(2)) > small .or. abs(late(1) - late(2)) > small .or. &
          & (abs(self%tc(1) - self%tc(2)) > alike*maxval(self%tc) .and. maxval(late) > small)
    end function relaxes_apart
+
+   !> Moduli of rigidity of the response of viscoelastic bodies without memory [N/mm2]: relaxed ones without relaxation time
+   pure function immediate_moduli(self) result(modulus)
+      class(material_spec), intent(in) :: self
+      real(wp) :: modulus(2)
+
+      modulus = self%gg
+      where (self%tc <= 0.0_wp) modulus = self%gg/(1.0_wp + self%fg)
+   end function immediate_moduli
 
    pure real(wp) function difference_parameter(self)
       class(material_spec), intent(in) :: self

@@ -1,8 +1,8 @@
 !> Stresses below the surface of one contact patch in blocks of points
 module contact_cases_subsurface
-   use contact_base_choices, only : kernel_model
+   use contact_base_choices, only : kernel_model, material_model
    use contact_base_error, only : add_context, error_type, fatal_error
-   use contact_base_kinds, only : long
+   use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
    use contact_base_log, only : log_type
    use contact_base_memory, only : require_memory
@@ -19,7 +19,7 @@ module contact_cases_subsurface
    implicit none (type, external)
    private
 
-   public :: stress_memory, subsurface_stresses, warn_of_steps
+   public :: stress_memory, subsurface_stresses, warn_of_subsurface
 
    !> Maximum number of points of a block, about 3 GB
    integer(long), parameter :: max_points = 20000000_long
@@ -75,21 +75,29 @@ contains
 
       subroutine set_load(patch)
          type(patch_result), intent(in) :: patch
+         real(wp) :: modulus(2)
 
-         call new_surface_load(load, patch%grid, patch%pn, patch%px, patch%py, spec%material%gg, spec%material%poiss, &
+         modulus = spec%material%gg
+         if (spec%material_model == material_model%viscoelastic) modulus = spec%material%immediate_moduli()
+         call new_surface_load(load, patch%grid, patch%pn, patch%px, patch%py, modulus, spec%material%poiss, &
             & spec%kernel == kernel_model%bilinear)
          area = around_contact(patch)
       end subroutine set_load
    end subroutine subsurface_stresses
 
-   !> Warn of points whose stresses are affected by the piecewise constant tractions
-   subroutine warn_of_steps(result, log)
+   !> Warn of points whose stresses are affected by the piecewise constant tractions, and of displacements without memory
+   subroutine warn_of_subsurface(spec, result, log)
+      type(case_spec), intent(in) :: spec
       !> Solution with its blocks
       type(patch_result), intent(in) :: result
       type(log_type), intent(inout) :: log
       integer :: k
 
       if (.not. allocated(result%subsurface)) return
+      if (spec%material_model == material_model%viscoelastic) then
+         if (any(spec%material%fg > 0.0_wp .and. spec%material%tc > 0.0_wp)) call log%warning("displacements below the surface &
+            &are those of the moduli GG, without the memory of viscoelastic bodies; stresses do not depend on it")
+      end if
       do k = 1, size(result%subsurface)
          if (result%subsurface(k)%stepped == 0) cycle
          call log%warning("subsurface block " // integer_text(k) // ": " // integer_text(result%subsurface(k)%stepped) // &
@@ -97,7 +105,7 @@ contains
             & "the centres of elements. Tractions are constant on elements: stresses at their edges are not those of the " // &
             & "bodies. Use depths of DX/4 and more, or the centres of elements (ISUBS 1 to 7)")
       end do
-   end subroutine warn_of_steps
+   end subroutine warn_of_subsurface
 
    !> Bounding box of the elements in contact, extended by one element on each side; empty for a single element, which serves to
    !> study constant tractions

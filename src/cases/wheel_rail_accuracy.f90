@@ -17,7 +17,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : typical_half_side, usual_margin
    use contact_cases_spec, only : case_spec
-   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_subsurface
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
    use contact_patch_error_estimate, only : error_of_forces
    use contact_patch_order, only : order_of_errors
@@ -75,7 +75,7 @@ contains
          do k = 1, size(result%patches)
             call subsurface_stresses(solved, result%patches(k)%contact, error, spec%wheel_rail%left)
             if (allocated(error)) exit
-            call warn_of_steps(result%patches(k)%contact, log)
+            call warn_of_subsurface(solved, result%patches(k)%contact, log)
          end do
       end if
       call log%write_deferred()

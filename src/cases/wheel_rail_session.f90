@@ -16,7 +16,7 @@ module contact_cases_wheel_rail_session
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
    use contact_cases_stress_errors, only : estimate_stress_errors
-   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_subsurface
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
@@ -113,7 +113,7 @@ contains
             ! patches of a case that is only checked have no pressures
             if (spec%has_stress .and. spec%solve) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
-            if (.not. allocated(error)) call warn_of_steps(contact, log)
+            if (.not. allocated(error)) call warn_of_subsurface(spec, contact, log)
             if (allocated(slot%coarse) .and. .not. allocated(error)) &
                & call estimate_stress_errors(spec, slot%coarse%result, contact, spec%wheel_rail%left)
             call name_effects(spec, slot%problem, contact)

@@ -77,6 +77,8 @@ module contact_elastic_model
       procedure :: same_as
       !> Set the constants and memory of viscoelastic bodies
       procedure :: set_viscoelastic
+      !> Constants of both bodies after particles have been loaded over a distance
+      procedure :: material_after
    end type elastic_model
 
 contains
@@ -168,6 +170,31 @@ contains
          self%memory%late(a)%ak = merge(0.5_wp, -0.5_wp, a == 1)*(1.0_wp - 2.0_wp*poiss(a))
       end do
    end subroutine set_viscoelastic
+
+   !> Constants of both bodies together, with the part of the memory of particles that have been loaded over a distance
+   pure function material_after(self, distance) result(material)
+      class(elastic_model), intent(in) :: self
+      !> Distance travelled under load [mm]
+      real(wp), intent(in) :: distance
+      type(combined_material) :: material
+      !> Relaxation times after which nothing remains to relax in double precision
+      real(wp), parameter :: forgotten = 45.0_wp
+      real(wp) :: flexibility(3)
+      integer :: a
+
+      material = self%material
+      if (.not. allocated(self%memory)) return
+      flexibility = [1.0_wp, 0.0_wp, 0.0_wp]
+      associate (memory => self%memory)
+         do a = 1, 2
+            if (memory%length(a) > 0.0_wp) flexibility(1 + a) = self%material%gg/memory%late(a)%gg &
+               & *(1.0_wp - exp(-min(distance/memory%length(a), forgotten)))
+         end do
+         material%gg = self%material%gg/sum(flexibility)
+         material%nu = dot_product(flexibility, [self%material%nu, memory%late%nu])/sum(flexibility)
+         material%ak = dot_product(flexibility, [self%material%ak, memory%late%ak])/sum(flexibility)
+      end associate
+   end function material_after
 
    !> Inclination at a lateral position [rad], by interpolation; the end intervals are extrapolated
    elemental real(wp) function angle(self, s)

@@ -8,6 +8,7 @@ module contact_patch_order
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : reason_length, solve_report
+   use contact_elastic_material, only : combined_material
    use contact_grid_element_division, only : bounding_box
    use contact_normal_parts, only : displacement_between
    use contact_patch_problem, only : patch_problem, patch_state
@@ -128,6 +129,7 @@ contains
       !> Compliance of the box; the terms of its tangential problem are set, or deallocated for the first order
       type(patch_workspace), intent(inout) :: workspace
       real(wp), allocatable :: gap(:, :)
+      type(combined_material) :: material
 
       associate (t => workspace%tangential)
          if (report%order /= 2) then
@@ -138,8 +140,9 @@ contains
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
          allocate(gap(t%mx, t%my), source=unknown_gap)
          if (.not. has_semi_ellipses(problem)) call find_gaps(problem, state%now%pn, box, t%direction, workspace, gap)
+         material = problem%model%material_after(t%dx)
          call find_edge_terms(t%contact, workspace%box_pn, gap, has_semi_ellipses(problem), t%dx, t%dy, t%direction, &
-            & problem%model%material%nu, problem%model%material%gg, workspace%box%diagonal(2), problem%model%layer, t%second)
+            & material%nu, material%gg, workspace%box%diagonal(2), problem%model%layer, t%second)
       end associate
    end subroutine set_second_order
 
@@ -205,6 +208,7 @@ contains
       !> [rad per unit of the input], shape (mx, my)
       real(wp), intent(out) :: angle(:, :)
       type(second_order) :: terms(2)
+      type(combined_material) :: material
       real(wp) :: step, side, c(3), turn(2, 2)
       integer :: ix, iy, k
 
@@ -212,11 +216,12 @@ contains
       angle = 0.0_wp
       if (.not. any(abs(change) > 0.0_wp)) return
       step = step_of(pressure, change, tangential%second)
+      material = problem%model%material_after(tangential%dx)
       do k = 1, 2
          side = real(2*k - 3, wp)*step
          call find_edge_terms(tangential%contact, pressure + side*change, tangential%second%gap + side*gap_change, &
-            & has_semi_ellipses(problem), tangential%dx, tangential%dy, tangential%direction, problem%model%material%nu, &
-            & problem%model%material%gg, diagonal, problem%model%layer, terms(k))
+            & has_semi_ellipses(problem), tangential%dx, tangential%dy, tangential%direction, material%nu, material%gg, diagonal, &
+            & problem%model%layer, terms(k))
       end do
       do k = 1, size(terms(1)%at, 2)
          associate (ix => terms(1)%at(1, k), iy => terms(1)%at(2, k))

@@ -17,7 +17,8 @@ module contact_wheelrail_patch_inputs
    use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : forward_velocity, rail_motion, wheel_motion
-   use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, wheel_rail_problem, parameters_at
+   use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, parameters_at, share_of_rail, &
+      & wheel_rail_problem
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
@@ -403,7 +404,8 @@ contains
          forward = 0.0_wp
          if (problem%template%motion /= motion%shift) forward = forward_velocity(problem%spec)
          call surface_motion(rail, wheel, slot%curve, slot%problem%grid, slot%on_rail, slot%on_wheel, &
-            & slot%on_rail < slot%on_wheel, problem%rail_share, forward, slot%motion, slot%problem%extra_slip)
+            & slot%on_rail < slot%on_wheel, share_of_rail(problem, approach, slot%motion%veloc), forward, slot%motion, &
+            & slot%problem%extra_slip)
       end if
       associate (patch => slot%problem)
          patch%creep = [slot%motion%cksi, slot%motion%ceta]

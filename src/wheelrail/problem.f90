@@ -13,7 +13,7 @@ module contact_wheelrail_problem
    private
 
    public :: wheel_rail_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, &
-      & rate_of_pure_rolling
+      & rate_of_pure_rolling, share_of_rail
 
    !> Viscoelastic rail and wheel; see `set_viscoelastic` of contact_elastic_model
    type :: relaxing_bodies
@@ -61,13 +61,38 @@ module contact_wheelrail_problem
       !> Control points of friction: contact angles [rad] or positions along the track [mm], increasing; parameters at these points
       real(wp), allocatable :: control_point(:)
       type(friction_set), allocatable :: control(:)
-      !> Fraction of the compliance of both bodies due to the rail [-]
+      !> Fraction of the instantaneous compliance of both bodies due to the rail [-]
       real(wp) :: rail_share = 0.5_wp
       !> Maximum number of elements of a patch
       integer :: max_elements = 20000
    end type wheel_rail_problem
 
 contains
+
+   !> Fraction of the compliance of both bodies due to the rail [-]
+   !>
+   !> That of viscoelastic bodies is a mean of the contact: they have relaxed for the time that particles take from the leading edge
+   !> of Hertz's circle of contact to its centre.
+   pure real(wp) function share_of_rail(problem, approach, veloc) result(share)
+      !> Bodies and radii
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Approach of the bodies [mm], rolling velocity [mm/s]
+      real(wp), intent(in) :: approach, veloc
+      !> Lower bounds of velocities [mm/s], and of relaxation times relative to the time in contact [-]
+      real(wp), parameter :: standstill = 1.0e-9_wp, immediate = 1.0e-3_wp
+      real(wp) :: curvature, time, compliance(2)
+
+      share = problem%rail_share
+      if (.not. allocated(problem%relaxation)) return
+      curvature = 1.0_wp/problem%spec%wheelset%nomradw
+      if (problem%spec%roller) curvature = curvature + 1.0_wp/problem%spec%track%nomradr
+      time = sqrt(max(0.0_wp, approach)/curvature)/max(veloc, standstill)
+      associate (bodies => problem%relaxation)
+         compliance = [share, 1.0_wp - share]*(1.0_wp + bodies%ratio*(1.0_wp - exp(-time/max(bodies%time, immediate*time, &
+            & tiny(time)))))
+      end associate
+      share = compliance(1)/sum(compliance)
+   end function share_of_rail
 
    !> Pitch rate at which the circumferential velocity of the wheel equals the rolling velocity [rad/s]
    pure real(wp) function rate_of_pure_rolling(problem) result(rate)

@@ -12,7 +12,7 @@ module contact_wheelrail_slip_motion
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : forward_velocity, rail_motion, wheel_motion, wheel_rail_placement
-   use contact_wheelrail_problem, only : wheel_rail_problem
+   use contact_wheelrail_problem, only : share_of_rail, wheel_rail_problem
    use contact_wheelrail_reference_motion, only : reference_motion
    use contact_wheelrail_spec, only : pair_spec
    implicit none (type, external)
@@ -146,7 +146,8 @@ contains
             associate (grid => slot%problem%grid)
                ! creepages are those of the same elements
                call surface_motion(rail, wheel, straight_reference(plane, grid), grid, on_rail, on_wheel, &
-                  & slot%on_rail < slot%on_wheel, problem%rail_share, forward_velocity(spec), motion, slip%extra)
+                  & slot%on_rail < slot%on_wheel, share_of_rail(problem, approach, motion%veloc), forward_velocity(spec), &
+                  & motion, slip%extra)
             end associate
          end if
          slip%creepages = [motion%cksi, motion%ceta, motion%cphi]

@@ -55,6 +55,8 @@ def _digits(rng):
     if d["B"] == 3 and d["M"] not in (2, 3, 5):
         d["M"] = 2 if d["T"] else 0
         d["C"] = 2
+    if d["B"] == 6 and d["M"] == 1:
+        d["B"] = 5  # ANALYN has no memory
     some = 1 if d["T"] and d["M"] != 5 else 0
     d["E"] = one_of(rng, (6, 0), (some, 9), (0.2*some, 2), (0.2*some, 3))
     d["S"] = one_of(rng, (6, 0), (1, 3))

@@ -46,6 +46,8 @@ def generate(rng):
         digits["D"] = rng.choice([2, 5])
     if digits["M"] in (1, 2, 3, 5):
         digits["T"], digits["C"] = 3, 2
+    if digits["M"] == 1 and digits["B"] == 6:
+        digits["B"] = 5  # ANALYN has no memory
     if digits["C"] == 4:
         digits["D"] = 4
     if digits["B"] in (5, 6) and digits["D"] == 4:

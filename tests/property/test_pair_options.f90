@@ -1,6 +1,6 @@
 !> Options of wheel on rail by their limits: rollers, flexible wheelsets, viscoelastic bodies, friction by position
 program test_pair_options
-   use contact_base_choices, only : material_model, variation
+   use contact_base_choices, only : contact_location, material_model, variation
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : friction_set
    use contact_grid_element_division, only : element
@@ -142,6 +142,8 @@ contains
    !> No relaxation, an instantaneous and an endless one are elastic, the late ones with the modulus of their time
    subroutine viscoelastic_limits()
       type(pair_case) :: elastic, soft, one
+      integer, parameter :: places(3) = [contact_location%locus, contact_location%locus_extended, contact_location%conformal]
+      integer :: k
 
       elastic%spec = ball_case(0.05_wp)
       call elastic%run(suite, "elastic")
@@ -162,6 +164,24 @@ contains
       call one%run(suite, "relaxed never")
       call suite%close_to(one%result%force_track/elastic%result%force_track(3), &
          & elastic%result%force_track/elastic%result%force_track(3), 1.0e-3_wp, "TC without end")
+      ! a rail that has relaxed under a wheel that does not; slip per element depends on the compliances of both
+      do k = 1, size(places)
+         one%spec%wheel_rail%search%location = places(k)
+         one%spec%wheel_rail%wheelset%yaw = 0.02_wp
+         one%spec%material%poiss = 0.45_wp
+         one%spec%material%fg = [3.0_wp, 1.0_wp]
+         one%spec%material%tc = [0.0_wp, 1.0e15_wp]
+         one%spec%iteration%maxout = 20
+         soft%spec = one%spec
+         soft%spec%material_model = material_model%elastic
+         soft%spec%material%gg = one%spec%material%gg/[4.0_wp, 1.0_wp]
+         call one%run(suite, "one body relaxed")
+         call soft%run(suite, "one body softer")
+         call suite%close_to(one%result%force_track/soft%result%force_track(3), soft%result%force_track &
+            & /soft%result%force_track(3), 1.0e-5_wp, "one body relaxed at once")
+         call suite%close_to(one%result%patches(1)%contact%cksi, soft%result%patches(1)%contact%cksi, 1.0e-7_wp, &
+            & "one body relaxed at once, creepage")
+      end do
       call elastic%release()
       call soft%release()
       call one%release()
