@@ -68,6 +68,7 @@ contains
       if (allocated(error)) return
       call log%defer()
       call refine(session, spec, folder, log, result, solved, error)
+      session%problem%refines = .false.
       ! the next case is compared with the case as specified
       session%problem%spec%search%dx = spec%wheel_rail%search%dx
       session%problem%spec%search%ds = spec%wheel_rail%search%ds
@@ -114,6 +115,8 @@ contains
          began = wall_clock()
          level%wheel_rail%search%dx = sides(1)
          level%wheel_rail%search%ds = sides(2)
+         ! the search for the height starts from that of the elements before, if it was found
+         session%problem%refines = report%levels > 0 .and. result%status%is_solved()
          if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
          call log%defer()
          call solve_wheel_rail_case(session, level, folder, log, result, error)

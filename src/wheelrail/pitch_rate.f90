@@ -53,7 +53,7 @@ contains
       type(log_type) :: silent
       real(wp) :: slope, tolerance, residual, moving
 
-      if (.not. (memory%started .and. problem%use_previous)) call roll_at_contact(problem, memory)
+      if (.not. (memory%started .and. (problem%use_previous .or. problem%refines))) call roll_at_contact(problem, memory)
       call find_height(problem, memory, z, silent, result, error)
       if (allocated(error)) return
       residual = missing()

@@ -47,6 +47,8 @@ module contact_wheelrail_problem
       type(case_limits) :: limits
       !> Does the solution start from the previous case?
       logical :: use_previous = .false.
+      !> Is the last case solved again with other elements? Its height, friction ratios, pitch rate and deflection are estimates
+      logical :: refines = .false.
       !> Is the case one of a loop over time, where the last cases give estimates, independent of `link`? The result does not depend
       !> on them within the tolerance, but its last digits do
       logical :: in_loop = .false.

@@ -50,14 +50,14 @@ contains
             call memory%slot(k)%shares%forget()
          end do
          memory%used = 0
-         memory%geometry%shares = 0
+         if (.not. problem%refines) memory%geometry%shares = 0
       end if
       call begin_step(problem, memory, log)
       result%status = case_status()
       result%force_evaluations = 0
       result%max_trials = 0
-      memory%geometry%penetration = 0.0_wp
-      if (.not. (memory%started .and. problem%use_previous)) then
+      if (.not. problem%refines) memory%geometry%penetration = 0.0_wp
+      if (.not. (memory%started .and. (problem%use_previous .or. problem%refines))) then
          memory%geometry%deflection = 0.0_wp
          memory%geometry%pitch_rate = rate_of_pure_rolling(problem)
       end if

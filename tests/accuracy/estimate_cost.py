@@ -5,8 +5,11 @@ their cases, are run without and with --errors. Counted are the instructions of 
 on other processes. The output is, by order and number of elements, the part that the estimates add: median, 90 % and largest, as
 part of the whole run and of the run without the start of a process that solves nothing; then the contacts that exceed the limit.
 --stresses has points below the surface in the contacts. --check fails if one exceeds the limit. CONTACT_PROGRAM names the program.
+--asked TOL instead solves the wheels of any profiles with --accuracy TOL, and with the elements chosen last alone: counted are the
+instructions of the solution of wheel and rail, without profiles, input and output, of all grids over the last one alone.
 """
 import argparse
+import json
 import os
 import random
 import re
@@ -21,11 +24,14 @@ from error_cases import CHANGES, FURTHER, any_wheel, contact, text_of, wheel, wh
 
 #: Largest part that estimates may add to the instructions of a run
 LIMIT = 0.15
+#: The solution of a wheel on a rail, as gfortran names it
+SOLUTION = "__contact_wheelrail_solve_MOD_solve_wheel_rail"
 
 
-def instructions(program, folder, name, options=()):
-    """Instructions of a run of an existing file."""
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, *options, "--quiet", "--json", "2", name]
+def instructions(program, folder, name, options=(), within=()):
+    """Instructions of a run of an existing file, or of a procedure in it."""
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *(f"--toggle-collect={f}" for f in within),
+               program, *options, "--quiet", "--json", "2", name]
     done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
     return int(re.search(r"refs: +([0-9,]+)", done.stderr).group(1).replace(",", ""))
 
@@ -52,6 +58,34 @@ def compare(program, folder, number, text, order):
     return [instructions(program, folder, name, ("--order", order, *more)) for more in ((), ("--errors",))]
 
 
+def all_grids(program, folder, number, text, asked):
+    """Grids of a wheel with an accuracy, instructions of all of them and of the last one alone; none if it is not reached."""
+    name = f"x{number}"
+    (folder / f"{name}.toml").write_text(text)
+    together = instructions(program, folder, name, ("--accuracy", asked), (SOLUTION,))
+    told = next((r["accuracy"] for r in map(json.loads, (folder / f"{name}.jsonl").open()) if r.get("accuracy")), {})
+    if not told.get("reached"):
+        return None
+    for key, value in (("dx", "dx"), ("ds", "dy"), ("eps", "eps")):
+        text = re.sub(rf"(?m)^{key} = .*$", f"{key} = {told[value]['value']!r}", text, count=1)
+    (folder / f"{name}a.toml").write_text(text)
+    return told["grids"], together, instructions(program, folder, f"{name}a", ("--errors", "--order", "2"), (SOLUTION,))
+
+
+def compare_grids(asked, program, folder, pool):
+    """Print what all grids of the wheels cost, over the last one alone."""
+    texts = [text for group, _, text in texts_of(asked) if group == "pairs"]
+    found = [run.result() for run in [pool.submit(all_grids, program, folder, k, t, asked.asked) for k, t in enumerate(texts)]]
+    if asked.list:
+        for number, run in enumerate(found):
+            print(number, *(run or ("not reached",)))
+    found = [run for run in found if run]
+    ratios = sorted(both / last for _, both, last in found)
+    print(f"{len(found)} of {len(texts)} wheels, {sum(run[0] for run in found)} grids; all grids over the last one alone: "
+          f"{sum(run[1] for run in found) / sum(run[2] for run in found):.2f} in the sum, median {statistics.median(ratios):.2f}, "
+          f"largest {ratios[-1]:.2f}; {sum(run[1] for run in found) / 1e6:.1f} million instructions")
+
+
 def main():
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -65,6 +99,7 @@ def main():
     parser.add_argument("--stresses", action="store_true", help="with points below the surface")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
     parser.add_argument("--list", action="store_true", help="print each run when it ends")
+    parser.add_argument("--asked", help="accuracy for which all grids of wheels of any profiles are compared with the last one")
     parser.add_argument("--check", action="store_true", help="fail if a contact exceeds the limit")
     asked = parser.parse_args()
     program, rows = os.environ["CONTACT_PROGRAM"], {}
@@ -72,6 +107,9 @@ def main():
         folder = Path(name)
         if asked.pairs:
             write_profiles(folder)
+        if asked.asked:
+            compare_grids(asked, program, folder, pool)
+            return
         (folder / "empty.inp").write_text(" 0 MODULE\n")
         start = instructions(program, folder, "empty")
         runs = [(order, group, label, pool.submit(compare, program, folder, number, text, order))

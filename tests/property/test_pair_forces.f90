@@ -4,6 +4,8 @@ program test_pair_forces
    use contact_base_choices, only : force_control, motion, normal_control, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_cases_wheel_rail_accuracy, only : solve_wheel_on_rail
    use contact_test_harness, only : test_suite
    use contact_test_pair_builder, only : pair_case, railway_case
    implicit none (type, external)
@@ -21,6 +23,8 @@ program test_pair_forces
    call beyond_friction()
    call nothing_to_pull()
    call pull_in_steps()
+   call asked_accuracy(force_control%creepages)
+   call asked_accuracy(force_control%longitudinal_force)
    call suite%finish()
 
 contains
@@ -279,4 +283,36 @@ contains
       end do
       call pair%release()
    end subroutine pull_in_steps
+
+   !> With a required accuracy the search for the height starts from that of the elements before: fewer trials give the same result
+   subroutine asked_accuracy(force)
+      !> Prescribed velocities or a longitudinal force, member of force_control
+      integer, intent(in) :: force
+      type(pair_case) :: pair, alone
+      type(case_spec), allocatable :: solved, as_given
+      type(error_type), allocatable :: error
+      real(wp) :: within
+
+      pair%spec = railway_case(6.0_wp, 0.004_wp)
+      pair%spec%force = force
+      pair%spec%wheel_rail%wheelset%fx = 2000.0_wp
+      pair%spec%iteration%accuracy = 2.0e-4_wp
+      call solve_wheel_on_rail(pair%session, pair%spec, "", pair%log, pair%result, solved, error)
+      call suite%check(.not. allocated(error), "a wheel with a required accuracy")
+      if (allocated(error)) return
+      call suite%check(pair%result%accuracy%levels > 1 .and. pair%result%accuracy%is_met, "two sizes of elements reach it")
+      alone%spec = solved
+      alone%spec%iteration%accuracy = 0.0_wp
+      call solve_wheel_on_rail(alone%session, alone%spec, "", alone%log, alone%result, as_given, error)
+      call suite%check(.not. allocated(error), "the last elements alone")
+      if (allocated(error)) return
+      call suite%check(pair%result%force_evaluations < alone%result%force_evaluations, "fewer trials than from scratch")
+      ! searches end within EPS of the total force
+      within = 2.0_wp*solved%iteration%eps*pair%spec%wheel_rail%wheelset%fz
+      call suite%close_to(pair%result%force_track, alone%result%force_track, within, "the same forces")
+      call suite%close_to(pair%result%z_ws, alone%result%z_ws, solved%iteration%eps*0.1_wp, "the same height")
+      call suite%check(.not. pair%session%problem%refines, "the next case starts from scratch")
+      call pair%release()
+      call alone%release()
+   end subroutine asked_accuracy
 end program test_pair_forces
