@@ -50,7 +50,7 @@ class Forces:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WheelRailPatch(Patch):
-    """Results of one patch: those of :class:`Patch` and
+    """Results of one patch: those of :class:`Patch`, with places x, y from the contact reference point, and
 
     Attributes
     ----------
@@ -368,8 +368,11 @@ class WheelRail(Element):
     def _patch(self, icp: int) -> WheelRailPatch:
         """Results of one patch, copied"""
         location = cntc.getcontactlocation(self.number, icp)
-        patch = read_patch(self.number, icp, self.units, self.motion)
-        return WheelRailPatch(**patch.__dict__, position=location[:3], angle=location[3],
+        patch = dict(read_patch(self.number, icp, self.units, self.motion).__dict__)
+        # the library gives places of elements in steps from another origin
+        reference = cntc.getparameters(self.number, icp)
+        patch.update(x=patch["x"] - reference["spinxo"], y=patch["y"] - reference["spinyo"])
+        return WheelRailPatch(**patch, position=location[:3], angle=location[3],
                               location=location, velocity=cntc.getreferencevelocity(self.number, icp))
 
     def stresses(self, block: int = 1) -> tuple[Stresses, ...]:

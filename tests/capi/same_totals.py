@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Totals of Python results are those that the program gives for the input that the library writes
 
-Arguments: the program. All totals that both have are compared, with order 2, dissimilar bodies, temperatures and wheels.
+Arguments: the program. All totals that both have are compared, with order 2, dissimilar bodies, temperatures and wheels; places of
+elements of a wheel are from the contact reference, as the moment is.
 """
 import json
 import os
@@ -60,7 +61,6 @@ def wheel(pair):
     pair.set_velocity(20000.0, pitch=-43.5)
     pair.set_position(y=3.0)
     pair.set_vertical_force(90e3)
-    pair.set_temperatures(10.0, 60.0)
 
 
 def shown(name, *options):
@@ -132,9 +132,27 @@ def wheels():
     contact.output_to(".", "wheel")
     with contact.WheelRail("right") as pair:
         wheel(pair)
+        pair.set_temperatures(10.0, 60.0)
         pair.set_flags(if_wrtinp=1)
         result = pair.solve()
     compare("wheel", result.patches)
+
+
+def steps():
+    """Places of elements and the moment refer to the contact reference in all motions"""
+    for side in ("left", "right"):
+        for motion in ("steady", "transient", "shift"):
+            with contact.WheelRail(side, motion=motion) as pair:
+                wheel(pair)
+                if motion == "shift":
+                    pair.set_velocity(0.02, pitch=-4e-5)
+                patch = pair.solve().patches[0]
+            area = patch.dx*patch.dy
+            x, y = np.meshgrid(patch.x, patch.y)
+            moment = area*(x*patch.py - y*patch.px).sum()
+            close(moment, patch.mz, 1e-3*patch.fn, f"{side}, {motion}: moment about the contact reference")
+            check(abs((x*patch.pn).sum()) < 1.0*patch.pn.sum() and abs((y*patch.pn).sum()) < 1.0*patch.pn.sum(),
+                  f"{side}, {motion}: pressures around the contact reference")
 
 
 if __name__ == "__main__":
@@ -143,5 +161,6 @@ if __name__ == "__main__":
         basic()
         moving()
         wheels()
+        steps()
         os.chdir(SOURCE)
     finish()
