@@ -17,7 +17,7 @@ module contact_patch_edge_slip
    implicit none (type, external)
    private
 
-   public :: edge_slip_error, hidden_adhesion
+   public :: edge_slip_error, hidden_adhesion, leading_turn
 
    !> Distance from the second element of a row at which slip changes its direction if half an element or more would adhere
    !> [elements]
@@ -84,6 +84,25 @@ contains
       end do
       e = e/max(sum(result%pn), tiny(e))
    end function edge_slip_error
+
+   !> Full sliding: change of the tractions from leading elements to those behind them, relative to the friction bound; 0 if a part
+   !> adheres [-]
+   pure real(wp) function leading_turn(problem, result) result(change)
+      !> The problem that was solved: rolling along x
+      type(patch_problem), intent(in) :: problem
+      !> Solved, with contact
+      type(patch_result), intent(in) :: result
+      type(row_type) :: row
+      integer :: iy
+
+      change = 0.0_wp
+      if (result%nadh > 0) return
+      do iy = 1, result%grid%my
+         row = row_of(result, iy, rolling_direction(problem))
+         change = change + row%turning
+      end do
+      change = change/max(sum(result%pn), tiny(change))
+   end function leading_turn
 
    !> Error of a row, times its number of elements, if the slip area is one element wide, over the load that it changes [-]
    pure real(wp) function factor_of(beta, mu) result(factor)

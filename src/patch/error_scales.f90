@@ -6,7 +6,8 @@ module contact_patch_error_scales
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_numeric_elliptic, only : complete_elliptic, elliptic_integrals
-   use contact_patch_edge_slip, only : edge_slip_error, hidden_adhesion
+   use contact_patch_edge_slip, only : edge_slip_error, hidden_adhesion, leading_turn
+   use contact_patch_heat_errors, only : error_of_maximum, maximum_error
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_turning, only : turned_round, turns
@@ -122,6 +123,8 @@ module contact_patch_error_scales
       real(wp) :: heat_order = peak_order
       !> Temperatures of the bodies outside the contact [degC]
       real(wp) :: bulk(2) = 0.0_wp
+      !> Error of the highest temperature from the shape of its maximum
+      type(maximum_error) :: heat
       !> Relative difference of the levels in the mean coefficient of friction, if it depends on temperature [-]
       real(wp) :: warmed = 0.0_wp
       !> Largest interpenetration of the undeformed surfaces: the approach from first contact on [mm]
@@ -141,6 +144,8 @@ module contact_patch_error_scales
       !> Error of the forces by slip at the leading edge of unlike bodies, by the second order [-]; is it known?
       real(wp) :: edge_slip = 0.0_wp
       logical :: has_edge_slip = .false.
+      !> Turn of tractions at the leading edge in full sliding by the second order, in steady rolling, see leading_turn [-]
+      real(wp) :: leading = 0.0_wp
       !> Is it a line contact, with elements along x only?
       logical :: is_line = .false.
       !> Root mean square deviation of the coefficient of friction, relative to its mean, if it depends on slip velocity [-]
@@ -274,6 +279,7 @@ contains
          & scale%turning = min(pi, scale%mean_across*sqrt(result%grid%dx*result%grid%dy*turns(result)/scale%force))
       scale%has_edge_slip = problem%motion == motion%steady_rolling .and. order == 2 .and. scale%coupling > 0.0_wp
       if (scale%has_edge_slip) scale%edge_slip = edge_slip_error(problem, result)
+      if (problem%motion == motion%steady_rolling .and. order == 2) scale%leading = leading_turn(problem, result)
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       if (scale%steps) scale%step = result%dq/result%grid%dx
@@ -284,6 +290,7 @@ contains
       if (allocated(problem%thermal)) then
          scale%bulk = problem%thermal%bulk
          if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
+         scale%heat = error_of_maximum(problem, result)
       end if
       if (allocated(problem%friction)) then
          if (problem%friction%driver() == friction_driver%slip_speed) scale%falling = deviation_of_friction(result)

@@ -10,7 +10,7 @@ module contact_patch_heat
    implicit none (type, external)
    private
 
-   public :: derive_temperatures, new_heat_passage
+   public :: derive_temperatures, frictional_heat, new_heat_passage
 
 contains
 
@@ -39,8 +39,7 @@ contains
       !> Solution with element states, slip and tractions
       type(patch_result), intent(inout) :: result
       type(heat_passage) :: passage
-      real(wp), allocatable :: heat(:, :), way(:, :)
-      integer :: ahead
+      real(wp), allocatable :: heat(:, :)
 
       if (allocated(result%temp1)) deallocate(result%temp1, result%temp2)
       if (.not. allocated(problem%thermal)) return
@@ -48,17 +47,29 @@ contains
       allocate(result%temp2(problem%grid%mx, problem%grid%my), source=problem%thermal%bulk(2))
       if (problem%motion /= motion%steady_rolling) return
       passage = new_heat_passage(problem, result%division)
-      way = hypot(result%sx, result%sy)
-      if (allocated(result%uplx)) then
-         ! plastic displacement of the step: the difference to the next element upstream
-         ahead = rolling_direction(problem)
-         way = way + problem%thermal%plastic_share*hypot(result%uplx - eoshift(result%uplx, ahead), &
-            & result%uply - eoshift(result%uply, ahead))
-      end if
-      heat = way*hypot(result%px, result%py)/result%dt
+      heat = frictional_heat(problem, result)
       call passage%surface_temperatures(heat, result%temp1, result%temp2)
       if (any(heat > 0.0_wp)) call warn_of_slow_motion(problem, log, result)
    end subroutine derive_temperatures
+
+   !> Heat by slip and by plastic work, in steady rolling [N/(mm s)], shape (mx, my)
+   pure function frictional_heat(problem, result) result(heat)
+      !> Thermal constants and motion
+      type(patch_problem), intent(in) :: problem
+      !> Solution with slip and tractions
+      type(patch_result), intent(in) :: result
+      real(wp), allocatable :: heat(:, :)
+      integer :: ahead
+
+      heat = hypot(result%sx, result%sy)
+      if (allocated(result%uplx)) then
+         ! plastic displacement of the step: the difference to the next element upstream
+         ahead = rolling_direction(problem)
+         heat = heat + problem%thermal%plastic_share*hypot(result%uplx - eoshift(result%uplx, ahead), &
+            & result%uply - eoshift(result%uply, ahead))
+      end if
+      heat = heat*hypot(result%px, result%py)/result%dt
+   end function frictional_heat
 
    !> The temperatures hold for fast motion: warn if conduction along the surface is not slow compared with convection
    subroutine warn_of_slow_motion(problem, log, result)

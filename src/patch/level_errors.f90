@@ -42,8 +42,9 @@ module contact_patch_level_errors
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area,
    !> in full sliding by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise
-   !> (seeds 71 and 73). Smallest part that slips, chosen
-   real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, least_slip = 0.1_wp
+   !> (seeds 71 and 73). Smallest part that slips, by order, chosen
+   real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, &
+      & least_slip(2) = [0.1_wp, 0.05_wp]
    !> The same by the pressures: the heat of a row of elements is in proportion to them. Fraction of the relative error of the
    !> largest pressure; of wheels (seeds 51601 and 51611)
    real(wp), parameter :: heat_of_peak = 0.7_wp
@@ -161,17 +162,25 @@ contains
       e = max(e, floor*unit, least) + (stopping + errors%window)*unit
    end function error_of
 
-   !> Error of the highest temperature by the levels, and its lower bound [degC]
+   !> Error of the highest temperature, and its lower bound [degC]
    pure subroutine bound_temperature(row, difference, scale, e, floor)
       !> Temperature of body 1 or 2, or the higher one
       type(total), intent(in) :: row
       !> Difference between the levels [degC]
       real(wp), intent(in) :: difference
       type(scale_type), intent(in) :: scale
-      !> Error by the levels, and lower bound [degC]
+      !> Error by the levels, or by the shape of the maximum, and lower bound [degC]
       real(wp), intent(out) :: e, floor
       real(wp) :: bulk, slipping, sliding
 
+      if (scale%jumps) then
+         slipping = max(least_slip(2), 1.0_wp - scale%sticking)
+         floor = unseen(scale)*(temperature_floor(2) + turning_temperature_floor*scale%turning)/(scale%mean_across*slipping)**2
+         floor = max(scale%heat%rise*max(floor, heat_of_peak*scale%peak), scale%heat%usual)
+         e = scale%heat%computed
+         if (scale%heat_order < first_order) e = max(e, difference/(coarsening**scale%heat_order - 1.0_wp))
+         return
+      end if
       select case (row%name)
       case ("max_temp1")
          bulk = scale%bulk(1)
@@ -180,17 +189,13 @@ contains
       case default
          bulk = maxval(scale%bulk)
       end select
-      slipping = max(least_slip, 1.0_wp - scale%sticking)
-      if (scale%jumps) then
-         floor = unseen(scale)*(temperature_floor(2) + turning_temperature_floor*scale%turning)/(scale%mean_across*slipping)**2
-      else
-         ! in full sliding tractions of first order have errors along the rolling direction only
-         sliding = sliding_part(scale%sticking)
-         floor = temperature_floor(1)/slipping*(sliding*unseen(scale, scale%along)/scale%along &
-            & + (1.0_wp - sliding)*unseen(scale)/scale%mean_across)
-      end if
+      slipping = max(least_slip(1), 1.0_wp - scale%sticking)
+      ! in full sliding tractions of first order have errors along the rolling direction only
+      sliding = sliding_part(scale%sticking)
+      floor = temperature_floor(1)/slipping*(sliding*unseen(scale, scale%along)/scale%along &
+         & + (1.0_wp - sliding)*unseen(scale)/scale%mean_across)
       floor = abs(row%value - bulk)*max(floor, heat_of_peak*scale%peak)
-      e = difference/(coarsening**merge(normal_order, scale%heat_order, scale%jumps .and. scale%heat_order >= first_order) - 1.0_wp)
+      e = difference/(coarsening**scale%heat_order - 1.0_wp)
    end subroutine bound_temperature
 
    !> General error of frictional power in full sliding by the second order, times n^2, relative to it

@@ -8,7 +8,7 @@ module contact_patch_peak
    implicit none (type, external)
    private
 
-   public :: largest_pressure, peak_of, place_of
+   public :: largest_pressure, peak_at, peak_of, place_of, rise_of
 
 contains
 
@@ -33,13 +33,20 @@ contains
    pure real(wp) function peak_of(field) result(peak)
       !> Field without negative values, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
-      integer :: at(2)
 
       peak = largest_of(size(field), field)
-      if (.not. peak > 0.0_wp) return
-      at = place_of(field, peak)
-      peak = peak*sqrt(1.0_wp + rise(field(:, at(2)), at(1)) + rise(field(at(1), :), at(2)))
+      if (peak > 0.0_wp) peak = peak_at(field, place_of(field, peak))
    end function peak_of
+
+   !> The same of a positive value that is not less than its neighbours
+   pure real(wp) function peak_at(field, at) result(peak)
+      !> Field without negative values, shape (mx, my)
+      real(wp), intent(in) :: field(:, :)
+      !> Column and row of the value
+      integer, intent(in) :: at(2)
+
+      peak = field(at(1), at(2))*sqrt(1.0_wp + rise(field(:, at(2)), at(1)) + rise(field(at(1), :), at(2)))
+   end function peak_at
 
    !> First element with at least a value, column and row; zero if there is none
    pure function place_of(field, value) result(at)
@@ -65,7 +72,7 @@ contains
       !> Values along a line of elements with the largest value at i
       real(wp), intent(in) :: line(:)
       integer, intent(in) :: i
-      real(wp) :: beside(2), bend
+      real(wp) :: beside(2)
 
       rise = 0.0_wp
       ! fewer than three elements represent a field that is constant in this direction
@@ -73,7 +80,17 @@ contains
       beside = 0.0_wp
       if (i > 1) beside(1) = (line(i - 1)/line(i))**2
       if (i < size(line)) beside(2) = (line(i + 1)/line(i))**2
-      bend = 2.0_wp - sum(beside)
-      if (bend > 0.0_wp) rise = (beside(2) - beside(1))**2/(8.0_wp*bend)
+      rise = rise_of(1.0_wp, beside)
    end function rise
+
+   !> Rise of the parabola through a largest value and its neighbours above it
+   pure real(wp) function rise_of(largest, beside) result(above)
+      !> Largest value, and those at equal distances before and after it, in any unit
+      real(wp), intent(in) :: largest, beside(2)
+      real(wp) :: bend
+
+      above = 0.0_wp
+      bend = 2.0_wp*largest - sum(beside)
+      if (bend > 0.0_wp) above = (beside(2) - beside(1))**2/(8.0_wp*bend)
+   end function rise_of
 end module contact_patch_peak

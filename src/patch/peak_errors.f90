@@ -9,7 +9,7 @@ module contact_patch_peak_errors
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_error_kinds, only : trusted
    use contact_patch_error_scales, only : normal_order, resolved, scale_type
-   use contact_patch_peak, only : peak_of, place_of
+   use contact_patch_peak, only : peak_at, peak_of, place_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -50,7 +50,8 @@ module contact_patch_peak_errors
       !> Number of elements in contact without a gap, the first and the last one, and their sum of pressures [N/mm2]
       integer :: n = 0, first = 0, last = 0
       real(wp) :: load = 0.0_wp
-      !> Second difference at the peak, and the same with the harmonic mean of the decreases on both sides [N/mm2]
+      !> Second difference at the peak, of 6 and more elements the larger one of both elements beside it, and that at the peak with
+      !> the harmonic mean of the decreases on both sides [N/mm2]
       real(wp) :: bend = 0.0_wp, cusp = 0.0_wp
    end type peak_shape
 
@@ -183,9 +184,8 @@ contains
                if (max(pn(x0, iy), pn(x1, iy)) > pn(ix, iy)) cycle
                if (any(pn(x0:x1, y0:y1) > pn(ix, iy))) cycle
                shape = [shape_of(pn(:, iy), ix), shape_of(pn(ix, :), iy)]
-               ! a lower peak has the general error of a peak of that many elements, too, and may be the highest one
-               if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)), &
-                  & maxval(pn(ix, iy)*(1.0_wp + peak_floor/max(1, shape%n)**2), mask=shape%n > 0))
+               ! a lower peak has errors, too, and may be the highest one
+               if (pn(ix, iy) < highest) peak = max(peak, maxval(by_load(shape)), by_shape(pn, [ix, iy], shape))
                extent = shape%n*[result%grid%dx, result%grid%dy]
                ! fields that are constant in one direction are strips
                where (shape%n == 0) extent = sqrt(huge(highest))
@@ -252,6 +252,21 @@ contains
       if (shape%n > 0 .and. shape%n < resolved) peak = 4.0_wp*shape%load/(pi*(shape%n - narrower))
    end function by_load
 
+   !> Largest pressure that a lower peak may have by the general error of a peak of that many elements; of 6 and more elements along
+   !> both directions also by its parabolas and second differences [N/mm2]
+   pure real(wp) function by_shape(pn, at, shape) result(peak)
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), intent(in) :: pn(:, :)
+      !> Column and row of the peak
+      integer, intent(in) :: at(2)
+      !> Its shape along both directions
+      type(peak_shape), intent(in) :: shape(2)
+
+      peak = pn(at(1), at(2))*(1.0_wp + peak_floor*max(0.0_wp, maxval(1.0_wp/max(1, shape%n)**2, mask=shape%n > 0)))
+      if (all(shape%n == 0 .or. shape%n >= resolved)) &
+         & peak = max(peak, peak_at(pn, at)*(1.0_wp + peak_floor*maxval(shape%bend)/(smooth_bend*pn(at(1), at(2)))))
+   end function by_shape
+
    !> Shape of a peak along a line; without elements if the line represents a field that is constant in its direction
    pure type(peak_shape) function shape_of(line, i) result(shape)
       !> Pressures [N/mm2], zero before the first and after the last one
@@ -259,7 +274,7 @@ contains
       !> Position of the peak
       integer, intent(in) :: i
       real(wp) :: decrease(2)
-      integer :: first, last
+      integer :: first, last, next
 
       if (size(line) < 3) return
       first = i
@@ -280,6 +295,12 @@ contains
       if (i > 1) decrease(1) = line(i) - line(i - 1)
       if (i < size(line)) decrease(2) = line(i) - line(i + 1)
       shape%bend = sum(decrease)
+      if (shape%n >= resolved) then
+         ! with another position of the elements the peak may bend as much as at the other element next to it
+         next = merge(i - 1, i + 1, decrease(1) < decrease(2))
+         if (next >= first .and. next <= last .and. next > 1 .and. next < size(line)) &
+            & shape%bend = max(shape%bend, 2.0_wp*line(next) - line(next - 1) - line(next + 1))
+      end if
       if (minval(decrease) > 0.0_wp) shape%cusp = 4.0_wp*product(decrease)/sum(decrease)
    end function shape_of
 end module contact_patch_peak_errors

@@ -96,6 +96,10 @@ module contact_patch_traction_errors
    !> over that of the approach by details of the profiles. Of wheels of any profiles (seeds 411 to 413)
    real(wp), parameter :: shortened = 0.025_wp, least_turn = 0.02_wp, least_first = 0.06_wp, sliding_moment = 0.25_wp, &
       & centre_share = 0.05_wp, moved_pressures = 0.5_wp
+   !> The same moment: slip is smallest at the leading edge, where its direction turns most. Factor of the change of tractions from
+   !> the leading elements to the next ones, whose arm is the radius; with the above half of the usual error of 453 sliding patches
+   !> (ordinary wheels of seeds 71001 to 71003)
+   real(wp), parameter :: leading_share = 0.6_wp
    !> The second order where a part adheres: fraction in adhesion from which on the turn of directions has its full effect, chosen;
    !> of few elements, bound across the force over that of many (seeds 411 to 413)
    real(wp), parameter :: much_adhesion = 0.2_wp, few_across = 0.7_wp
@@ -329,6 +333,8 @@ contains
                & + scale%cancelled + centre_share*scale%direction(1)) &
                & *scale%irregular/scale%squared
             if (scale%across >= resolved) floor = centred*floor
+            ! independent errors
+            floor = hypot(floor, leading_share*scale%leading)
             if (scale%rows%known) floor = known_rows*floor
             floor = max(floor, rough_floor(2)*details_of(scale))
          else

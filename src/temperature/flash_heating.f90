@@ -58,6 +58,8 @@ module contact_temperature_flash_heating
       procedure :: surface_temperatures
       !> Friction coefficients consistent with the temperatures they cause
       procedure :: heat_by_friction
+      !> Error by heat that is constant on elements
+      procedure :: error_of_constant_heat
       procedure, private :: weights
       procedure, private :: rise_per_heat
    end type heat_passage
@@ -232,6 +234,20 @@ contains
          weight(k) = sqrt(self%dx)/(sqrt(k - 0.5_wp) + sqrt(k - 1.5_wp))
       end do
    end function weights
+
+   !> Error of a temperature by heat that is constant on elements, whose own heat counts once [degC]
+   !>
+   !> The sum of k (sqrt(k + 1/2) - sqrt(k - 1/2)) over the elements k upstream exceeds the integral of s/(2 sqrt(s)) by
+   !> -zeta(-1/2, 1/2), whatever their number.
+   pure real(wp) function error_of_constant_heat(self, change) result(error)
+      class(heat_passage), intent(in) :: self
+      !> Increase of the heat over an element along the path of the particles [N/(mm s)]
+      real(wp), intent(in) :: change
+      !> zeta(-1/2, 1/2) = (1/sqrt(2) - 1) zeta(-1/2)
+      real(wp), parameter :: zeta = 0.06088_wp
+
+      error = zeta*sqrt(self%dx)*change*self%rise_per_heat()
+   end function error_of_constant_heat
 
    !> Temperature rise per heat and weight [degC/(N/(mm s))/sqrt(mm)]
    pure real(wp) function rise_per_heat(self) result(rise)

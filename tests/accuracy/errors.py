@@ -72,6 +72,11 @@ MARGIN_BOUNDS = {"forces": (0.3, 12.0, 0.8), "friction_power": (0.3, 7.0, 0.9), 
 SECOND_CONTACTS = (("viscoelastic", 77201, 72, (13, 38, 42, 65)), ("profile", 77301, 72, (27, 61)))
 SECOND_WHEELS = ((99822, (63, 64)), (99812, (62,)))
 SECOND_BOUNDS = {"friction_power": (0.3, 5.0, 1.0), "pmax": (0.3, math.inf, 0.85)}
+#: Ordinary wheels by the second order: temperatures between rows of elements, where slip ends, and in slip areas of two elements;
+#: moments of sliding patches that nearly adhere at the leading edge; PMAX next to a jump of the curvature, and with two peaks.
+#: Estimates were 0.03 to 8 times the error: seeds, numbers among those of a campaign, bounds against the rms over element sizes
+HEATED_WHEELS = ((71001, (13, 23, 28, 63, 74, 82)), (71002, (1, 22, 56)), (99914, (60,)))
+HEATED_BOUNDS = {"max_temp2": (0.3, 5.0, 1.0), "patch_mz": (0.25, 5.0, 0.95), "pmax": (0.3, 5.0, 1.0)}
 #: Wheels of any profiles with slender contacts and few elements across, some in full sliding, some with a prescribed force, whose
 #: estimates were up to 160 times the error: seed, count, numbers, bounds against the rms over sizes of elements, by both orders
 PAIRS = (21, 80, (6, 9, 22, 33, 45, 47, 66, 74))
@@ -393,11 +398,12 @@ def main():
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
     parser.add_argument("--check", nargs="?", const="usual", choices=("usual", "further", "coupled", "edge", "wheels", "peaks",
                                                                                "first", "signed", "sliding", "margins", "second",
-                                                                               "pairs", "turns", "strips"),
+                                                                               "heated", "pairs", "turns", "strips"),
                         help="contacts on small grids: usual ones, extreme ones, dissimilar bodies, their leading edge, wheels, "
                         "their largest pressures, sliding wheels, moments and sliding by the first order, energy and stresses "
-                        "by the first order, contacts and wheels that missed the goals by both, or by the second, wheels of "
-                        "any profiles, their forces in sliding, or on two strips; fail if bounds are missed")
+                        "by the first order, contacts and wheels that missed the goals by both, or by the second, temperatures "
+                        "and moments of wheels, wheels of any profiles, their forces in sliding, or on two "
+                        "strips; fail if bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails in addition")
     parser.add_argument("--pairs", action="store_true", help="wheels of any profiles, on tracks and rollers, some with a force")
     parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
@@ -424,7 +430,7 @@ def main():
         (asked.seed, asked.wheels, numbers), asked.count, asked.places, asked.pairs = TURNS, 0, len(WHEEL_PLACES), True
     elif asked.check == "strips":
         (asked.seed, asked.wheels, numbers), asked.count, asked.places, asked.pairs = STRIPS, 0, len(WHEEL_PLACES), True
-    elif asked.check in ("sliding", "margins", "second"):
+    elif asked.check in ("sliding", "margins", "second", "heated"):
         asked.count, asked.sizes, asked.places = 0, "16,30", len(WHEEL_PLACES)
     elif asked.check == "first":
         asked.count, asked.seed, asked.sizes, asked.places = FIRST_COUNT, FIRST_SEED, "16,30", 4
@@ -464,20 +470,22 @@ def main():
                 rows += judge(program, seed, ACCEPTANCE[0], list(CHANGES), limits, Path(name), ("--order", order), asked.places,
                               numbers)
             rows += judge_wheels(program, MARGIN_WHEELS[1], ACCEPTANCE[1], Path(name), asked.order, asked.places, MARGIN_WHEELS[2])
-        if asked.check == "second":
+        if asked.check in ("second", "heated"):
             asked.order = ("--order", "2")
+        if asked.check == "second":
             for kind, seed, count, numbers in SECOND_CONTACTS:
                 rows += judge(program, seed, count, [kind], limits, Path(name), asked.order, asked.places, numbers)
         second = tuple((seed, ACCEPTANCE[1], numbers) for seed, numbers in SECOND_WHEELS)
         usual = ((asked.seed, asked.wheels, numbers),)
-        wheels = {"peaks": PEAK_WHEELS, "second": second, "sliding": SLIDING_WHEELS}.get(asked.check, usual)
+        heated = tuple((seed, ACCEPTANCE[1], numbers) for seed, numbers in HEATED_WHEELS)
+        wheels = {"peaks": PEAK_WHEELS, "second": second, "heated": heated, "sliding": SLIDING_WHEELS}.get(asked.check, usual)
         for seed, count, numbers in wheels:
             rows += (judge_wheels(program, seed, count, Path(name), asked.order, asked.places, numbers, asked.pairs)
                      if count else [])
     by_total, by_kind = tables(rows, asked)
     bounds = {"usual": BOUNDS, "coupled": COUPLED_BOUNDS, "wheels": WHEEL_BOUNDS}.get(asked.check)
     against = {"edge": EDGE_BOUNDS, "first": FIRST_BOUNDS, "signed": SIGNED_BOUNDS, "peaks": PEAK_BOUNDS,
-               "sliding": SLIDING_BOUNDS, "margins": MARGIN_BOUNDS, "second": SECOND_BOUNDS,
+               "sliding": SLIDING_BOUNDS, "margins": MARGIN_BOUNDS, "second": SECOND_BOUNDS, "heated": HEATED_BOUNDS,
                "pairs": PAIR_BOUNDS, "turns": TURN_BOUNDS, "strips": STRIP_BOUNDS}.get(asked.check)
     unsolved = sum(not places for _, _, places in rows)
     given = [v["given"][0] / v["fy"][0] for _, _, places in rows for v in places if "given" in v]

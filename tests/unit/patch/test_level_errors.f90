@@ -21,9 +21,9 @@ program test_level_errors
    scale%adhesion = 1.0_wp
    scale%power = 100.0_wp
    scale%roughness = 0.5_wp
-   scale%bulk = -20.0_wp
+   scale%heat%rise = 20.0_wp
    call check_zero(total(name="friction_power", law=error_law%power), 0.01_wp*scale%power)
-   call check_zero(total(name="max_temp1", law=error_law%peak), 1.0e-3_wp*abs(scale%bulk(1)))
+   call check_zero(total(name="max_temp1", law=error_law%peak), 1.0e-3_wp*scale%heat%rise)
    call suite%finish()
 
 contains
