@@ -44,7 +44,7 @@ module contact_patch_level_errors
    !> in full sliding by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise
    !> (seeds 71 and 73). Smallest part that slips, by order, chosen
    real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, &
-      & least_slip(2) = [0.1_wp, 0.05_wp]
+      & least_slip(2) = [0.02_wp, 0.05_wp]
    !> The same by the pressures: the heat of a row of elements is in proportion to them. Fraction of the relative error of the
    !> largest pressure; of wheels (seeds 51601 and 51611)
    real(wp), parameter :: heat_of_peak = 0.7_wp
