@@ -11,6 +11,7 @@ module contact_capi_motion
    use contact_capi_messages, only : warn
    use contact_capi_problem, only : kind_of_motion, library_problem
    use contact_control_digits, only : choice_of
+   use contact_control_translation, only : is_on_roller
    use contact_control_units, only : inward, quantity
    implicit none (type, external)
    private
@@ -53,7 +54,7 @@ contains
             kinematics%cphi = creepages(3)
             return
          end if
-         given%for_roller = is_on_roller(problem)
+         given%for_roller = is_on_roller(problem%digits)
          if (given%for_roller) then
             wheelset%vs = 0.0_wp
             wheelset%rpitch = given%numbers(1)*inward(problem%units, quantity%angle)
@@ -75,7 +76,7 @@ contains
          if (problem%module_number == 3) then
             call settle(given%values, any(abs(acting_creepages(problem)) > 0.0_wp), "creepages", "cntc_setcreepages")
             call settle(given%slip, has_slip(problem), "values of the extra rigid slip", "cntc_setextrarigidslip")
-         else if (is_on_roller(problem) .neqv. given%for_roller) then
+         else if (is_on_roller(problem%digits) .neqv. given%for_roller) then
             call fatal_error(error, "the velocities of the wheelset belong to a " // trim(merge("roller", "track ", &
                & given%for_roller)) // ", where the first one is the " // trim(merge("pitch rate of the roller", &
                & "forward velocity        ", given%for_roller)) // ": give new ones by cntc_setwheelsetvelocity")
@@ -129,11 +130,4 @@ contains
       if (force /= force_control%creepages) creepages(1) = 0.0_wp
       if (force == force_control%fx_and_fy) creepages(2) = 0.0_wp
    end function acting_creepages
-
-   !> Is the wheel on a roller, by the digit C1?
-   pure logical function is_on_roller(problem)
-      type(library_problem), intent(in) :: problem
-
-      is_on_roller = problem%digits%c1 >= 4
-   end function is_on_roller
 end module contact_capi_motion

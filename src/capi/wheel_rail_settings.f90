@@ -7,6 +7,7 @@ module contact_capi_wheel_rail_settings
    use contact_capi_caller, only : caller
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_springs, &
       & visit_velocity
+   use contact_control_translation, only : is_on_roller
    use contact_text_words, only : integer_text
    use contact_wheelrail_spec, only : rail_spec, track_spec, wheelset_spec
    implicit none (type, external)
@@ -87,7 +88,7 @@ contains
          if (method < 0 .or. method > 5) call a%refuse_call("there is no wheelset method " // integer_text(method) // &
             & "; 0 to 5 are")
          wheelset = problem%stored%wheelset
-         is_roller = problem%digits%c1 >= 4
+         is_roller = is_on_roller(problem%digits)
          do while (a%next_pass())
             select case (routine)
             case ("cntc_setWheelsetDimensions")

@@ -6,7 +6,7 @@ module contact_control_translation
    implicit none (type, external)
    private
 
-   public :: apply_digits, digits_of
+   public :: apply_digits, digits_of, is_on_roller
 
 contains
 
@@ -67,6 +67,13 @@ contains
       end function choice
    end subroutine apply_digits
 
+   !> Is the wheel on a roller, by the digit C1? Otherwise on a track
+   pure logical function is_on_roller(digits)
+      type(case_digits), intent(in) :: digits
+
+      is_on_roller = digits%c1 == 4 .or. digits%c1 == 5
+   end function is_on_roller
+
    !> Digits that have a meaning for wheel and rail only
    subroutine apply_wheel_rail_digits(digits, spec)
       type(case_digits), intent(in) :: digits
@@ -74,7 +81,7 @@ contains
 
       if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail)
       spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
-      spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
+      spec%wheel_rail%roller = is_on_roller(digits)
       spec%wheel_rail%search%gap_weight = digits%gapwgt
       if (digits%d >= 2) spec%wheel_rail%search%location = choice_of("D", digits%d, 1)
       spec%wheel_rail%new_rail_profile = .false.

@@ -426,14 +426,9 @@ def main():
         asked.count, asked.order, (asked.seed, asked.wheels) = 0, ("--order", "2"), WHEELS
     elif asked.check == "peaks":
         asked.count, asked.seed, asked.sizes, asked.places = PEAK_COUNT, PEAK_SEED, "16,30", len(WHEEL_PLACES)
-    elif asked.check == "pairs":
-        (asked.seed, asked.wheels, numbers), asked.count, asked.places, asked.pairs = PAIRS, 0, len(WHEEL_PLACES), True
-    elif asked.check == "turns":
-        (asked.seed, asked.wheels, numbers), asked.count, asked.places, asked.pairs = TURNS, 0, len(WHEEL_PLACES), True
-    elif asked.check == "strips":
-        (asked.seed, asked.wheels, numbers), asked.count, asked.places, asked.pairs = STRIPS, 0, len(WHEEL_PLACES), True
-    elif asked.check == "sticking":
-        (asked.seed, asked.wheels, numbers), asked.count, asked.places = STICKING, 0, len(WHEEL_PLACES)
+    elif asked.check in ("pairs", "turns", "strips", "sticking"):
+        asked.count, asked.places, asked.pairs = 0, len(WHEEL_PLACES), asked.check != "sticking"
+        asked.seed, asked.wheels, numbers = {"pairs": PAIRS, "turns": TURNS, "strips": STRIPS}.get(asked.check, STICKING)
     elif asked.check in ("sliding", "margins", "second", "heated"):
         asked.count, asked.sizes, asked.places = 0, "16,30", len(WHEEL_PLACES)
     elif asked.check == "first":
