@@ -42,7 +42,8 @@ module contact_patch_level_errors
    !> Highest temperature: factors of n^-1 and n^-2 of its rise above that of the body, by order; factor of n^-2 for each radian by
    !> which the slip direction turns, by the second order; of random contacts (seeds 71002 and 81002). n is that of the slip area,
    !> in full sliding by the first order along the rolling direction: the usual error by the second order is 2 n^-2 of the rise
-   !> (seeds 71 and 73). Smallest part that slips, by order, chosen
+   !> (seeds 71 and 73). Smallest part that slips, by order, chosen: with 0.1 a wheel of which 3 of 207 elements slip
+   !> (86 of 95001, first order) had 0.09 of its error
    real(wp), parameter :: temperature_floor(2) = [0.4_wp, 0.7_wp], turning_temperature_floor = 0.15_wp, &
       & least_slip(2) = [0.02_wp, 0.05_wp]
    !> The same by the pressures: the heat of a row of elements is in proportion to them. Fraction of the relative error of the
