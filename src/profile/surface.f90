@@ -47,6 +47,8 @@ module contact_profile_surface
       procedure :: continued
       !> Fraction of a stretch of rail outside the range of the slices
       procedure :: part_beyond
+      !> Is it the same surface as another one?
+      procedure :: same_as
    end type profile_surface
 
    !> Distance between lines across the profile [mm]
@@ -332,6 +334,27 @@ contains
       section%y_u%c = 0.0_wp
       section%z_u%c = 0.0_wp
    end subroutine continued
+
+   !> Is a surface equal to another one?
+   pure logical function same_as(self, other)
+      class(profile_surface), intent(in) :: self
+      type(profile_surface), intent(in) :: other
+      integer :: g
+
+      same_as = self%side == other%side .and. self%lines == other%lines .and. allocated(self%groups) .and. allocated(other%groups)
+      if (same_as) same_as = size(self%groups) == size(other%groups) .and. size(self%slices) == size(other%slices)
+      if (same_as) same_as = all(self%is_kink .eqv. other%is_kink) .and. all(self%slices == other%slices) &
+         & .and. all(self%u_range == other%u_range)
+      if (.not. same_as) return
+      do g = 1, size(self%groups)
+         associate (one => self%groups(g), two => other%groups(g))
+            same_as = one%first == two%first .and. one%last == two%last .and. all(shape(one%y) == shape(two%y))
+            if (same_as) same_as = one%low == two%low .and. one%high == two%high .and. all(one%t == two%t)
+            if (same_as) same_as = all(one%y == two%y) .and. all(one%z == two%z)
+         end associate
+         if (.not. same_as) return
+      end do
+   end function same_as
 
    !> Fraction of a stretch of rail before the first or after the last slice, 0...1
    pure real(wp) function part_beyond(self, range) result(part)

@@ -215,7 +215,7 @@ contains
       type(cut_point), intent(inout) :: point
       !> False if the section has no point with this y
       logical, intent(out) :: found
-      real(wp) :: across, y_u, t, bend
+      real(wp) :: t
       integer :: piece
 
       found = self%present
@@ -224,25 +224,36 @@ contains
       call self%curve%locate(y, point%piece, t, found)
       if (.not. found) return
       piece = point%piece
+      point%y = y
       ! all four functions have the same pieces
-      associate (cy => self%curve%y%c, cz => self%curve%z%c, cy_u => self%y_u%c, cz_u => self%z_u%c)
-         across = cy(1, piece) + t*(2.0_wp*cy(2, piece) + t*3.0_wp*cy(3, piece))
-         across = sign(max(abs(across), vertical), across)
-         point%y = y
-         point%place = t
-         point%y_s = across
-         across = 1.0_wp/across
-         point%z = cz(0, piece) + t*(cz(1, piece) + t*(cz(2, piece) + t*cz(3, piece)))
-         point%z_y = (cz(1, piece) + t*(2.0_wp*cz(2, piece) + t*3.0_wp*cz(3, piece)))*across
-         y_u = cy_u(0, piece) + t*(cy_u(1, piece) + t*(cy_u(2, piece) + t*cy_u(3, piece)))
-         point%z_u = cz_u(0, piece) + t*(cz_u(1, piece) + t*(cz_u(2, piece) + t*cz_u(3, piece))) - point%z_y*y_u
-         ! derivatives along the section, divided by dy/ds
-         bend = 2.0_wp*(cz(2, piece) + t*3.0_wp*cz(3, piece) - point%z_y*(cy(2, piece) + t*3.0_wp*cy(3, piece)))
-         point%z_yy = bend*across**2
-         point%z_uy = (cz_u(1, piece) + t*(2.0_wp*cz_u(2, piece) + t*3.0_wp*cz_u(3, piece)) &
-            & - point%z_y*(cy_u(1, piece) + t*(2.0_wp*cy_u(2, piece) + t*3.0_wp*cy_u(3, piece))))*across - point%z_yy*y_u
-      end associate
+      call evaluate(self%curve%y%c(:, piece), self%curve%z%c(:, piece), self%y_u%c(:, piece), self%z_u%c(:, piece), t, point)
    end subroutine find
+
+   !> Height and derivatives at a place in a piece
+   pure subroutine evaluate(cy, cz, cy_u, cz_u, t, point)
+      !> Coefficients of the four functions: powers 0 to 3 of the distance from the start of the piece
+      real(wp), intent(in) :: cy(0:3), cz(0:3), cy_u(0:3), cz_u(0:3)
+      !> Distance from the start of the piece [mm]
+      real(wp), intent(in) :: t
+      !> All but its lateral position and piece are set
+      type(cut_point), intent(inout) :: point
+      real(wp) :: across, y_u, bend
+
+      across = cy(1) + t*(2.0_wp*cy(2) + t*3.0_wp*cy(3))
+      across = sign(max(abs(across), vertical), across)
+      point%place = t
+      point%y_s = across
+      across = 1.0_wp/across
+      point%z = cz(0) + t*(cz(1) + t*(cz(2) + t*cz(3)))
+      point%z_y = (cz(1) + t*(2.0_wp*cz(2) + t*3.0_wp*cz(3)))*across
+      y_u = cy_u(0) + t*(cy_u(1) + t*(cy_u(2) + t*cy_u(3)))
+      point%z_u = cz_u(0) + t*(cz_u(1) + t*(cz_u(2) + t*cz_u(3))) - point%z_y*y_u
+      ! derivatives along the section, divided by dy/ds
+      bend = 2.0_wp*(cz(2) + t*3.0_wp*cz(3) - point%z_y*(cy(2) + t*3.0_wp*cy(3)))
+      point%z_yy = bend*across**2
+      point%z_uy = (cz_u(1) + t*(2.0_wp*cz_u(2) + t*3.0_wp*cz_u(3)) &
+         & - point%z_y*(cy_u(1) + t*(2.0_wp*cy_u(2) + t*3.0_wp*cy_u(3))))*across - point%z_yy*y_u
+   end subroutine evaluate
 
    !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 if there is none
    elemental real(wp) function slope_along(self, y) result(slope)

@@ -4,6 +4,7 @@
 !> derivatives along the mesh; between sections, heights are interpolated by cubic Hermite polynomials. A section is computed at its
 !> first use in a case: most of them are never used. Bodies that do not vary are evaluated from their profile.
 module contact_wheelrail_bodies
+   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface, surface_cut
@@ -55,19 +56,18 @@ contains
       real(wp), intent(in) :: dx
       !> Allocated for bodies that vary
       type(profile_surface), intent(in), allocatable :: rail_surface, wheel_surface
-      real(wp) :: distance
+      real(wp), parameter :: no_axes(3) = 0.0_wp
+      real(wp) :: distance, turned
       integer :: n
 
       distance = min(furthest_section, dx)
       n = ceiling((widest_reach(bodies) + beyond*bodies%placement%wheel_radius)/distance)
-      call lay_out(bodies%rail_strip, rail_surface, n, bodies%placement%wheel%origin(1), distance)
-      call lay_out(bodies%wheel_strip, wheel_surface, n, 0.0_wp, distance/bodies%placement%wheel_radius)
-      if (allocated(bodies%rail_strip)) then
-         bodies%rail_strip%origin = s_ws
-         bodies%rail_strip%axes = track_axes(bodies%placement)
-      end if
+      call lay_out(bodies%rail_strip, rail_surface, n, bodies%placement%wheel%origin(1), distance, s_ws, &
+         & track_axes(bodies%placement), fixed=.false.)
       ! With positive pitch the point at the bottom was ahead of it at zero pitch, at a negative angle
-      if (allocated(bodies%wheel_strip)) bodies%wheel_strip%origin = -pitch
+      turned = 2.0_wp*pi*anint(pitch/(2.0_wp*pi)) - pitch
+      call lay_out(bodies%wheel_strip, wheel_surface, n, 0.0_wp, distance/bodies%placement%wheel_radius, &
+         & turned, no_axes, fixed=.true.)
    end subroutine place_bodies
 
    !> Range of the contact search along the track, to both sides of the axle [mm]: on the flank of a yawed wheel, contact is ahead
@@ -212,7 +212,7 @@ contains
       real(wp), intent(inout) :: place, n
       !> Does the line along n intersect the wheel?
       logical, intent(out) :: found
-      real(wp) :: base(3), q(3), k(3), rho, z, z_y, z_around, around, correction
+      real(wp) :: base(3), q(3), k(3), rho, angle, z, z_y, z_around, around, correction
       integer :: step
       !> Length along the surface of the last step of Newton's method [mm]; the remaining error is its square over the radius of
       !> curvature
@@ -228,7 +228,9 @@ contains
          do step = 1, 30
             q = base + k*n
             rho = sqrt(q(1)**2 + q(3)**2)
-            call bodies%wheel_strip%at(atan2(q(1), q(3)), q(2), z, z_y, found, z_around)
+            angle = atan(q(1)/q(3))
+            if (.not. q(3) > 0.0_wp) angle = atan2(q(1), q(3))
+            call bodies%wheel_strip%at(angle, q(2), z, z_y, found, z_around)
             if (.not. found) return
             ! equation: radius + z - rho = 0
             around = (k(1)*q(3) - k(3)*q(1))/rho

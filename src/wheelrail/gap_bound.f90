@@ -306,10 +306,16 @@ contains
       real(wp), intent(in) :: y(:), z(:), s(:)
       !> Track coordinates y and z of the points [mm]
       real(wp), intent(out) :: track_y(:), track_z(:)
+      real(wp) :: ahead, below
+      integer :: i
 
       associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
-         track_y = origin(2) + axes(2, 1)*(r + z)*s + axes(2, 2)*y + axes(2, 3)*((r + z)*sqrt(1.0_wp - s**2) - r)
-         track_z = origin(3) + axes(3, 1)*(r + z)*s + axes(3, 2)*y + axes(3, 3)*((r + z)*sqrt(1.0_wp - s**2) - r)
+         do i = 1, size(y)
+            ahead = (r + z(i))*s(i)
+            below = (r + z(i))*sqrt(1.0_wp - s(i)**2) - r
+            track_y(i) = origin(2) + axes(2, 1)*ahead + axes(2, 2)*y(i) + axes(2, 3)*below
+            track_z(i) = origin(3) + axes(3, 1)*ahead + axes(3, 2)*y(i) + axes(3, 3)*below
+         end do
       end associate
    end subroutine on_circles
 

@@ -68,17 +68,24 @@ contains
       real(wp), intent(in) :: x(:), y(:)
       integer, intent(in) :: first(:), last(:)
       real(wp), intent(inout) :: table(:, :)
-      real(wp) :: z(size(y)), rho
-      logical :: wanted(size(y)), found(size(y))
+      real(wp) :: z(size(y)), height(size(y)), rho
+      logical :: wanted(size(y)), found(size(y)), visible(size(y))
       integer :: rows(size(y))
       integer :: i, k, n
 
+      ! the section of a rail that does not vary is the same everywhere
+      if (.not. allocated(bodies%rail_strip)) call bodies%rail%heights(y, height, visible)
       do i = minval(first), maxval(last)
          wanted = first <= i .and. i <= last
          n = count(wanted)
          if (n == 0) cycle
          rows(:n) = pack([(k, k=1, size(y))], wanted)
-         call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
+         if (allocated(bodies%rail_strip)) then
+            call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
+         else
+            z(:n) = height(rows(:n))
+            found(:n) = visible(rows(:n))
+         end if
          if (bodies%placement%roller_radius > 0.0_wp) then
             do k = 1, n
                rho = bodies%placement%roller_radius - z(k)
@@ -102,19 +109,13 @@ contains
       real(wp), intent(out) :: z(:)
       !> Is there a visible point at this lateral position?
       logical, intent(out) :: found(:)
-      integer :: k
 
       if (.not. allocated(bodies%rail_strip)) then
          call bodies%rail%heights(y, z, found)
          return
       end if
-      z = 0.0_wp
-      found = .false.
       associate (along => bodies%rail_strip)
-         k = along%number_at(x)
-         if (k == 0) return
-         call along%need(k)
-         if (along%sections(k)%present) call along%sections(k)%curve%heights(y, z, found)
+         call along%heights(along%number_at(x), y, z, found)
       end associate
    end subroutine rail_heights
 end module contact_wheelrail_gap_mesh

@@ -9,7 +9,7 @@ module contact_wheelrail_geometry
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
    use contact_wheelrail_placement, only : wheel_rail_placement, place_wheel_rail
-   use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
+   use contact_wheelrail_problem, only : follows_surface, load_of, wheel_rail_problem
    use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_regions, only : smallest_gap
    use contact_wheelrail_variable, only : measure_variable_gap
@@ -130,7 +130,7 @@ contains
       real(wp), intent(in) :: z
       !> See `measure_variable_gap`
       real(wp), intent(in), optional :: depth
-      logical :: keeps_rail
+      logical :: keeps_rail, weighs_table
 
       call place(problem, geometry, z)
       associate (now => geometry%placement%rail, before => geometry%known_place, ds => problem%spec%search%ds)
@@ -154,8 +154,14 @@ contains
       end if
       if (geometry%searches_table) then
          if (allocated(geometry%closer)) deallocate(geometry%closer)
-         call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
-            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
+         weighs_table = allocated(problem%wheel_surface) &
+            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
+         if (problem%force_prescribed) then
+            call measure_variable_gap(geometry%bodies, problem%spec%search%ds, weighs_table, geometry%gap, depth, &
+               & load_of(problem, problem%spec%wheelset%fz))
+         else
+            call measure_variable_gap(geometry%bodies, problem%spec%search%ds, weighs_table, geometry%gap, depth)
+         end if
       else
          ! an independent case does not depend on the penetration of previous cases
          if (.not. problem%in_loop) geometry%reach = first_reach

@@ -10,13 +10,14 @@ module contact_wheelrail_height
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_text_words, only : integer_text, real_text
+   use contact_wheelrail_first_penetration, only : hertz_penetration, min_penetration
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_gap, only : gap_curve
    use contact_wheelrail_geometry, only : measure, wheel_rail_geometry
    use contact_wheelrail_height_search, only : height_search, mostly_friction
    use contact_wheelrail_memory, only : sum_of_normal_forces, wheel_rail_memory, vertical_force
    use contact_wheelrail_placement, only : side_sign
-   use contact_wheelrail_problem, only : follows_surface, keeps_lattice, wheel_rail_problem
+   use contact_wheelrail_problem, only : follows_surface, keeps_lattice, load_of, wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares
    implicit none (type, external)
@@ -40,16 +41,16 @@ module contact_wheelrail_height
    !> Forces below this value are regarded as zero: the wheel just touches the rail [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
-   !> Lower bounds of the stiffness, relative to force over penetration, and of the penetration [mm], for the step that corrects a
-   !> missed force: a Hertzian contact has 1.5
-   real(wp), parameter :: min_stiffness = 0.1_wp, min_penetration = 1.0e-6_wp
+   !> Lower bound of the stiffness, relative to force over penetration, for the step that corrects a missed force: a Hertzian
+   !> contact has 1.5
+   real(wp), parameter :: min_stiffness = 0.1_wp
    !> Maximum reduction factor of the missed force per correction of friction; otherwise the ratio does not converge
    real(wp), parameter :: good_progress = 0.5_wp
 
    !> Width over which the curvature of the gap across the track is measured, of the order of a patch [mm]; maximum curvature
    !> [1/mm], above which the gap has a kink
    real(wp), parameter :: bend_reach = 2.0_wp, max_bend = 10.0_wp
-   !> Minimum mean curvature [1/mm]; without curvature Hertz's theory gives zero penetration
+   !> Minimum curvature of the gap, which may have none [1/mm]
    real(wp), parameter :: min_curvature = 1.0e-8_wp
 
    !> Number of corrections of an estimate by the width of the contact
@@ -351,29 +352,18 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_memory), intent(in) :: memory
       real(wp), intent(in) :: force
-      real(wp) :: curvature(2), modulus
+      real(wp) :: curvature(2), load
       integer :: lowest, round
 
       curvature = curvatures(memory%geometry%gap)
-      modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
-      pen = sphere(curvature(2))
+      load = load_of(problem, force)
+      pen = hertz_penetration(load, sqrt(curvature(1)*curvature(2)))
       if (.not. problem%in_loop) return
       ! curvature over the width of the contact
       lowest = minloc(memory%geometry%gap%gap, dim=1)
       do round = 1, rounds_of_width
-         pen = sphere(bend_over(memory%geometry%gap, lowest, 0.5_wp*pen))
+         pen = hertz_penetration(load, sqrt(curvature(1)*bend_over(memory%geometry%gap, lowest, 0.5_wp*pen)))
       end do
-
-   contains
-
-      !> Penetration of a body of revolution with the geometric mean of the curvatures [mm]
-      pure real(wp) function sphere(b)
-         !> Half the second derivative of the gap across the track [1/mm]
-         real(wp), intent(in) :: b
-
-         sphere = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(curvature(1)*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
-         sphere = max(sphere, min_penetration)
-      end function sphere
    end function penetration_guess
 
    !> Half the second derivative of the parabola that has the width of the gap at a given opening [1/mm]

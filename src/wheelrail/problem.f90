@@ -12,7 +12,7 @@ module contact_wheelrail_problem
    implicit none (type, external)
    private
 
-   public :: wheel_rail_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, &
+   public :: wheel_rail_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, load_of, parameters_at, &
       & rate_of_pure_rolling, share_of_rail
 
    !> Viscoelastic rail and wheel; see `set_viscoelastic` of contact_elastic_model
@@ -109,6 +109,17 @@ contains
          end if
       end associate
    end function rate_of_pure_rolling
+
+   !> Force relative to the stiffness of the bodies, F (1 - nu)/G [mm2]; 0 for a force that pulls
+   pure real(wp) function load_of(problem, force) result(load)
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Vertical force [N]
+      real(wp), intent(in) :: force
+
+      associate (material => problem%template%model%material)
+         load = max(0.0_wp, force)*(1.0_wp - material%nu)/material%gg
+      end associate
+   end function load_of
 
    !> Are the elements aligned with the lattice of wheel and rail, as transient motions require?
    pure logical function keeps_lattice(problem) result(keeps)

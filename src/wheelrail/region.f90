@@ -208,7 +208,7 @@ contains
    !> A stretch with few points of the table is summed at positions in between, too, on curves through four points: otherwise the
    !> centre of a contact as short as the steps of the table would be at one or two points.
    pure subroutine weigh_table(places, g, locus, power, weight, x, extent)
-      real(wp), intent(in) :: places(:), g(:)
+      real(wp), contiguous, intent(in) :: places(:), g(:)
       !> Position of the smallest gap [mm], for a stretch that is too short for the table
       real(wp), intent(in) :: locus
       integer, intent(in) :: power
@@ -223,17 +223,20 @@ contains
       moment = 0.0_wp
       x = locus
       extent = locus
-      inside = 0
-      do i = 1, size(g)
-         if (.not. g(i) < 0.0_wp) cycle
-         inside = inside + 1
-         if (inside == 1) first = i
-         last = i
-      end do
+      inside = count(g < 0.0_wp)
       if (inside == 0) then
          ! the curve may be negative beside the smallest value although that is positive
          first = minloc(g, 1)
          last = first
+      else
+         first = 1
+         do while (g(first) >= 0.0_wp)
+            first = first + 1
+         end do
+         last = size(g)
+         do while (g(last) >= 0.0_wp)
+            last = last - 1
+         end do
       end if
       n = 1
       if (inside < few) n = parts
@@ -252,12 +255,14 @@ contains
                if (power > 1) depth = depth**2
                weight = weight + depth*step
                moment = moment + depth*(place - locus)*step
-               extent = [min(extent(1), place), max(extent(2), place)]
+               extent(1) = min(extent(1), place)
+               extent(2) = max(extent(2), place)
             end if
             ! position between the last two where the gap vanishes
-            if (min(before, now) < 0.0_wp .and. max(before, now) >= 0.0_wp .and. max(before, now) <= far_away) then
+            if ((now < 0.0_wp .neqv. before < 0.0_wp) .and. max(before, now) <= far_away) then
                place = place - step*now/(now - before)
-               extent = [min(extent(1), place), max(extent(2), place)]
+               extent(1) = min(extent(1), place)
+               extent(2) = max(extent(2), place)
             end if
             before = now
          end do

@@ -1,7 +1,8 @@
 !> Sections of a variable profile on an equidistant mesh, and heights between them
 !>
-!> A section is computed at its first use in a case: most of them are never used. Between sections heights are interpolated by cubic
-!> Hermite polynomials.
+!> A section is computed at its first use: most of them are never used. The sections of a wheel are at fixed positions of its
+!> surface, and are kept while the wheel turns, as are those of a rail while the wheelset stays where it is. Between sections
+!> heights are interpolated by cubic Hermite polynomials.
 module contact_wheelrail_strip
    use contact_base_kinds, only : wp
    use contact_profile_surface, only : large_overshoot, profile_surface, surface_cut
@@ -15,9 +16,11 @@ module contact_wheelrail_strip
    type :: strip
       !> Position of the first section and distance between sections: x in the track [mm], or angle from the bottom [rad]
       real(wp) :: first = 0.0_wp, step = 1.0_wp
-      !> Sections, and whether they have been computed
-      type(surface_cut), allocatable :: sections(:)
-      logical, allocatable :: made(:)
+      !> Sections in a ring, the first one behind the slot `turned`, and the coordinate u at which each was computed; huge: it was
+      !> not
+      type(surface_cut), allocatable, private :: sections(:)
+      real(wp), allocatable, private :: made_at(:)
+      integer, private :: turned = 0
       !> Last point found on each section: the next step, or the next point, is often at or near the same position
       type(cut_point), allocatable, private :: known(:)
       !> The surface, the coordinate u on it of position 0 of the mesh, and axes of the sections (see `cut`)
@@ -29,8 +32,12 @@ module contact_wheelrail_strip
    contains
       !> Set the lateral positions at which heights are expected
       procedure :: expect
-      !> Compute a section unless it has been computed
-      procedure :: need
+      !> Index in `sections` of a section; the same, and the section is computed unless it has been computed
+      procedure, private :: slot
+      procedure, private :: slot_of
+      !> Heights on a section, and its lateral range
+      procedure :: heights
+      procedure :: y_range
       !> Index of the section at a position of the mesh
       procedure :: number_at
       procedure :: at => strip_at
@@ -47,11 +54,14 @@ module contact_wheelrail_strip
 
    !> Distances from a section, relative to the distance of sections, that are regarded as zero
    real(wp), parameter :: rounding = 1.0e-9_wp
+   !> Sections are kept if they are in this part of the mesh, around its middle, where contact usually is: a wheel that turns would
+   !> fill the mesh with sections, of 10 kB each
+   integer, parameter :: kept_share = 4
 
 contains
 
-   !> A strip of sections that have not been computed, n of them on both sides of the middle
-   subroutine lay_out(along, surface, n, middle, step)
+   !> A mesh of n sections on both sides of a middle one; sections of the same surface at the same positions are kept
+   subroutine lay_out(along, surface, n, middle, step, origin, axes, fixed)
       !> The strip; unallocated for a body that does not vary
       type(strip), allocatable, intent(inout) :: along
       !> Unallocated for a body that does not vary
@@ -60,16 +70,45 @@ contains
       integer, intent(in) :: n
       !> Position of the middle section, and distance of sections: [mm] along the track or [rad] around the wheel
       real(wp), intent(in) :: middle, step
+      !> See `strip`
+      real(wp), intent(in) :: origin, axes(3)
+      !> Are the sections at multiples of their distance on the surface? The middle one is moved by half of it at most
+      logical, intent(in) :: fixed
+      real(wp) :: first, ahead
+      integer :: k
 
-      if (allocated(along)) deallocate(along)
-      if (.not. allocated(surface)) return
-      allocate(along)
-      along%surface = surface
-      along%first = middle - n*step
-      along%step = step
-      allocate(along%sections(2*n + 1))
-      allocate(along%made(2*n + 1), source=.false.)
-      allocate(along%known(2*n + 1))
+      if (.not. allocated(surface)) then
+         if (allocated(along)) deallocate(along)
+         return
+      end if
+      first = middle - n*step
+      if (fixed) first = first + step*anint((origin + middle)/step) - (origin + middle)
+      if (allocated(along)) then
+         if (size(along%sections) /= 2*n + 1 .or. abs(along%step - step) > 0.0_wp .or. any(abs(along%axes - axes) > 0.0_wp) &
+            & .or. .not. surface%same_as(along%surface)) deallocate(along)
+      end if
+      if (.not. allocated(along)) then
+         allocate(along)
+         along%surface = surface
+         along%step = step
+         along%axes = axes
+         allocate(along%sections(2*n + 1), along%known(2*n + 1))
+         allocate(along%made_at(2*n + 1), source=huge(1.0_wp))
+      else
+         ! points near the last ones have errors of 1e-12 mm, which a case that starts anew does not take over
+         along%known = cut_point()
+         ahead = ((origin + first) - (along%origin + along%first))/step
+         if (abs(ahead) < 2*n + 1) along%turned = modulo(along%turned + nint(ahead), 2*n + 1)
+         do k = 1, 2*n + 1
+            if (abs(k - (n + 1)) <= n/kept_share) cycle
+            along%sections(along%slot(k)) = surface_cut()
+            along%made_at(along%slot(k)) = huge(1.0_wp)
+         end do
+      end if
+      along%first = first
+      along%origin = origin
+      along%expected = [-huge(1.0_wp), huge(1.0_wp)]
+      along%lines = [1, huge(1)]
    end subroutine lay_out
 
    !> Set the lateral positions at which heights are expected: sections of a wheel are computed near them only
@@ -96,8 +135,18 @@ contains
       end do
    end subroutine expect
 
-   !> Compute a section unless it has been computed
-   subroutine need(self, number, y)
+   !> Index in `sections` of a section
+   pure integer function slot(self, number)
+      class(strip), intent(in) :: self
+      !> Index of the section, from 1
+      integer, intent(in) :: number
+
+      slot = number + self%turned
+      if (slot > size(self%sections)) slot = slot - size(self%sections)
+   end function slot
+
+   !> Index in `sections` of a section, which is computed unless it has been computed
+   integer function slot_of(self, number, y) result(k)
       class(strip), intent(inout) :: self
       !> Index of the section, from 1
       integer, intent(in) :: number
@@ -106,15 +155,16 @@ contains
       real(wp) :: place
       logical :: everywhere
 
-      associate (section => self%sections(number))
-         if (self%made(number)) then
+      k = self%slot(number)
+      place = self%origin + self%first + (number - 1)*self%step
+      associate (section => self%sections(k))
+         if (abs(self%made_at(k) - place) <= rounding*self%step) then
             if (present(y)) then
                if (y >= section%valid(1) .and. y <= section%valid(2)) return
             else
                if (section%valid(1) <= -huge(1.0_wp) .and. section%valid(2) >= huge(1.0_wp)) return
             end if
          end if
-         place = self%origin + self%first + (number - 1)*self%step
          everywhere = .true.
          if (present(y)) everywhere = y < self%expected(1) .or. y > self%expected(2)
          if (.not. everywhere) then
@@ -123,8 +173,42 @@ contains
          end if
          if (everywhere) call self%surface%continued(place, section, self%axes)
       end associate
-      self%made(number) = .true.
-   end subroutine need
+      self%made_at(k) = place
+   end function slot_of
+
+   !> Heights of the visible points of a section
+   subroutine heights(self, number, y, z, found)
+      class(strip), intent(inout) :: self
+      !> Index of the section, from 1; 0: there is none
+      integer, intent(in) :: number
+      !> Lateral positions, increasing [mm]
+      real(wp), intent(in) :: y(:)
+      !> Height at each y [mm], z down; 0 where there is no visible point
+      real(wp), intent(out) :: z(:)
+      !> Is there a visible point?
+      logical, intent(out) :: found(:)
+
+      z = 0.0_wp
+      found = .false.
+      if (number == 0) return
+      associate (section => self%sections(self%slot_of(number)))
+         if (section%present) call section%curve%heights(y, z, found)
+      end associate
+   end subroutine heights
+
+   !> Lateral range of a section [mm]; the second value is below the first one if there is none
+   function y_range(self, number) result(range)
+      class(strip), intent(inout) :: self
+      !> See `heights`
+      integer, intent(in) :: number
+      real(wp) :: range(2)
+
+      range = [huge(1.0_wp), -huge(1.0_wp)]
+      if (number == 0) return
+      associate (section => self%sections(self%slot_of(number)))
+         if (section%present) range = section%curve%y_range()
+      end associate
+   end function y_range
 
    !> Height of a rail above the slices on both sides of a position [mm]; 0 below the threshold for the warning when the rail is
    !> read
@@ -181,7 +265,7 @@ contains
       logical, intent(out) :: found
       !> Its derivative along the mesh, per mm or rad
       real(wp), intent(out), optional :: z_place
-      real(wp) :: low(4), high(4), t
+      real(wp) :: low(4), high(4), t, other, before, after
       integer :: k
 
       z = 0.0_wp
@@ -207,12 +291,17 @@ contains
       end if
       call find_on_section(self, k + 1, y, high, found)
       if (.not. found) return
-      z = low(1)*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high(1)*t**2*(3.0_wp - 2.0_wp*t) &
-         & + self%step*t*(1.0_wp - t)*(low(3)*(1.0_wp - t) - high(3)*t)
-      z_y = low(2)*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high(2)*t**2*(3.0_wp - 2.0_wp*t) &
-         & + self%step*t*(1.0_wp - t)*(low(4)*(1.0_wp - t) - high(4)*t)
-      if (present(z_place)) z_place = 6.0_wp*t*(1.0_wp - t)*(high(1) - low(1))/self%step &
-         & + low(3)*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high(3)*t*(2.0_wp - 3.0_wp*t)
+      ! Hermite's cubic
+      other = 1.0_wp - t
+      before = self%step*t*other**2
+      after = self%step*t**2*other
+      t = t**2*(3.0_wp - 2.0_wp*t)
+      z = low(1) + t*(high(1) - low(1)) + before*low(3) - after*high(3)
+      z_y = low(2) + t*(high(2) - low(2)) + before*low(4) - after*high(4)
+      if (present(z_place)) then
+         t = 1.0_wp - other
+         z_place = 6.0_wp*t*other*(high(1) - low(1))/self%step + low(3)*other*(1.0_wp - 3.0_wp*t) - high(3)*t*(2.0_wp - 3.0_wp*t)
+      end if
    end subroutine strip_at
 
    !> Point of a section; near the last point found by a parabola
@@ -230,16 +319,17 @@ contains
       !> Range of the parabola about the last point [mm]; its error is of the order of 1e-12 mm
       real(wp), parameter :: nearness = 2.0e-4_wp
       real(wp) :: way
+      integer :: k
 
-      associate (known => self%known(number))
+      k = self%slot(number)
+      associate (known => self%known(k))
          way = y - known%y
-         if (.not. abs(way) <= nearness) then
-            call self%need(number, y)
-            call self%sections(number)%find(y, known, found)
+         found = abs(way) <= nearness
+         if (.not. found) then
+            call self%sections(self%slot_of(number, y))%find(y, known, found)
             if (.not. found) return
             way = 0.0_wp
          end if
-         found = .true.
          point(1) = known%z + way*(known%z_y + 0.5_wp*way*known%z_yy)
          point(2) = known%z_y + way*known%z_yy
          point(3) = known%z_u + way*known%z_uy

@@ -4,10 +4,12 @@
 !> replace the contact locus of round bodies; the rest of the search is the same. The table of gaps also gives the extent of regions
 !> along the track.
 module contact_wheelrail_variable
+   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, wheel_rail_bodies, search_reach, &
       & slice_pair, strip, widest_reach
+   use contact_wheelrail_first_penetration, only : hertz_penetration
    use contact_wheelrail_flat_patch, only : nothing_there, shift_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap_bound, only : bound_gap, rail_extent
@@ -29,13 +31,17 @@ module contact_wheelrail_variable
    !> Maximum decrease of the gap of prismatic bodies within a coarse cell, below its corners [mm]; larger decreases are found by
    !> the contact locus
    real(wp), parameter :: hidden = 0.1_wp
-   !> Step of the lateral mesh relative to the elements
-   real(wp), parameter :: mesh_share = 0.3_wp
+   !> Step of the lateral mesh relative to the elements. For a wheel that varies on a rail that does not, places and forces of a
+   !> patch change by 1e-5 or less with half the step; noses and joints of rails are narrower. Prismatic bodies have the mesh of
+   !> their locus
+   real(wp), parameter :: mesh_share = 0.3_wp, mesh_share_of_wheel = 0.6_wp
+   !> Distance of points for inclinations of the rail, relative to the elements
+   real(wp), parameter :: difference_share = 0.15_wp
 
 contains
 
    !> Table of gaps and, for each lateral position, its minimum
-   subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth)
+   subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth, load)
       !> Sections and positions of rail and wheel; sections are computed as needed
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
@@ -46,6 +52,8 @@ contains
       type(gap_curve), intent(inout) :: gap
       !> Penetration to be expected [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
+      !> Prescribed force over G/(1 - nu) [mm2], from which the penetration is estimated if it is not known
+      real(wp), intent(in), optional :: load
       real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:), least(:)
       integer, allocatable :: first(:), last(:)
       type(gap_curve) :: locus
@@ -69,7 +77,8 @@ contains
       end if
       nxc = 2*ceiling(along/(coarse*dx)) + 1
       xc = origin + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
-      gap%dy = mesh_share*ds
+      gap%dy = merge(mesh_share, mesh_share_of_wheel, allocated(bodies%rail_strip))*ds
+      if (prismatic) gap%dy = locus%dy
       range = lateral_range(bodies, xc)
       if (allocated(bodies%rail_strip)) call widen_rows(bodies%rail_strip, xc([1, nxc]), coarse*gap%dy, range)
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
@@ -83,6 +92,8 @@ contains
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
+      if (present(load) .and. .not. (present(depth) .or. prismatic)) &
+         & gap%depth = depth_under(load, corner, (coarse*dx)*(coarse*gap%dy))
       allocate(first(gap%n), source=(nxc - 1)*coarse + 1)
       allocate(last(gap%n), source=0)
       allocate(least(gap%n), source=-no_surface)
@@ -99,6 +110,7 @@ contains
       allocate(table(size(gap%x_table), gap%n), source=no_surface)
       call fill(bodies, gap%x_table, gap%y, first, last, table)
       call find_smallest(bodies, gap, table, first, last, xc, corner, locus)
+      call find_inclinations(bodies, difference_share*ds, gap)
       where (last < first .and. gap%gap < no_surface) gap%gap = max(gap%gap, least)
       if (allocated(gap%table)) deallocate(gap%table)
       if (allocated(gap%unweighed)) deallocate(gap%unweighed)
@@ -108,6 +120,26 @@ contains
          call move_alloc(table, gap%unweighed)
       end if
    end subroutine measure_variable_gap
+
+   !> Depth of the table for a force [mm], from the area within which the gap exceeds the smallest one by less than `min_depth`
+   pure real(wp) function depth_under(load, corner, cell) result(depth)
+      !> See `measure_variable_gap`
+      real(wp), intent(in) :: load
+      !> Gaps of the coarse mesh [mm], and area of a cell [mm2]
+      real(wp), intent(in) :: corner(:, :), cell
+      !> Ratio to the penetration by Hertz's theory, as the shape of the gap is known roughly: the gap is measured again for deeper
+      !> trials
+      real(wp), parameter :: margin = 1.2_wp
+      !> Number of points from which the area is known well enough, and limits of the depth [mm]
+      integer, parameter :: enough = 16
+      real(wp), parameter :: least = 0.05_wp, most = 1.0_wp
+      integer :: n
+
+      n = count(corner < min(minval(corner) + min_depth, no_surface))
+      depth = min_depth
+      ! a paraboloid a x**2 + b y**2 is below min_depth on an ellipse of area pi min_depth/sqrt(a b)
+      if (n >= enough) depth = min(max(margin*hertz_penetration(load, pi*min_depth/(n*cell)), least), most)
+   end function depth_under
 
    !> Choose in each row along the track the range of cells whose gap may be small, for prismatic bodies
    subroutine choose_by_corners(gap, locus, xc, corner, first, last)
@@ -280,7 +312,7 @@ contains
       !> Positions along the track [mm]
       real(wp), intent(in) :: x(:)
       real(wp) :: range(2), one(2)
-      integer :: i, k
+      integer :: i
 
       if (.not. allocated(bodies%rail_strip)) then
          range = bodies%rail%y_range()
@@ -289,11 +321,7 @@ contains
       range = [huge(1.0_wp), -huge(1.0_wp)]
       associate (along => bodies%rail_strip)
          do i = 1, size(x)
-            k = along%number_at(x(i))
-            if (k == 0) cycle
-            call along%need(k)
-            if (.not. along%sections(k)%present) cycle
-            one = along%sections(k)%curve%y_range()
+            one = along%y_range(along%number_at(x(i)))
             range = [min(range(1), one(1)), max(range(2), one(2))]
          end do
       end associate
@@ -356,7 +384,6 @@ contains
             wheel = 0.0_wp
          end if
       end do
-      call find_inclinations(bodies, gap)
    end subroutine find_smallest
 
    !> Smallest gap between two rows of the coarse mesh
@@ -381,8 +408,10 @@ contains
    !>
    !> They are those of the section at the contact: wheel and rail have a common tangent there, and the plane of a patch contains
    !> the direction of the track. The section below the axle is used on request only (doc/theory/wheel_rail.md).
-   subroutine find_inclinations(bodies, gap)
+   subroutine find_inclinations(bodies, step, gap)
       type(wheel_rail_bodies), intent(inout) :: bodies
+      !> Distance of points [mm]
+      real(wp), intent(in) :: step
       type(gap_curve), intent(inout) :: gap
       real(wp) :: height(gap%n, 3), slope, x
       logical :: there(gap%n, 3)
@@ -392,19 +421,19 @@ contains
       there = .false.
       do k = 1, 3
          if (.not. allocated(bodies%rail_strip)) then
-            call bodies%rail%heights(gap%y + 0.5_wp*(k - 2)*gap%dy, height(:, k), there(:, k))
+            call bodies%rail%heights(gap%y + (k - 2)*step, height(:, k), there(:, k))
             cycle
          end if
          do j = 1, gap%n
             if (gap%gap(j) >= no_surface) cycle
             x = merge(bodies%placement%wheel%origin(1), gap%x(j), bodies%angle_below_axle)
-            call bodies%rail_strip%at(x, gap%y(j) + 0.5_wp*(k - 2)*gap%dy, height(j, k), slope, there(j, k))
+            call bodies%rail_strip%at(x, gap%y(j) + (k - 2)*step, height(j, k), slope, there(j, k))
          end do
       end do
       do j = 1, gap%n
          low = findloc(there(j, :), .true., 1)
          high = findloc(there(j, :), .true., 1, back=.true.)
-         if (high > low) gap%alpha(j) = atan((height(j, high) - height(j, low))/(0.5_wp*(high - low)*gap%dy))
+         if (high > low) gap%alpha(j) = atan((height(j, high) - height(j, low))/((high - low)*step))
       end do
    end subroutine find_inclinations
 
