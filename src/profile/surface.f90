@@ -338,6 +338,7 @@ contains
    !> Is a surface equal to another one?
    pure logical function same_as(self, other)
       class(profile_surface), intent(in) :: self
+      !> Any surface
       type(profile_surface), intent(in) :: other
       integer :: g
 

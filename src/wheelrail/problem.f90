@@ -112,6 +112,7 @@ contains
 
    !> Force relative to the stiffness of the bodies, F (1 - nu)/G [mm2]; 0 for a force that pulls
    pure real(wp) function load_of(problem, force) result(load)
+      !> With the material of the bodies
       type(wheel_rail_problem), intent(in) :: problem
       !> Vertical force [N]
       real(wp), intent(in) :: force

@@ -74,6 +74,7 @@ contains
       real(wp), intent(in) :: origin, axes(3)
       !> Are the sections at multiples of their distance on the surface? The middle one is moved by half of it at most
       logical, intent(in) :: fixed
+      type(surface_cut) :: nothing
       real(wp) :: first, ahead
       integer :: k
 
@@ -101,7 +102,7 @@ contains
          if (abs(ahead) < 2*n + 1) along%turned = modulo(along%turned + nint(ahead), 2*n + 1)
          do k = 1, 2*n + 1
             if (abs(k - (n + 1)) <= n/kept_share) cycle
-            along%sections(along%slot(k)) = surface_cut()
+            along%sections(along%slot(k)) = nothing
             along%made_at(along%slot(k)) = huge(1.0_wp)
          end do
       end if
