@@ -43,7 +43,8 @@ contains
          cy = cy + spin(2)*(result%centre(1) - problem%spin_centre(1))
          x0 = result%centre(1) - offset*cos(problem%chi)
          y0 = result%centre(2) - offset*sin(problem%chi)
-         spin = spin_weight*spin
+         ! the extra slip has this spin with weights of 1
+         spin = spin_weight*spin + (spin_weight - 1.0_wp)*result%added_spin
       end if
       do ix = 1, problem%grid%mx
          result%wy(ix, 1) = problem%dq*(cy + spin(2)*(problem%grid%x(ix) - x0))

@@ -124,6 +124,8 @@ module contact_patch_result
       real(wp) :: flx(3) = 0.0_wp, k_eff = 0.0_wp
       !> Simplified theory: centre of the contact, about which the spin has a flexibility of its own [mm]
       real(wp) :: centre(2) = 0.0_wp
+      !> Simplified theory: spin of the extra rigid slip [rad/mm]
+      real(wp) :: added_spin = 0.0_wp
       !> Sensitivities of FN, FX/(mu_scal FN), FY/(mu_scal FN), MZ (rows) to PEN, CKSI, CETA, CPHI (columns), in N, mm, rad; 0 if
       !> not computed
       real(wp) :: sensitivity(4, 4) = 0.0_wp

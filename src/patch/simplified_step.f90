@@ -64,8 +64,9 @@ contains
          result%flx = solution%flx
          result%k_eff = solution%slope
          result%centre = workspace%simplified%spin_centre
-         if (problem%n_forces >= 1) result%cksi = solution%creep(1) - workspace%simplified%from_spin(1)
-         if (problem%n_forces >= 2) result%ceta = solution%creep(2) - workspace%simplified%from_spin(2)
+         result%added_spin = workspace%simplified%added_spin
+         if (problem%n_forces >= 1) result%cksi = solution%creep(1) - workspace%simplified%added_creep(1)
+         if (problem%n_forces >= 2) result%ceta = solution%creep(2) - workspace%simplified%added_creep(2)
          if (.not. problem%defers_displacements) call rigid_slip(problem, result, spin_weight=solution%flx(1:2)/solution%flx(3))
       end associate
    end subroutine simplified_step

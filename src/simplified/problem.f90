@@ -59,7 +59,8 @@ module contact_simplified_problem
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp, spin_offset(2) = 0.0_wp
       !> Weights of the spin term in x and y [-]
       real(wp) :: spin_weight(2) = 1.0_wp
-      !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
+      !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none. complete_problem leaves the part that is no
+      !> motion of rigid bodies
       real(wp), allocatable :: extra_slip(:, :, :)
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy), and the forces relative to mu_scal fn [-]
       integer :: n_forces = 0
@@ -67,8 +68,8 @@ module contact_simplified_problem
       !> Tolerance of the relative forces [-]
       real(wp) :: eps = 1.0e-6_wp
       !> The components from here on are set by complete_problem. It refers creepages to the centre of the contact, by adding this
-      !> part of the spin [-]
-      real(wp) :: from_spin(2) = 0.0_wp
+      !> part of the spin and of the extra slip [-]; spin of the extra slip, which it adds as well [rad/mm]
+      real(wp) :: added_creep(2) = 0.0_wp, added_spin = 0.0_wp
       !> Ellipse with the area of the contact area, and ellipse that
       !> determines the flexibilities; flexibilities at vanishing creepage [mm3/N]
       type(ellipse) :: area, reference
@@ -101,7 +102,7 @@ contains
    !> Determine ellipses and flexibilities, and allocate the arrays of the solution
    !>
    !> The flexibilities of creepages and spin are those of an ellipse that turns about its centre. So a spin about another point is
-   !> one about the centre and a creepage.
+   !> one about the centre and a creepage, and an extra slip has creepages and a spin in it.
    subroutine complete_problem(problem, solution)
       !> Grid, pressures, model and creepages on entry; ellipses and flexibilities are added, and creepages refer to the centre of
       !> the contact
@@ -124,9 +125,11 @@ contains
       middle = problem%centre
       if (is_ellipse .or. problem%model%is_centred) middle = 0.0_wp
       away = middle - problem%spin_centre
-      problem%from_spin = problem%spin*problem%spin_weight*[-away(2), away(1)]
-      problem%creep = problem%creep + problem%from_spin
+      problem%added_creep = problem%spin*problem%spin_weight*[-away(2), away(1)]
       problem%spin_centre = middle
+      problem%added_spin = 0.0_wp
+      if (allocated(problem%extra_slip)) call split_extra_slip(problem)
+      problem%creep = problem%creep + problem%added_creep
       if (problem%model%choice == material_model%fastsim_single) then
          problem%flx0 = problem%model%flx
       else
@@ -139,6 +142,50 @@ contains
       allocate(solution%p(mx, my, 2), solution%slip(mx, my, 2), solution%shift(mx, my, 2), solution%bound(mx, my))
       allocate(solution%division(mx, my), solution%mu(my))
    end subroutine complete_problem
+
+   !> Move creepages and spin of the extra slip to those of the problem: the motion of rigid bodies next to it, by least squares
+   !> over the elements in contact
+   pure subroutine split_extra_slip(problem)
+      !> With the centre of the contact; creepages are added to `added_creep`
+      type(simplified_problem), intent(inout) :: problem
+      real(wp) :: place(2), total(2), middle(2), inertia, turning, spin, creep(2)
+      integer :: ix, iy, n
+
+      n = max(1, count(problem%contact))
+      ! the offset of the spin term belongs to any spin
+      place = problem%spin_centre - problem%spin_offset
+      total = 0.0_wp
+      middle = 0.0_wp
+      do iy = 1, size(problem%y)
+         do ix = 1, size(problem%x)
+            if (.not. problem%contact(ix, iy)) cycle
+            total = total + problem%extra_slip(ix, iy, :)
+            middle = middle + [problem%x(ix), problem%y(iy)]
+         end do
+      end do
+      middle = middle/n
+      inertia = 0.0_wp
+      turning = 0.0_wp
+      do iy = 1, size(problem%y)
+         do ix = 1, size(problem%x)
+            if (.not. problem%contact(ix, iy)) cycle
+            associate (x => problem%x(ix) - middle(1), y => problem%y(iy) - middle(2))
+               inertia = inertia + x**2 + y**2
+               turning = turning + x*problem%extra_slip(ix, iy, 2) - y*problem%extra_slip(ix, iy, 1)
+            end associate
+         end do
+      end do
+      spin = 0.0_wp
+      if (inertia > 0.0_wp) spin = turning/inertia
+      creep = total/n + spin*[middle(2) - place(2), place(1) - middle(1)]
+      do iy = 1, size(problem%y)
+         problem%extra_slip(:, iy, 1) = problem%extra_slip(:, iy, 1) - creep(1) + spin*(problem%y(iy) - place(2))
+         problem%extra_slip(:, iy, 2) = problem%extra_slip(:, iy, 2) - creep(2) - spin*(problem%x - place(1))
+      end do
+      problem%added_creep = problem%added_creep + creep
+      problem%added_spin = spin
+      problem%spin = problem%spin + spin
+   end subroutine split_extra_slip
 
    !> Tractions, slip and forces for given creepages
    subroutine tractions_at(problem, creep, solution)
