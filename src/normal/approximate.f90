@@ -4,6 +4,7 @@
 !> contact_normal_estimate.
 module contact_normal_approximate
    use contact_base_choices, only : pressure_model
+   use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
@@ -12,6 +13,7 @@ module contact_normal_approximate
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_analyn, only : analyn_pressure
    use contact_normal_kpec, only : kpec_shape
+   use contact_normal_parts, only : contact_parts
    implicit none (type, external)
    private
 
@@ -24,7 +26,7 @@ contains
    !> The report ends as "converged" after one pass, without iterations and with unknown residual, since these methods do not
    !> satisfy the contact conditions to any tolerance. If the surfaces overlap but no element has a pressure, it ends as
    !> "stagnated" with a warning.
-   subroutine approximate_pressure(model, grid, gap, modulus, operator, sums, pn, report, log)
+   subroutine approximate_pressure(model, grid, gap, modulus, parts, operator, sums, pn, report, log)
       !> Member of pressure_model: kpec or analyn
       integer, intent(in) :: model
       !> Centres and sides of the elements
@@ -34,6 +36,8 @@ contains
       real(wp), contiguous, intent(in) :: gap(:, :)
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
+      !> Parts with reduced interaction; unallocated: none
+      type(contact_parts), allocatable, intent(in) :: parts
       !> Prepared for the window if `sums` do not suit the bodies
       class(compliance), allocatable, intent(inout) :: operator
       !> Prepared for the window if they suit the bodies
@@ -55,6 +59,7 @@ contains
          report%method = "ANALYN"
          call analyn_pressure(grid, gap, modulus, pn)
       end select
+      if (allocated(parts)) call separate_parts(model, grid, gap, modulus, parts, operator, sums, pn, report)
       report%iterations = 0
       report%ended = ending%converged
       if (any(pn > 0.0_wp) .or. .not. any(gap < 0.0_wp)) return
@@ -72,32 +77,127 @@ contains
       type(pressure_sums), allocatable, intent(inout) :: sums
       real(wp), contiguous, intent(inout) :: pn(:, :)
       type(solve_report), intent(inout) :: report
-      real(wp), allocatable :: un(:, :)
       real(wp), allocatable :: weight(:, :)
-      real(wp) :: displacement, overlap
-      integer :: ix, iy
+      real(wp) :: displacement
 
       allocate(weight, mold=pn)
       call kpec_shape(grid, gap, pn, weight)
       if (.not. any(pn > 0.0_wp)) return
+      call displace_deepest(weight, pn, operator, sums, displacement, report)
+      call scale(size(pn), deepest_overlap(weight, gap)/displacement, pn)
+   end subroutine scaled_kpec
+
+   !> Overlap of the elements that represent the deepest point [mm]
+   pure real(wp) function deepest_overlap(weight, gap) result(overlap)
+      !> Weights of the elements [-], and gaps [mm], of the same shape
+      real(wp), contiguous, intent(in) :: weight(:, :), gap(:, :)
+      integer :: ix, iy
+
+      overlap = 0.0_wp
+      do iy = 1, size(gap, 2)
+         do ix = 1, size(gap, 1)
+            if (weight(ix, iy) > 0.0_wp) overlap = overlap - weight(ix, iy)*gap(ix, iy)
+         end do
+      end do
+   end function deepest_overlap
+
+   !> Displacement of the elements that represent the deepest point [mm]
+   subroutine displace_deepest(weight, pn, operator, sums, displacement, report)
+      !> Weights of the elements [-], and pressures [N/mm2], of the shape of the window
+      real(wp), contiguous, intent(in) :: weight(:, :), pn(:, :)
+      class(compliance), allocatable, intent(inout) :: operator
+      type(pressure_sums), allocatable, intent(inout) :: sums
+      real(wp), intent(out) :: displacement
+      type(solve_report), intent(inout) :: report
+      real(wp), allocatable :: un(:, :)
+
       if (allocated(sums)) then
          ! displacements of the deepest elements only
          call sums%weighted(weight, pn, displacement)
-         overlap = 0.0_wp
-         do iy = 1, grid%my
-            do ix = 1, grid%mx
-               if (weight(ix, iy) > 0.0_wp) overlap = overlap - weight(ix, iy)*gap(ix, iy)
-            end do
-         end do
-         call scale(size(pn), overlap/displacement, pn)
          return
       end if
       allocate(un, mold=pn)
       call operator%normal(pn, un)
-      pn = pn*(-sum(weight*gap)/sum(weight*un))
+      displacement = sum(weight*un)
       report%products = report%products + 1
       report%fft_pairs = report%fft_pairs + 1.0_wp
-   end subroutine scaled_kpec
+   end subroutine displace_deepest
+
+   !> Pressures of parts: those of the whole area where the interaction is full, those of separate areas where there is none
+   !>
+   !> Between them linear in the largest factor of a part with another one. Shapes of separate areas of KPEC are scaled together,
+   !> such that each part has its overlap at its deepest point.
+   subroutine separate_parts(model, grid, gap, modulus, parts, operator, sums, pn, report)
+      integer, intent(in) :: model
+      type(potential_contact), intent(in) :: grid
+      real(wp), contiguous, intent(in) :: gap(:, :)
+      real(wp), intent(in) :: modulus
+      type(contact_parts), intent(in) :: parts
+      class(compliance), allocatable, intent(inout) :: operator
+      type(pressure_sums), allocatable, intent(inout) :: sums
+      !> Pressures of the whole area on entry [N/mm2]
+      real(wp), contiguous, intent(inout) :: pn(:, :)
+      type(solve_report), intent(inout) :: report
+      real(wp), allocatable :: own(:, :, :), weight(:, :, :), part_gap(:, :), matrix(:, :), overlap(:), factor(:)
+      real(wp) :: share
+      integer :: q, r, n
+
+      n = size(parts%interaction, 2)
+      allocate(own(grid%mx, grid%my, n), weight(grid%mx, grid%my, n))
+      allocate(matrix(n, n), overlap(n), source=0.0_wp)
+      allocate(factor(n), source=1.0_wp)
+      do q = 1, n
+         part_gap = merge(gap, 2.0_wp*excluded_threshold, parts%label == q)
+         if (model == pressure_model%kpec) then
+            call kpec_shape(grid, part_gap, own(:, :, q), weight(:, :, q))
+            overlap(q) = deepest_overlap(weight(:, :, q), part_gap)
+         else
+            call analyn_pressure(grid, part_gap, modulus, own(:, :, q))
+         end if
+      end do
+      if (model == pressure_model%kpec) then
+         do q = 1, n
+            do r = 1, n
+               if (min(overlap(q), overlap(r)) > 0.0_wp .and. parts%interaction(r, q) > 0.0_wp) then
+                  call displace_deepest(weight(:, :, r), own(:, :, q), operator, sums, matrix(r, q), report)
+                  matrix(r, q) = parts%interaction(r, q)*matrix(r, q)
+               end if
+            end do
+         end do
+         call balance(matrix, overlap, factor)
+      end if
+      do q = 1, n
+         share = 0.0_wp
+         do r = 1, n
+            if (r /= q) share = max(share, parts%interaction(r, q))
+         end do
+         where (parts%label == q) pn = share*pn + (1.0_wp - share)*factor(q)*own(:, :, q)
+      end do
+   end subroutine separate_parts
+
+   !> Factors of the shapes of parts, at least 0, by projected Gauss-Seidel iteration: a part acts most on itself
+   pure subroutine balance(matrix, overlap, factor)
+      !> Displacements of each part by each shape [mm], those of a part without overlap are zero, and overlaps [mm]
+      real(wp), intent(in) :: matrix(:, :), overlap(:)
+      !> The factors [N/mm2]
+      real(wp), intent(out) :: factor(:)
+      !> Chosen; two parts need about ten passes
+      integer, parameter :: passes = 1000
+      real(wp) :: before, change
+      integer :: i, q
+
+      factor = 0.0_wp
+      do i = 1, passes
+         change = 0.0_wp
+         do q = 1, size(factor)
+            if (.not. matrix(q, q) > 0.0_wp) cycle
+            before = factor(q)
+            factor(q) = max(0.0_wp, before + (overlap(q) - dot_product(matrix(q, :), factor))/matrix(q, q))
+            change = max(change, abs(factor(q) - before))
+         end do
+         if (change <= epsilon(change)*maxval(factor)) exit
+      end do
+   end subroutine balance
 
    !> Multiply contiguous numbers by a factor
    pure subroutine scale(n, factor, values)

@@ -93,7 +93,7 @@ contains
                associate (material => problem%model%material)
                   call prepare_sums(problem, workspace)
                   call approximate_pressure(problem%pressure, problem%grid, normal%h, material%gg/(1.0_wp - material%nu), &
-                     & workspace%window, workspace%sums, state%now%pn, result%normal, log)
+                     & normal%parts, workspace%window, workspace%sums, state%now%pn, result%normal, log)
                end associate
             end if
          end associate

@@ -1,16 +1,17 @@
 !> Choices that few cases make: planforms of several parts, parts of the spin, FaStrip as published, memory backwards
 program test_further_choices
-   use contact_base_choices, only : material_model, motion, normal_control, planform_choice, slip_source
+   use contact_base_choices, only : material_model, motion, normal_control, planform_choice, pressure_model, slip_source
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
-   use contact_test_case_builder, only : creep, ellipse_case, grid_case, test_case
+   use contact_test_case_builder, only : creep, ellipse_case, grid_case, surface_case, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    type(test_suite) :: suite
 
    call suite%start("further choices")
    call parts()
+   call approximate_parts()
    call parts_in_rolling()
    call spin_parts()
    call original_fastrip()
@@ -63,6 +64,62 @@ contains
       call two%release()
       call alone%release()
    end subroutine parts
+
+   !> The same by KPEC and ANALYN, of elastic and viscoelastic bodies: factors were ignored, and the lower one of two humps had no
+   !> force although nothing acted on it
+   subroutine approximate_parts()
+      type(test_case) :: whole, two, alone
+      integer, parameter :: methods(3) = [pressure_model%kpec, pressure_model%analyn, pressure_model%kpec]
+      real(wp), parameter :: factor(5) = [0.0_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
+      real(wp) :: h(31, 42), fn(5), full, sides(2)
+      integer :: j, k, m
+
+      do m = 1, size(methods)
+         do k = 1, 42
+            h(:, k) = 0.02_wp*(abs(k - 21.5_wp)*0.2_wp - 2.1_wp)**2 + merge(0.012_wp, 0.0_wp, k > 21) &
+               & + [(0.005_wp*(0.2_wp*(j - 16))**2, j=1, 31)]
+         end do
+         whole%spec = surface_case(h, 0.0_wp, 0.2_wp, 0.2_wp, eps=1.0e-8_wp)
+         whole%spec%normal = normal_control%approach
+         whole%spec%kinematics%pen = 0.03_wp
+         if (m == 3) then
+            call creep(whole%spec, motion%steady_rolling, 0.002_wp)
+            whole%spec%material_model = material_model%viscoelastic
+            whole%spec%material%fg = 1.0_wp
+            whole%spec%material%tc = 1.0e-3_wp
+         end if
+         two%spec = whole%spec
+         two%spec%geometry%planform = planform_choice%weighted_rectangles
+         two%spec%geometry%rectangles = reshape([-9.0_wp, 9.0_wp, -9.0_wp, 0.0_wp, -9.0_wp, 9.0_wp, 0.0_wp, 9.0_wp], [4, 2])
+         do k = 1, size(factor)
+            two%spec%geometry%interaction = reshape([1.0_wp, factor(k), factor(k), 1.0_wp], [2, 2])
+            two%spec%pressure = pressure_model%full
+            call two%run(suite, "full solution of two parts")
+            full = two%result%fn
+            two%spec%pressure = methods(m)
+            call two%run(suite, "two parts by an approximate method")
+            fn(k) = two%result%fn
+            if (k > 1) cycle
+            ! each of them without the other one
+            alone%spec = two%spec
+            do j = 1, 2
+               alone%spec%geometry%rectangles = two%spec%geometry%rectangles(:, [j, j])
+               call alone%run(suite, "one part by an approximate method")
+               sides(j) = alone%result%fn
+            end do
+            call suite%close_to(fn(1), sum(sides), 1.0e-10_wp*fn(1), "factors 0: separate contacts")
+            call suite%check(minval(sides) > 0.1_wp*fn(1), "both humps carry")
+            call suite%close_to(fn(1), full, 0.05_wp*full, "factors 0: near the full solution")
+         end do
+         whole%spec%pressure = methods(m)
+         call whole%run(suite, "one area by an approximate method")
+         call suite%close_to(fn(5), whole%result%fn, 1.0e-12_wp*fn(5), "factors 1: one area")
+         call suite%check(all(abs(fn(2:) - fn(:4)) < 0.2_wp*fn(1)), "no jumps between the factors")
+      end do
+      call whole%release()
+      call two%release()
+      call alone%release()
+   end subroutine approximate_parts
 
    !> Parts with factors 1 roll as one, with both orders, also where the leading edge of one part is next to the other one
    subroutine parts_in_rolling()

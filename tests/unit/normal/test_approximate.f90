@@ -15,6 +15,7 @@ program test_approximate
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_estimate, only : elliptic_pressure, sdec_pressure
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
+   use contact_normal_parts, only : contact_parts
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    !> Methods that start from the gap, with their names
@@ -188,6 +189,7 @@ contains
       real(wp), allocatable :: copy(:, :)
       class(compliance), allocatable :: operator
       type(pressure_sums), allocatable :: sums
+      type(contact_parts), allocatable :: parts
       type(combined_material) :: material
       type(solve_report) :: report
       type(log_type) :: log
@@ -202,7 +204,7 @@ contains
          allocate(sums)
          call sums%prepare(elastic_model(material), grid%dx, grid%dy, grid%mx, grid%my)
       end if
-      call approximate_pressure(model, grid, copy, material%gg/(1.0_wp - material%nu), operator, sums, pn, report, log)
+      call approximate_pressure(model, grid, copy, material%gg/(1.0_wp - material%nu), parts, operator, sums, pn, report, log)
       if (present(warnings)) warnings = log%warnings
       if (allocated(operator)) call operator%release()
    end function pressure_of
