@@ -13,7 +13,6 @@ module contact_temperature_flash_heating
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_friction_heated, only : heated_law
-   use contact_friction_law, only : friction_set
    use contact_friction_memory, only : friction_memory
    implicit none (type, external)
    private
@@ -170,7 +169,9 @@ contains
    !> The temperature of an element depends only on upstream elements and on the element itself. Marching with the particles
    !> therefore solves for both at once, whereas alternating between them oscillates if friction decreases steeply with
    !> temperature. The memory uses the lower bound of the slip velocity instead of the slip velocity itself, as in the original
-   !> program.
+   !> program. Particles enter with the coefficient of the interface temperature, and ahead of and behind the contact friction is
+   !> that of the temperature which both surfaces would have if they touched: without frictional heat nothing changes, and neither
+   !> the size of the grid nor the order of the bodies counts.
    subroutine heat_by_friction(self, law, memory, pn, speed, heat, dt, mu, t1)
       class(heat_passage), intent(in) :: self
       !> Law whose coefficient depends on temperature
@@ -185,9 +186,8 @@ contains
       real(wp), intent(in) :: dt
       !> Coefficients [-] and temperatures of body 1 [degC], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :), t1(:, :)
-      type(friction_set) :: set
       real(wp), allocatable :: weight(:), rise(:), t2(:, :)
-      real(wp) :: before, own, given, released, per_heat, cold, theta
+      real(wp) :: before, own, given, released, per_heat, shared, cold, theta
       integer :: ix, iy, jx, m, first, last
 
       m = size(pn, 1)
@@ -195,18 +195,18 @@ contains
       call self%conduct(t1, t2)
       weight = self%weights(m)
       per_heat = self%rise_per_heat()
+      shared = self%bodies%interface_temperature()
       theta = memory%weight(0.0_wp, dt)
       first = merge(m, 1, self%direction > 0)
       last = m + 1 - first
       do iy = 1, size(pn, 2)
          rise = 0.0_wp
-         set = law%set_of_row(iy)
-         before = set%fstat
+         before = law%self_heated(iy, shared, rise=0.0_wp, theta=0.0_wp, mu_before=0.0_wp)
          jx = 0
          do ix = first, last, -self%direction
             jx = jx + 1
             given = heat(ix, iy)
-            cold = t1(ix, iy) + per_heat*(rise(jx) + weight(1)*given)
+            cold = shared + per_heat*(rise(jx) + weight(1)*given)
             own = pn(ix, iy)*speed(ix, iy)
             mu(ix, iy) = law%self_heated(iy, cold, per_heat*weight(1)*own, theta, before)
             before = mu(ix, iy)

@@ -26,6 +26,7 @@ program test_flash_heating
    call conduction(suite)
    call mirror(suite)
    call own_friction(suite)
+   call warm_bodies(suite)
    call limits(suite)
    call suite%finish()
 
@@ -308,7 +309,7 @@ contains
       integer :: k, with
 
       passage = row(60)
-      passage%bodies%bulk = [20.0_wp, 60.0_wp]
+      passage%bodies%bulk = [40.0_wp, 90.0_wp]
       nothing = 0.0_wp
       pn = merge(900.0_wp, 0.0_wp, passage%contact)
       speed = merge(1500.0_wp, 0.0_wp, passage%contact)
@@ -325,12 +326,51 @@ contains
             end select
             call passage%surface_temperatures(mu*pn*speed, s1, s2)
             call suite%close_to(t1(:, 1), s1(:, 1), 1.0e-9_wp, "temperatures of the march")
-            call law%coefficient(t1, expected)
-            call memory%march(nothing, 1.0e-5_wp, passage%direction, [0.4_wp], expected)
+            ! both surfaces have this temperature in contact, and would have it elsewhere
+            associate (beta => passage%bodies%effusivity/sum(passage%bodies%effusivity))
+               call law%coefficient(beta(1)*s1 + beta(2)*s2, expected)
+            end associate
+            s1 = passage%bodies%interface_temperature()
+            call law%coefficient(s1, s2)
+            call memory%march(nothing, 1.0e-5_wp, passage%direction, s2(1, :), expected)
             call suite%close_to(mu(:, 1), expected(:, 1), 1.0e-10_wp, "coefficients of the march")
          end do
       end do
    end subroutine own_friction
+
+   !> Without frictional heat the coefficient is that of the interface temperature, with any memory and any order of the bodies.
+   !> Particles entered with the coefficient of cold bodies, and ahead of the contact took that of body 1
+   subroutine warm_bodies(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: distance(3) = [0.0_wp, 0.01_wp, 1.0e3_wp]
+      type(heat_passage) :: passage
+      type(friction_set) :: set
+      class(friction_law), allocatable :: law
+      type(error_type), allocatable :: error
+      real(wp) :: nothing(60, 1), mu(60, 1), t1(60, 1)
+      integer :: i, k
+
+      passage = row(60)
+      passage%bodies%bulk = [600.0_wp, 150.0_wp]
+      nothing = 0.0_wp
+      set = friction_set(fstat=0.4_wp, fkin=0.1_wp, tref=50.0_wp, dtheat=600.0_wp)
+      call new_friction_law(friction_model%temperature, [set], law, error)
+      select type (law)
+      type is (heated_law)
+         do i = 1, 2
+            do k = 1, size(distance)
+               call passage%heat_by_friction(law, friction_memory(distance(k), 2.0e3_wp), nothing, nothing, nothing, 1.0e-5_wp, &
+                  & mu, t1)
+               call suite%close_to(mu(:, 1), spread(0.4_wp - 0.3_wp*(passage%bodies%interface_temperature() - 50.0_wp)/600.0_wp, &
+                  & 1, 60), 1.0e-14_wp, "coefficient of warm bodies")
+            end do
+            passage%bodies%bulk = passage%bodies%bulk(2:1:-1)
+            passage%bodies%effusivity = passage%bodies%effusivity(2:1:-1)
+         end do
+      class default
+         call suite%check(.false., "law of another kind")
+      end select
+   end subroutine warm_bodies
 
    subroutine limits(suite)
       type(test_suite), intent(inout) :: suite
