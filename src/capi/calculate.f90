@@ -121,6 +121,10 @@ contains
          problem%bodies%kernel = problem%spec%kernel
          problem%bodies%material_model = problem%spec%material_model
          problem%bodies%motion = problem%spec%motion
+         if (problem%module_number == 1) then
+            problem%bodies%left = problem%spec%wheel_rail%left
+            problem%bodies%roller = problem%spec%wheel_rail%roller
+         end if
       end if
       call keep_status(problem, status)
    end subroutine calculate_case

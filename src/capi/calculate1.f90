@@ -22,6 +22,7 @@ module contact_capi_calculate1
    use contact_output_wheel_rail_files, only : has_files, write_wheel_rail_files
    use contact_output_report_wheel_rail, only : write_wheel_rail
    use contact_text_words, only : integer_text, real_text
+   use contact_wheelrail_body_frames, only : frames_of
    implicit none (type, external)
    private
 
@@ -81,6 +82,7 @@ contains
          if (problem%spec%solve) then
             problem%stored%wheelset%z = result%z_ws
             problem%stored%wheelset%vpitch = result%vpitch
+            call keep_places(problem)
             status = result%status
             if (.not. status%is_solved()) then
                code = code_of_wheel_rail(status, size(result%patches))
@@ -100,6 +102,19 @@ contains
          if (.not. problem%has_result) result%patches = result%patches(:0)
       end associate
    end subroutine finish_wheel_rail
+
+   !> Keep the places that follow from the position of the wheelset and from the profiles, which the next case may change
+   subroutine keep_places(problem)
+      type(library_problem), intent(inout) :: problem
+      integer :: k
+
+      associate (pair => problem%wheel_rail%problem, result => problem%wheel_rail_result, bodies => problem%bodies)
+         bodies%frames = frames_of(pair%spec, result)
+         do k = 1, min(max_patches, size(result%patches))
+            bodies%along(:, k) = [pair%rail%s_at(result%patches(k)%y_rail), pair%wheel%s_at(result%patches(k)%y_wheel)]
+         end do
+      end associate
+   end subroutine keep_places
 
    !> Check that profiles, friction and discretisation are available and compatible
    subroutine check_data(problem, code, error)

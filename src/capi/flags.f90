@@ -326,7 +326,7 @@ contains
          return
       end if
       do k = 1, size(problem%wheel_rail_result%patches)
-         if (icp <= 0 .or. icp == k) call add(problem%wheel_rail_result%patches(k)%contact, problem%spec%wheel_rail%left)
+         if (icp <= 0 .or. icp == k) call add(problem%wheel_rail_result%patches(k)%contact, problem%bodies%left)
       end do
       if (icp > 0) return
       ! ends of the profile belong to no patch

@@ -88,11 +88,11 @@ contains
       of_column([jacobian_input%y, jacobian_input%z]) = quantity%length
       of_column([jacobian_input%vs, jacobian_input%vy]) = quantity%velocity
       ! on a roller the first velocity is the pitch rate of the roller
-      if (problem%spec%wheel_rail%roller) of_column(jacobian_input%vs) = quantity%angle
+      if (problem%bodies%roller) of_column(jacobian_input%vs) = quantity%angle
       of_column(jacobian_input%fz) = quantity%force
       do k = 1, jacobian_input%count
          values(:, k) = values(:, k)*inward(problem%units, of_column(k)) &
-            & *outward(problem%units, of_row, sign, problem%spec%wheel_rail%left)
+            & *outward(problem%units, of_row, sign, problem%bodies%left)
       end do
    end subroutine convert
 end module contact_capi_jacobian

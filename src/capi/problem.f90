@@ -21,6 +21,7 @@ module contact_capi_problem
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
+   use contact_wheelrail_body_frames, only : body_frames
    use contact_wheelrail_spec, only : wheelset_spec
    implicit none (type, external)
    private
@@ -101,8 +102,14 @@ module contact_capi_problem
       character(len=:), allocatable :: reason
    end type refused_setting
 
-   !> What stresses below the surface need of the last case that was solved; settings may be those of the next one
+   !> What getters and stresses below the surface need of the last case that was solved; settings may be those of the next one,
+   !> which may have been refused
    type :: solved_bodies
+      !> Wheel on rail: markers, and arc lengths of the references of the patches on the profiles of rail and wheel [mm]
+      type(body_frames) :: frames
+      real(wp) :: along(2, max_patches) = 0.0_wp
+      !> Is it a wheel on the left side of the track, and on a roller?
+      logical :: left = .false., roller = .false.
       type(material_spec) :: material
       !> Members of kernel_model, material_model and motion
       integer :: kernel = 0, material_model = 0, motion = 0

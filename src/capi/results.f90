@@ -50,7 +50,7 @@ contains
          list(4:6) = [kinematics%spinxo, kinematics%spinyo, problem%spec%material%tau_c0]
          if (problem%module_number == 1) then
             list(4:5) = problem%wheel_rail_result%patches(icp)%grid_reference
-            if (problem%spec%wheel_rail%left) list(5) = -list(5)
+            if (problem%bodies%left) list(5) = -list(5)
          end if
          list = list*outward(units, [quantity%velocity, quantity%angle, quantity%length, quantity%length, quantity%length, &
             & quantity%pressure])
@@ -196,7 +196,7 @@ contains
       creep = [problem%stored%kinematics%cksi, problem%stored%kinematics%ceta, problem%stored%kinematics%cphi]
       left = .false.
       if (problem%module_number == 1) then
-         left = problem%spec%wheel_rail%left
+         left = problem%bodies%left
          associate (patch => problem%wheel_rail_result%patches(a%call_of%icp)%contact)
             creep = [patch%cksi, patch%ceta, patch%cphi]
             is_shift = patch%motion == motion%shift

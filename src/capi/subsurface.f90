@@ -189,7 +189,6 @@ contains
       type(error_type), allocatable :: error
       type(log_type) :: log
       character(len=:), allocatable :: file
-      logical :: left
 
       request%kernel = problem%bodies%kernel
       request%material = problem%bodies%material
@@ -201,12 +200,10 @@ contains
          if (allocated(problem%blocks(number)%list)) request%subsurface%blocks = problem%blocks(number)%list
       end if
       code = library_code%success
-      left = .false.
-      if (allocated(problem%spec%wheel_rail)) left = problem%spec%wheel_rail%left
       if (number == 0) then
-         call subsurface_stresses(request, patch, error, left, problem%session%shelf)
+         call subsurface_stresses(request, patch, error, problem%bodies%left, problem%session%shelf)
       else
-         call subsurface_stresses(request, patch, error, left)
+         call subsurface_stresses(request, patch, error, problem%bodies%left)
       end if
       if (.not. allocated(error) .and. allocated(patch%subsurface)) then
          log = library_log()

@@ -46,7 +46,7 @@ contains
          return
       end if
       if (problem%module_number == 1) then
-         view%left = problem%spec%wheel_rail%left
+         view%left = problem%bodies%left
          view%patch => problem%wheel_rail_result%patches(this%icp)%contact
       else
          view%patch => problem%result

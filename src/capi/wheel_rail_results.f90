@@ -7,7 +7,7 @@ module contact_capi_wheel_rail_results
    use contact_capi_caller, only : caller
    use contact_capi_problem, only : library_problem
    use contact_control_units, only : orientation, outward, quantity, quantity_type
-   use contact_wheelrail_body_frames, only : body_frames, forces_in_bodies, frames_of, pressure_centre
+   use contact_wheelrail_body_frames, only : forces_in_bodies, pressure_centre
    implicit none (type, external)
    private
 
@@ -51,7 +51,7 @@ contains
       unit([4, 9, 14, 24, 25, 28, 33, 37, 38]) = quantity%angle
       sign = orientation%none
       sign([2, 4, 6, 9, 11, 14, 16, 22, 24, 25, 26, 28, 31, 33, 35, 37, 38]) = orientation%side
-      list = list*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
+      list = list*outward(problem%units, unit, sign, problem%bodies%left)
       ! the 29th value is not used, and is left unchanged
       buffer => a%numbers_at(1)
       if (size(buffer) >= 29) list(29) = buffer(29)
@@ -63,16 +63,14 @@ contains
       type(library_problem), intent(in) :: problem
       integer, intent(in) :: number
       real(wp), intent(out) :: list(38)
-      type(body_frames) :: frames
       real(wp) :: centre(2), in_set(3)
 
       list = 0.0_wp
       associate (result => problem%wheel_rail_result, patch => problem%wheel_rail_result%patches(number), &
-         & pair => problem%wheel_rail%problem)
-         frames = frames_of(pair%spec, result)
+         & frames => problem%bodies%frames)
          list(1:4) = [patch%x, patch%y, patch%z, patch%delta]
-         list(5:9) = [patch%x, patch%y_rail, patch%z_rail, pair%rail%s_at(patch%y_rail), patch%delta_rail]
-         list(10:14) = [patch%x_wheel, patch%y_wheel, patch%z_wheel, pair%wheel%s_at(patch%y_wheel), &
+         list(5:9) = [patch%x, patch%y_rail, patch%z_rail, problem%bodies%along(1, number), patch%delta_rail]
+         list(10:14) = [patch%x_wheel, patch%y_wheel, patch%z_wheel, problem%bodies%along(2, number), &
             & patch%delta - result%wheel_roll]
          centre = pressure_centre(patch)
          list(15:16) = centre
@@ -91,7 +89,6 @@ contains
    subroutine get_forces(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
-      type(body_frames) :: frames
       real(wp) :: list(24)
       type(quantity_type) :: unit(6)
       integer, parameter :: sign(6) = [orientation%along, orientation%across, orientation%along, orientation%across, &
@@ -105,13 +102,12 @@ contains
          last = a%call_of%icp
       end if
       list = 0.0_wp
-      if (problem%has_result) frames = frames_of(problem%wheel_rail%problem%spec, problem%wheel_rail_result)
       do k = first, last
-         list = list + forces_in_bodies(problem%wheel_rail_result%patches(k), frames)
+         list = list + forces_in_bodies(problem%wheel_rail_result%patches(k), problem%bodies%frames)
       end do
       unit = [quantity%force, quantity%force, quantity%force, quantity%moment, quantity%moment, quantity%moment]
       do k = 0, 18, 6
-         list(k + 1:k + 6) = list(k + 1:k + 6)*outward(problem%units, unit, sign, problem%spec%wheel_rail%left)
+         list(k + 1:k + 6) = list(k + 1:k + 6)*outward(problem%units, unit, sign, problem%bodies%left)
       end do
       call a%set_result(1, list, fills=.true.)
    end subroutine get_forces
