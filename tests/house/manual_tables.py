@@ -4,13 +4,14 @@
 Usage: manual_tables.py [--write]. Made from the description of the groups (src/cases), the table of bounds, the digits and their
 words are
 
-    readable.md      the keys of each table of a case
+    readable.md      the keys of each table of a case, and their presets
     input.md         digits and their values, numbers of the friction laws, bounds of all numbers
     wheel_rail.md    digits and their values
 
 With --write they are put into the pages, without it the pages are compared with them.
 """
 import difflib
+import math
 import os
 import pathlib
 import re
@@ -61,6 +62,27 @@ def in_digits(text):
 
 def bounds():
     return {row[0]: (row[1], row[2], len(row) > 7) for row in rows("text/bounds.f90", "number_bounds")}
+
+
+def presets():
+    """Values that numbers have if they are never given, by their names: those of the components that the descriptions visit"""
+    types, extended = {}, {}
+    for path in sorted((TOP / "src").glob("*/*.f90")):
+        text = source(path.relative_to(TOP / "src"))
+        for name, body in re.findall(r"\n   type(?:, [^:\n]+)? :: (\w+)\n(.*?)end type", text, re.DOTALL):
+            for line in re.findall(r"^\s+(?:real\(wp\)|integer|logical)[^:\n]*:: (.*)", body, re.MULTILINE):
+                types.setdefault(name, {}).update(re.findall(r"(\w+)(?:\([\d:]+\))? = ([^,(\n]+)", line))
+        extended.update((child, base) for base, child in re.findall(r"type, extends\((\w+)\) :: (\w+)", path.read_text()))
+    found = {}
+    for file in ("inputs", "grid_inputs", "distance", "rail_inputs", "subsurface_inputs"):
+        text = source(f"cases/{file}.f90")
+        lists = {name: re.findall(r'"(\w+)"', values) for name, values in re.findall(r":: (\w+)\(\d+\) = (\[.*?\])", text)}
+        for several, name, kind, part in re.findall(r'call a%\w+\((trim\()?"?(\w+)"?[^,]*, (\w+)(?:\(\w+\))?%(\w+)', text):
+            value = types.get(f"{kind}_spec", {}).get(part) or types.get(extended.get(f"{kind}_spec"), {}).get(part)
+            for key in lists.get(name, []) if several else [name]:
+                if value:
+                    found[key] = number(value, {"pi": math.pi})
+    return {**found, "GAUGSQ": "0"}
 
 
 def row_of(name, table):
@@ -161,7 +183,7 @@ def groups():
 
 
 def tables():
-    table, lines = bounds(), []
+    table, values, lines = bounds(), presets(), []
     keys = rows("control/words.f90", "key_row")
     digits = rows("control/digits.f90", "digit_row")
     forms = rows("control/words.f90", "form_row")
@@ -208,7 +230,7 @@ def tables():
             done.add(key)
             unit, title, preset = found
             unit = "" if unit in ("-", "integer") else unit
-            lines.append(f"| `{key}` | {words_of(title)} | {unit} | {'yes' if preset else ''} |")
+            lines.append(f"| `{key}` | {words_of(title)} | {unit} | {values[name] if preset else ''} |")
         lines.append("")
     return "\n".join(lines)
 
