@@ -154,8 +154,9 @@ contains
       type(library_problem), intent(inout) :: problem
 
       associate (numbers => a%numbers(1)%v(:3))
-         if (.not. fits(a%call_of, "CKSI CETA CPHI", creepages_of(problem, numbers))) return
+         if (.not. fits(a%call_of, "CKSI CETA CPHI", creepages_of(problem, numbers, problem%units))) return
          problem%given%numbers = numbers
+         problem%given%units = problem%units
          problem%given%values%is_new = .true.
          call follow_digits(problem)
       end associate

@@ -12,7 +12,7 @@ module contact_capi_motion
    use contact_capi_problem, only : kind_of_motion, library_problem
    use contact_control_digits, only : choice_of
    use contact_control_translation, only : is_on_roller
-   use contact_control_units, only : inward, quantity
+   use contact_control_units, only : inward, quantity, unit_convention
    implicit none (type, external)
    private
 
@@ -21,16 +21,18 @@ module contact_capi_motion
 contains
 
    !> Creepages and spin in internal units, by the current motion
-   pure function creepages_of(problem, numbers) result(creepages)
+   pure function creepages_of(problem, numbers, units) result(creepages)
       type(library_problem), intent(in) :: problem
-      !> Longitudinal and lateral creepage, spin in the units of the caller
+      !> Longitudinal and lateral creepage, spin
       real(wp), intent(in) :: numbers(3)
+      !> Their units; the caller may have other ones meanwhile
+      type(unit_convention), intent(in) :: units
       real(wp) :: creepages(3)
 
       if (problem%motion() == motion%shift) then
-         creepages = numbers*inward(problem%units, [quantity%length, quantity%length, quantity%angle])
+         creepages = numbers*inward(units, [quantity%length, quantity%length, quantity%angle])
       else
-         creepages = numbers*inward(problem%units, [quantity%number, quantity%number, quantity%spin])
+         creepages = numbers*inward(units, [quantity%number, quantity%number, quantity%spin])
       end if
    end function creepages_of
 
@@ -48,7 +50,7 @@ contains
          if (.not. given%values%is_new) return
          given%values%for_shift = is_shift
          if (problem%module_number == 3) then
-            creepages = creepages_of(problem, given%numbers)
+            creepages = creepages_of(problem, given%numbers, given%units)
             kinematics%cksi = creepages(1)
             kinematics%ceta = creepages(2)
             kinematics%cphi = creepages(3)
@@ -57,9 +59,9 @@ contains
          given%for_roller = is_on_roller(problem%digits)
          if (given%for_roller) then
             wheelset%vs = 0.0_wp
-            wheelset%rpitch = given%numbers(1)*inward(problem%units, quantity%angle)
+            wheelset%rpitch = given%numbers(1)*inward(given%units, quantity%angle)
          else
-            wheelset%vs = given%numbers(1)*inward(problem%units, quantity%velocity)
+            wheelset%vs = given%numbers(1)*inward(given%units, quantity%velocity)
          end if
       end associate
    end subroutine follow_digits

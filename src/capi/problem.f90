@@ -69,8 +69,9 @@ module contact_capi_problem
 
    !> Values as given whose meaning and unit depend on the digits T and C1: creepages of contact problems, velocities of a wheelset
    type :: given_motion
-      !> Creepages and spin, or as first number the forward velocity or the pitch rate of the roller, in the units of the caller
+      !> Creepages and spin, or as first number the forward velocity or the pitch rate of the roller; the units of the caller then
       real(wp) :: numbers(3) = 0.0_wp
+      type(unit_convention) :: units
       type(kind_of_motion) :: values
       !> Is the first number the pitch rate of a roller?
       logical :: for_roller = .false.

@@ -129,6 +129,7 @@ contains
          if (routine == "cntc_setWheelsetFlexibility") problem%given%flexible%is_new = .true.
          if (routine == "cntc_setWheelsetVelocity") then
             problem%given%numbers(1) = a%numbers(1)%v(1)
+            problem%given%units = problem%units
             problem%given%values%is_new = .true.
          end if
          call follow_digits(problem)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The order of the settings before a calculation does not matter, and values whose meaning has changed are not used silently.
+"""The order of the settings before a calculation does not matter, nor do units that change between them; values whose meaning has
+changed are not used silently.
 
 usage: call_order.py contact | pair | kept | results
 """
@@ -24,6 +25,27 @@ def flag(icp, name, value):
 def start(module, units):
     same(cntc.initialize(1, module)[1], 0, "initialize")
     cntc.setflags(1, 1 if module == 3 else -1, CNTC["if_units"], CNTC[units])
+
+
+def make(module, units, settings, order):
+    """Make all settings, in order 0 as listed, otherwise at random; with units that change between them if `units` is "any"
+
+    Returns the units after them.
+    """
+    dice = random.Random(order)
+    names = ("un_cntc", "un_si" if module == 3 else "un_spck")
+    lists = {name: settings(name) for name in names}
+    numbers = list(range(len(lists[names[0]])))
+    if order > 0:
+        dice.shuffle(numbers)
+    now = names[0] if units == "any" else units
+    start(module, now)
+    for number in numbers:
+        if units == "any":
+            now = dice.choice(names)
+            cntc.setflags(1, 1 if module == 3 else -1, CNTC["if_units"], CNTC[now])
+        lists[now][number]()
+    return now
 
 
 def contact_settings(big, motion):
@@ -57,16 +79,11 @@ def contact():
     """Contact problems: in shifts creepages are lengths, which matters in m"""
     for motion in (1, 2, 3):
         expected = None
-        for units in ("un_cntc", "un_si"):
+        for units in ("un_cntc", "un_si", "any"):
             for order in range(ORDERS):
-                start(3, units)
-                settings = contact_settings(UNITS[units], motion)
-                if order > 0:
-                    random.Random(order).shuffle(settings)
-                for setting in settings:
-                    setting()
+                units_now = make(3, units, lambda name: contact_settings(UNITS[name], motion), order)  # noqa: B023
                 same(cntc.calculate(1, 1), 0, f"T = {motion}, {units}, order {order}: {last_error(1, 1)[1]}")
-                got = contact_results(UNITS[units], motion)
+                got = contact_results(UNITS[units_now], motion)
                 expected = got if expected is None else expected
                 close(got, expected, 1e-5*np.abs(expected).max(), f"T = {motion}, {units}, order {order}")
                 cntc.finalize(1)
@@ -96,13 +113,8 @@ def pair():
     for roller, left in ((False, False), (False, True), (True, False), (True, True)):
         expected = None
         for order in range(ORDERS):
-            units = ("un_cntc", "un_spck")[order % 2]
-            start(1, units)
-            settings = pair_settings(UNITS[units], roller, left)
-            if order > 0:
-                random.Random(order).shuffle(settings)
-            for setting in settings:
-                setting()
+            units = make(1, ("un_cntc", "un_spck", "any")[order % 3], lambda name: pair_settings(UNITS[name], roller, left),  # noqa: B023
+                         order)
             what = f"{'roller' if roller else 'track'} {'left' if left else 'right'}, order {order}"
             same(cntc.calculate(1, -1), 0, f"{what}: {last_error(1, -1)[1]}")
             got = cntc.getglobalforces(1, -1)[:3]*(-1.0 if units == "un_spck" else 1.0)
