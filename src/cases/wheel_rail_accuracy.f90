@@ -223,7 +223,7 @@ contains
       do k = 1, memory%used
          associate (patch => memory%slot(k)%result)
             scale(4) = max(scale(4), patch%pen)
-            scale(1) = scale(1) + patch%grid%dx*patch%grid%dy*sum(patch%mu*patch%pn)
+            scale(1) = scale(1) + patch%friction_bound()
          end associate
       end do
       call pair%totals(spec, list)

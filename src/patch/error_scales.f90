@@ -236,7 +236,7 @@ contains
       scale%squared = scale%across*scale%mean_across
       scale%swing = abs(result%cphi)*sqrt(result%contact_area()/pi)
       scale%swing = scale%swing/max(scale%swing, hypot(result%cksi, result%ceta), tiny(extent))
-      scale%force = result%grid%dx*result%grid%dy*sum(result%mu*result%pn)
+      scale%force = result%friction_bound()
       scale%moment = scale%force*sqrt(result%contact_area()/pi)
       scale%creep = max(abs(result%cksi), abs(result%ceta))
       scale%power = max(scale%force*hypot(result%cksi, result%ceta), scale%moment*abs(result%cphi))*result%dq/ &

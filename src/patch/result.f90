@@ -174,6 +174,8 @@ module contact_patch_result
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area
+      !> Largest possible friction force
+      procedure :: friction_bound
       !> Highest surface temperatures of both bodies in contact [degC]
       procedure :: largest_temperatures
       !> All totals and all element fields, for outputs
@@ -250,6 +252,12 @@ contains
 
       area = self%ncon*self%grid%dx*self%grid%dy
    end function contact_area
+
+   !> Largest possible friction force: coefficients of friction times pressures [N]
+   pure real(wp) function friction_bound(self) result(bound)
+      class(patch_result), intent(in) :: self
+      bound = self%grid%dx*self%grid%dy*sum(self%mu*self%pn)
+   end function friction_bound
 
    !> All totals, in the order in which they are written, with name, unit and meaning for all outputs
    pure subroutine totals(self, list, left)

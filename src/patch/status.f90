@@ -46,7 +46,7 @@ contains
 
       n = problem%n_forces
       if (n == 0 .or. problem%motion == motion%none .or. result%ncon == 0) return
-      bound = problem%grid%dx*problem%grid%dy*sum(result%mu*result%pn)
+      bound = result%friction_bound()
       requested = problem%force*result%mu_scal*result%fn
       found = [result%fx, result%fy]
       do k = 1, n
