@@ -359,7 +359,7 @@ module contact_text_bounds
       & number_bounds("GAUGHT", "mm", "height of the gauge point", &
       & -far, 200.0_wp, .false., "higher than any rail; 0 or less: absolute placement"), &
       & number_bounds("GAUGSQ", "-", "number of the gauge point", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "read but not used", .true.), &
+      & -1.0e9_wp, 1.0e9_wp, .false., "read but not used"), &
       & number_bounds("GAUGWD", "mm", "gauge", &
       & -far, far, .false., "a gauge of 1 km"), &
       & number_bounds("RAILY0", "mm", "lateral position of the rail", &

@@ -82,7 +82,7 @@ def presets():
             for key in lists.get(name, []) if several else [name]:
                 if value:
                     found[key] = number(value, {"pi": math.pi})
-    return {**found, "GAUGSQ": "0"}
+    return found
 
 
 def row_of(name, table):
