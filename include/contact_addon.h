@@ -284,13 +284,14 @@ void cntc_calculate(const int *ire, const int *icp, int *ierror);
 void cntc_getflags(const int *ire, const int *icp, const int *lenflg, const int *params,
                    int *values);
 
-/* Get parameters of kinematics, material or friction.
+/* Get parameters of kinematics, material or friction, or radii.
  *   itask     values
  *   1         veloc [V], chi [A], dq [L], spinxo, spinyo [L], tau_c0 [F/L2]
  *             of wheel and rail spinxo, spinyo: contact reference in the coordinates of the elements, in steps (T = 1, 2)
  *   2         gg1, gg2, gg [F/L2], poiss1, poiss2, poiss, ak [-], flx1, flx2, flx3 [L3/F], k0_mf, alfamf, betamf,
  *             k_eff [-], gg3 [F/L2], laythk [L], tau_c0 [F/L2], k_tau [F/L3], cdampn, cdampt [T], dfnmax, dftmax [F/T]
- *   3         lmeth, nvf, memdst [mm], mem_s0 [mm/s], nvf times alpha [rad] or [mm], fstat, fkin [-] */
+ *   3         lmeth, nvf, memdst [mm], mem_s0 [mm/s], nvf times alpha [rad] or [mm], fstat, fkin [-]
+ *   4         nominal radii of wheel and roller [L], 0 without them (not in the published library) */
 void cntc_getparameters(const int *ire, const int *icp, const int *itask, const int *lenarr,
                         double *values);
 

@@ -113,7 +113,7 @@
 %
 %   cntc_getcpresults           - get all results of one contact patch in the form of loadcase, for plot2d and plot3d.
 %   cntc_getflags               - get flags and control digits.
-%   cntc_getparameters          - get parameters of kinematics, material or friction.
+%   cntc_getparameters          - get parameters of kinematics, material or friction, or radii.
 %   cntc_getprofilevalues       - get a profile as used by the library.
 %   cntc_getwheelsetposition    - get the position of the wheelset.
 %   cntc_getwheelsetvelocity    - get the velocity of the wheelset.

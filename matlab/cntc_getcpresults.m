@@ -5,7 +5,7 @@ function [ sol ] = cntc_getcpresults( ire, icp )
 %
 %   ire, icp   result element and contact patch or problem (default 1, 1)
 %   sol        struct like that of loadcase. For wheel and rail it includes the profiles prr and prw, so that
-%              plot3d( sol, opt ) needs no other profiles. The radius of rollers is not known (Inf).
+%              plot3d( sol, opt ) needs no other profiles.
 %
 % Results are in CONTACT units (mm, N, tractions on the rail), whatever the units of the problem.
 %
@@ -77,9 +77,9 @@ function [ meta ] = add_places( meta, ire, icp, npatch, on_track )
    meta.x_w   = loc(21);  meta.y_w   = loc(22);  meta.z_w   = loc(23);
    meta.roll_w = loc(24); meta.yaw_w = loc(25);
    meta.y_r   = loc(26);  meta.z_r   = loc(27);  meta.roll_r = loc(28);
-   % the wheel marker is placed one radius below the wheelset's axle
-   meta.rnom_whl = loc(36);
-   meta.rnom_rol = Inf;
+   radii = cntc_getparameters(ire, icp, 4);
+   meta.rnom_whl = radii.nomradw;
+   meta.rnom_rol = radii.nomradr;
    meta.npatch = npatch;
    meta.ipatch = icp;
 

@@ -488,13 +488,15 @@ _PARAMETERS = {
     2: "gg1 gg2 gg poiss1 poiss2 poiss ak flx1 flx2 flx3 k0_mf alfamf betamf k_eff gg3 laythk tau_c0 k_tau "
        "cdampn cdampt dfnmax dftmax",
     3: "lmeth nvf memdst mem_s0",
+    4: "nomradw nomradr",
 }
 
 
 def getparameters(ire: Number, icp: Number, itask: int = 1) -> dict[str, Any]:
-    """Parameters by name: 1 kinematics, 2 material, 3 friction (with arrays alpha, fstat, fkin)."""
+    """Parameters by name: 1 kinematics, 2 material, 3 friction (with arrays alpha, fstat, fkin), 4 nominal radii of wheel and
+    roller, 0 without them [L]."""
     if itask not in _PARAMETERS:
-        raise ValueError(f"itask = {itask} is not 1, 2 or 3")
+        raise ValueError(f"itask = {itask} is not 1, 2, 3 or 4")
     names = _PARAMETERS[itask].split()
     values = np.zeros(len(names))
     call("cntc_getparameters", _element(ire), _patch(icp), itask, values.size, values)
@@ -774,6 +776,7 @@ def _cpresults(element: int, patch: int) -> dict[str, Any]:
             **dict(zip(("y_r", "z_r", "roll_r"), place[25:28])),
             **dict(zip(("xcp_r", "ycp_r", "zcp_r"), place[4:7])), "deltcp_r": place[8],
             **dict(zip(("xcp_w", "ycp_w", "zcp_w"), place[9:12])), "deltcp_w": place[13],
+            **dict(zip(("rnom_whl", "rnom_rol"), getparameters(element, patch, 4).values())),
             "npatch": getnumcontactpatches(element), "ipatch": patch,
         },
         "mx": mx, "my": my, "xl": xc1 - dx / 2, "yl": yc1 - dy / 2, "dx": dx, "dy": dy,

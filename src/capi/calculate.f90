@@ -124,6 +124,8 @@ contains
          if (problem%module_number == 1) then
             problem%bodies%left = problem%spec%wheel_rail%left
             problem%bodies%roller = problem%spec%wheel_rail%roller
+            problem%bodies%radii = [problem%spec%wheel_rail%wheelset%nomradw, problem%spec%wheel_rail%track%nomradr]
+            if (.not. problem%bodies%roller) problem%bodies%radii(2) = 0.0_wp
          end if
       end if
       call keep_status(problem, status)

@@ -109,6 +109,8 @@ module contact_capi_problem
       !> Wheel on rail: markers, and arc lengths of the references of the patches on the profiles of rail and wheel [mm]
       type(body_frames) :: frames
       real(wp) :: along(2, max_patches) = 0.0_wp
+      !> Nominal radii of wheel and roller, 0 without them [mm]
+      real(wp) :: radii(2) = 0.0_wp
       !> Is it a wheel on the left side of the track, and on a roller?
       logical :: left = .false., roller = .false.
       type(material_spec) :: material

@@ -20,7 +20,7 @@ module contact_capi_results
 
 contains
 
-   !> Kinematic constants (1), material constants (2), friction law (3)
+   !> Kinematic constants (1), material constants (2), friction law (3), nominal radii (4)
    subroutine get_parameters(a, problem)
       type(caller), intent(in) :: a
       type(library_problem), intent(in) :: problem
@@ -29,7 +29,8 @@ contains
       case (1); call a%set_result(1, kinematic_constants(problem, a%call_of%icp))
       case (2); call a%set_result(1, material_constants(problem, a%call_of%icp))
       case (3); call a%set_result(1, friction_constants(problem%spec))
-      case default; call report_error(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2 and 3 are")
+      case (4); call a%set_result(1, problem%bodies%radii*outward(problem%units, quantity%length))
+      case default; call report_error(a%call_of, "there is no task " // integer_text(a%single(1)) // "; 1, 2, 3 and 4 are")
       end select
    end subroutine get_parameters
 

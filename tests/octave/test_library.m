@@ -260,6 +260,7 @@ check(isequal([sol.config, sol.d_digit, sol.mater.m_digit, sol.kincns.t_digit, s
               double(cntc_getflags(1, -1, [CNTC.ic_config, CNTC.ic_discns, CNTC.ic_mater, CNTC.ic_tang, CNTC.ic_heat]))(:)') && ...
       sol.d_digit~=sol.mater.m_digit, 'digits of getcpresults');
 check(sol.config==0, 'left');
+check(isequal([sol.meta.rnom_whl sol.meta.rnom_rol], [460 0]), 'radii of wheel and roller');
 cntc_setflags(1, -1, CNTC.if_units, CNTC.un_spck);
 other = cntc_getcpresults(1, 1);
 check(cntc_getflags(1, -1, CNTC.if_units)==CNTC.un_spck, 'units after getcpresults are as before');

@@ -163,9 +163,18 @@ def patch_as_in_matlab():
         check(np.hypot(*where) > 2.0, "elements of a step have another origin")
         close([step["meta"]["spinxo"], step["meta"]["spinyo"]], where, 0.5, "contact reference of a step")
     same((patch["meta"]["spinxo"], patch["meta"]["spinyo"]), (0.0, 0.0), "contact reference in steady rolling")
+    same((patch["meta"]["rnom_whl"], patch["meta"]["rnom_rol"]), (460.0, 0.0), "radii on a track")
+    set_up(2, 1)
+    cntc.setflags(2, -1, CNTC["ic_config"], 5)
+    cntc.settrackdimensions(2, 3, [14.0, 0.0, 1435.0, 0.0, 500.0] + 6*[0.0])
+    cntc.setwheelsetvelocity(2, 2, [-4.0, 0, 0, 0, 0, -4.3459197])
+    same(cntc.calculate(2, -1), 0, "a roller")
+    on_roller = cntc.getcpresults(2, 1)
+    same((on_roller["meta"]["rnom_whl"], on_roller["meta"]["rnom_rol"]), (460.0, 500.0), "radii on a roller")
     for ire, units in ((2, "un_si"), (3, "un_spck")):
         set_up(ire, 1, units)
         other = cntc.getcpresults(ire, 1)
+        close(cntc.getparameters(ire, 1, 4)["nomradw"], 0.46, 1e-12, f"{units}: radius of the wheel")
         same(int(cntc.getflags(ire, -1, CNTC["if_units"])[0]), CNTC[units], f"{units}: units are as before")
         for name in ("x", "y", "pn", "px", "ux"):
             close(other[name], patch[name], 2e-4*np.abs(patch[name]).max(), f"{units}: {name} in mm, on the rail")
