@@ -125,8 +125,8 @@ contains
 
    !> Pressures of parts: those of the whole area where the interaction is full, those of separate areas where there is none
    !>
-   !> Between them linear in the largest factor of a part with another one. Shapes of separate areas of KPEC are scaled together,
-   !> such that each part has its overlap at its deepest point.
+   !> Between them linear in the largest factor of a part with another one. Those of separate areas are scaled together, such that
+   !> each part has its overlap at its deepest point; a part that the others lift off has none.
    subroutine separate_parts(model, grid, gap, modulus, parts, operator, sums, pn, report)
       integer, intent(in) :: model
       type(potential_contact), intent(in) :: grid
@@ -145,27 +145,26 @@ contains
       n = size(parts%interaction, 2)
       allocate(own(grid%mx, grid%my, n), weight(grid%mx, grid%my, n))
       allocate(matrix(n, n), overlap(n), source=0.0_wp)
-      allocate(factor(n), source=1.0_wp)
+      allocate(factor(n), source=0.0_wp)
       do q = 1, n
          part_gap = merge(gap, 2.0_wp*excluded_threshold, parts%label == q)
-         if (model == pressure_model%kpec) then
-            call kpec_shape(grid, part_gap, own(:, :, q), weight(:, :, q))
-            overlap(q) = deepest_overlap(weight(:, :, q), part_gap)
-         else
-            call analyn_pressure(grid, part_gap, modulus, own(:, :, q))
-         end if
+         call kpec_shape(grid, part_gap, own(:, :, q), weight(:, :, q))
+         overlap(q) = deepest_overlap(weight(:, :, q), part_gap)
+         if (model == pressure_model%analyn) call analyn_pressure(grid, part_gap, modulus, own(:, :, q))
       end do
-      if (model == pressure_model%kpec) then
-         do q = 1, n
-            do r = 1, n
-               if (min(overlap(q), overlap(r)) > 0.0_wp .and. parts%interaction(r, q) > 0.0_wp) then
-                  call displace_deepest(weight(:, :, r), own(:, :, q), operator, sums, matrix(r, q), report)
-                  matrix(r, q) = parts%interaction(r, q)*matrix(r, q)
-               end if
-            end do
+      do q = 1, n
+         do r = 1, n
+            if (.not. (min(overlap(q), overlap(r)) > 0.0_wp .and. parts%interaction(r, q) > 0.0_wp)) cycle
+            if (r == q .and. model == pressure_model%analyn) then
+               ! its pressures alone are those for this overlap
+               matrix(q, q) = overlap(q)
+            else
+               call displace_deepest(weight(:, :, r), own(:, :, q), operator, sums, matrix(r, q), report)
+               matrix(r, q) = parts%interaction(r, q)*matrix(r, q)
+            end if
          end do
-         call balance(matrix, overlap, factor)
-      end if
+      end do
+      call balance(matrix, overlap, factor)
       do q = 1, n
          share = 0.0_wp
          do r = 1, n

@@ -144,8 +144,8 @@ contains
          return
       end if
       if (.not. allocated(workspace%sums)) allocate(workspace%sums)
-      if (problem%pressure == pressure_model%kpec) call workspace%sums%prepare(problem%model, problem%grid%dx, problem%grid%dy, &
-         & problem%grid%mx, problem%grid%my)
+      if (problem%pressure == pressure_model%kpec .or. allocated(problem%parts)) call workspace%sums%prepare(problem%model, &
+         & problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my)
    end subroutine prepare_sums
 
    !> Set element states by the pressures; tractions of exterior elements are set to zero

@@ -115,6 +115,12 @@ contains
          call whole%run(suite, "one area by an approximate method")
          call suite%close_to(fn(5), whole%result%fn, 1.0e-12_wp*fn(5), "factors 1: one area")
          call suite%check(all(abs(fn(2:) - fn(:4)) < 0.2_wp*fn(1)), "no jumps between the factors")
+         ! a hump that hardly overlaps is lifted off by the displacement of the other one
+         h(:, 22:) = h(:, 22:) + 0.017_wp
+         two%spec%geometry%h = reshape(h, [size(h)])
+         two%spec%geometry%interaction = reshape([1.0_wp, 0.5_wp, 0.5_wp, 1.0_wp], [2, 2])
+         call two%run(suite, "a low part by an approximate method")
+         call suite%check(any(h(:, 22:) < 0.03_wp) .and. .not. any(two%result%pn(:, 22:) > 0.0_wp), "a low part is lifted off")
       end do
       call whole%release()
       call two%release()
