@@ -5,7 +5,7 @@
 !> contact_cases_estimate.
 module contact_cases_foreseen_cost
    use contact_base_choices, only : motion
-   use contact_base_error, only : error_type
+   use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
@@ -19,7 +19,7 @@ module contact_cases_foreseen_cost
    use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : case_cost, estimate_cost
    use contact_cases_machine_pace, only : machine_pace
-   use contact_cases_search_model, only : coarse_solution, deviations, mean_cost, search_contact, search_pair
+   use contact_cases_search_model, only : coarse_solution, grid_time, later_grids, mean_cost, simulate_searches
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
@@ -29,6 +29,7 @@ module contact_cases_foreseen_cost
    use contact_patch_error_estimate, only : error_of_forces
    use contact_patch_order, only : order_of_errors
    use contact_text_words, only : integer_text
+   use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
@@ -39,6 +40,9 @@ module contact_cases_foreseen_cost
    real(wp), parameter :: coarse_across = 20.0_wp
    !> Maximum number of coarse grids, each finer than the one before, if contact is too narrow for an estimate; chosen
    integer, parameter :: most_trials = 3
+   !> Maximum ratio of the numbers of elements of both coarse solutions of a wheel, of which the second one starts from the first;
+   !> chosen
+   real(wp), parameter :: most_more = 2.0_wp
    !> A contact problem of an experiment
    type :: foreseen_problem
       !> Result element and number of the contact problem
@@ -47,6 +51,8 @@ module contact_cases_foreseen_cost
       type(problem_slot) :: slot
       !> Do they hold a coarse solution of the last case, which the next one may continue? Will a run refuse the last case?
       logical :: is_solved = .false., is_refused = .false.
+      !> Time that a coarse solution of the last case exceeded [s], 0 if none did
+      real(wp) :: exceeded = 0.0_wp
       !> Grid of the cases that the next one may continue, as expected
       type(level_grid) :: series
    end type foreseen_problem
@@ -98,6 +104,7 @@ contains
             return
          end if
          began = wall_clock()
+         problem%exceeded = 0.0_wp
          why = ""
          if (.not. self%left > 0.0_wp) then
             why = "as solutions on few elements of the cases before took long"
@@ -112,6 +119,10 @@ contains
          problem%is_solved = why == "" .and. .not. allocated(spec%wheel_rail)
          self%left = self%left - (wall_clock() - began)
          if (why /= "") cost%source = "typical of such contacts, " // why
+         if (problem%exceeded > machine_pace()*cost%seconds) then
+            cost%seconds = problem%exceeded/machine_pace()
+            cost%source = "at least, as a solution on few elements was not finished in this time"
+         end if
       end associate
    end subroutine foresee
 
@@ -182,36 +193,28 @@ contains
       !> Unchanged if there is no coarse solution
       type(case_cost), intent(inout) :: cost
       type(coarse_solution) :: coarse
-      type(level_grid) :: first, last
       type(mean_cost) :: mean
-      integer :: k, n
 
       coarse%law = expected_law(spec)
       coarse%fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       coarse%cases = self%slot%session%series%before(spec) + 1
       if (has_history(spec)) coarse%designed = series_share
-      call first_grid(self%slot%session, spec, coarse%law, coarse%fixed, first)
-      if (has_history(spec)) first = self%series
-      call solve_coarse(self%slot, spec, folder, patience, coarse)
+      call first_grid(self%slot%session, spec, coarse%law, coarse%fixed, coarse%first)
+      if (has_history(spec)) coarse%first = self%series
+      call solve_coarse(self%slot, spec, folder, patience, coarse, self%exceeded)
       if (.not. coarse%estimated >= 0.0_wp) return
-      first%lengths = coarse%grid%lengths
-      ! too few elements for an estimate
-      if (product(real(first%counts, wp)) < product(real(coarse%grid%counts, wp))) first%counts = coarse%grid%counts
-      associate (problem => self%slot%session%problem, result => self%slot%result)
-         do k = 1, size(deviations)
-            do n = 1, size(deviations)
-               last = first
-               call search_contact(spec, coarse, problem, result, [deviations(k), deviations(n)], last, mean)
-            end do
-         end do
-         self%series = first
-         call search_contact(spec, coarse, problem, result, [0.0_wp, 0.0_wp], self%series, mean)
+      associate (first => coarse%first)
+         first%lengths = coarse%grid%lengths
+         ! too few elements for an estimate
+         if (product(real(first%counts, wp)) < product(real(coarse%grid%counts, wp))) first%counts = coarse%grid%counts
       end associate
+      call simulate_searches(spec, coarse, mean, self%slot%session%problem, self%slot%result)
+      self%series = mean%last
       call set_cost(spec, coarse, mean, cost)
    end subroutine foresee_contact
 
    !> Solve a contact on few elements; without estimate if that fails
-   subroutine solve_coarse(slot, spec, folder, patience, coarse)
+   subroutine solve_coarse(slot, spec, folder, patience, coarse, exceeded)
       !> Sessions; that of contacts holds the solution
       type(problem_slot), intent(inout) :: slot
       type(case_spec), intent(in) :: spec
@@ -221,6 +224,8 @@ contains
       real(wp), intent(in) :: patience
       !> On entry with the typical errors, on return with the solution
       type(coarse_solution), intent(inout) :: coarse
+      !> Unchanged, or the maximum time if it was exceeded [s]
+      real(wp), intent(inout) :: exceeded
       type(case_spec) :: level
       type(log_type) :: log
       type(error_type), allocatable :: error
@@ -237,6 +242,7 @@ contains
             call read_clocks(began)
             call solve_level(session, level, coarse%grid, .false., log, result, is_solved, seconds, error, folder)
             call read_clocks(ended)
+            if (ran_out_of_time(error)) exceeded = level%limits%deadline%seconds
             if (allocated(error)) exit
             if (.not. is_solved .or. result%ncon == 0) exit
             coarse%estimated = error_of_forces(session%problem, result)
@@ -275,28 +281,34 @@ contains
       type(case_cost), intent(inout) :: cost
       type(coarse_solution) :: coarse
       type(mean_cost) :: mean
-      real(wp) :: first(2)
-      integer :: k, n
+      type(grid_time) :: time
+      real(wp) :: began
 
+      began = wall_clock()
       coarse%law = expected_law(spec)
-      first = first_sides(spec, first_across(coarse%law, spec%iteration%accuracy))
-      call solve_coarse_pair(self%slot%wheel_rail, self%slot%wheel_rail_result, spec, folder, patience, &
-         & max(first, first_sides(spec, coarse_across)), coarse)
-      if (.not. coarse%estimated >= 0.0_wp) return
-      do k = 1, size(deviations)
-         do n = 1, size(deviations)
-            call search_pair(spec, coarse, first, [deviations(k), deviations(n)], mean)
-         end do
-      end do
-      call search_pair(spec, coarse, first, [0.0_wp, 0.0_wp], mean)
+      coarse%first_sides = first_sides(spec, first_across(coarse%law, spec%iteration%accuracy))
+      coarse%sides = max(coarse%first_sides, first_sides(spec, coarse_across))
+      associate (session => self%slot%wheel_rail, result => self%slot%wheel_rail_result)
+         call solve_pair(session, spec, folder, patience, coarse%sides, .false., result, time, self%exceeded)
+         if (.not. time%seconds > 0.0_wp) return
+         call take_pair(session%memory, spec, result, coarse)
+         if (.not. coarse%estimated >= 0.0_wp) return
+         coarse%fresh = time
+         coarse%started = grid_time(time%elements, later_grids*time%seconds)
+         call simulate_searches(spec, coarse, mean)
+         if (mean%grids > 1) then
+            call solve_pair(session, spec, folder, patience - (wall_clock() - began), &
+               & sides_between(coarse%sides, mean%last_sides), .true., result, time, self%exceeded)
+            if (time%seconds > 0.0_wp) coarse%started = time
+            call simulate_searches(spec, coarse, mean)
+         end if
+      end associate
       call set_cost(spec, coarse, mean, cost)
    end subroutine foresee_pair
 
-   !> Solve a wheel on a rail with few elements; without estimate if that fails
-   subroutine solve_coarse_pair(session, result, spec, folder, patience, sides, coarse)
+   !> Solve a wheel on a rail with few elements
+   subroutine solve_pair(session, spec, folder, patience, sides, refines, result, time, exceeded)
       type(wheel_rail_session), intent(inout) :: session
-      !> Result of the coarse solution
-      type(wheel_rail_result), intent(inout) :: result
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative
       character(len=*), intent(in) :: folder
@@ -304,8 +316,14 @@ contains
       real(wp), intent(in) :: patience
       !> Sides of the elements [mm]
       real(wp), intent(in) :: sides(2)
-      !> On entry with the typical errors, on return with the solution
-      type(coarse_solution), intent(inout) :: coarse
+      !> Does it start from the elements before, as in a search?
+      logical, intent(in) :: refines
+      !> Result, with errors
+      type(wheel_rail_result), intent(inout) :: result
+      !> Number of elements and time; none if the solution failed
+      type(grid_time), intent(out) :: time
+      !> Unchanged, or the maximum time if it was exceeded [s]
+      real(wp), intent(inout) :: exceeded
       type(case_spec) :: level
       type(log_type) :: log
       type(error_type), allocatable :: error
@@ -322,30 +340,74 @@ contains
       call check_files(session, spec, folder, log, error)
       if (allocated(error)) return
       call level%limits%deadline%start()
+      session%problem%refines = refines
       call read_clocks(began)
       call solve_wheel_rail_case(session, level, folder, log, result, error)
       call read_clocks(ended)
+      session%problem%refines = .false.
+      if (ran_out_of_time(error)) exceeded = level%limits%deadline%seconds
       if (allocated(error)) return
-      associate (memory => session%memory)
-         if (.not. result%status%is_solved() .or. memory%used == 0) return
-         coarse%estimated = error_of_pair(memory, level%wheel_rail, result)
-         allocate(coarse%areas(memory%used))
-         do k = 1, memory%used
-            associate (grid => memory%slot(k)%result%grid)
-               coarse%areas(k) = real(grid%npot(), wp)*grid%dx*grid%dy
-            end associate
-         end do
-         coarse%main = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
-         associate (patch => memory%slot(coarse%main)%result)
-            coarse%contact = across_contact(patch)*[patch%grid%dx, patch%grid%dy]
-            coarse%grid%counts = [patch%grid%mx, patch%grid%my]
-         end associate
-         coarse%sides = sides
-         coarse%rate = minval(ended - began)/sum(coarse%areas/product(sides))
-         if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(memory) /= 2) &
-            & coarse%law = first_order_alone(coarse%law)
+      if (.not. result%status%is_solved() .or. session%memory%used == 0) return
+      time%elements = 0.0_wp
+      do k = 1, session%memory%used
+         time%elements = time%elements + area_of(session%memory%slot(k)%result%grid)/product(sides)
+      end do
+      time%seconds = minval(ended - began)
+   end subroutine solve_pair
+
+   !> Was a solution ended by its time limit?
+   pure logical function ran_out_of_time(error)
+      !> Error of the solution, unallocated for none
+      type(error_type), allocatable, intent(in) :: error
+
+      ran_out_of_time = .false.
+      if (allocated(error)) ran_out_of_time = error%kind == error_kind%time
+   end function ran_out_of_time
+
+   !> Area of a grid [mm2]
+   pure real(wp) function area_of(grid) result(area)
+      type(potential_contact), intent(in) :: grid
+
+      area = real(grid%npot(), wp)*grid%dx*grid%dy
+   end function area_of
+
+   !> What a search can be simulated from after a coarse solution
+   subroutine take_pair(memory, spec, result, coarse)
+      !> Solved patches
+      type(wheel_rail_memory), intent(in) :: memory
+      type(case_spec), intent(in) :: spec
+      !> The solution
+      type(wheel_rail_result), intent(in) :: result
+      !> On entry with the typical errors, on return with the solution
+      type(coarse_solution), intent(inout) :: coarse
+      integer :: k
+
+      coarse%estimated = error_of_pair(memory, spec%wheel_rail, result)
+      allocate(coarse%areas(memory%used))
+      do k = 1, memory%used
+         coarse%areas(k) = area_of(memory%slot(k)%result%grid)
+      end do
+      coarse%main = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
+      associate (patch => memory%slot(coarse%main)%result)
+         coarse%contact = across_contact(patch)*[patch%grid%dx, patch%grid%dy]
+         coarse%grid%counts = [patch%grid%mx, patch%grid%my]
       end associate
-   end subroutine solve_coarse_pair
+      if (spec%motion == motion%steady_rolling .and. lowest_order_of_errors(memory) /= 2) &
+         & coarse%law = first_order_alone(coarse%law)
+   end subroutine take_pair
+
+   !> Sides on the way from coarse elements to the last ones of a search, with a limited number of elements
+   pure function sides_between(sides, last) result(between)
+      !> Sides of the coarse and the last elements [mm]
+      real(wp), intent(in) :: sides(2), last(2)
+      !> Their sides [mm]
+      real(wp) :: between(2)
+      real(wp) :: more
+
+      more = product(sides/last)
+      between = last
+      if (more > most_more) between = sides*(last/sides)**(log(most_more)/log(more))
+   end function sides_between
 
    !> Elapsed time, and processor time, which is less if other processes run, but more if threads wait actively [s]
    subroutine read_clocks(clocks)

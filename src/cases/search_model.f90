@@ -17,16 +17,28 @@ module contact_cases_search_model
    implicit none (type, external)
    private
 
-   public :: coarse_solution, mean_cost, search_contact, search_pair
+   public :: coarse_solution, grid_time, later_grids, mean_cost, simulate_searches
 
    !> Estimates of finer grids over those that decrease with the expected order from the coarse grid: median, and standard deviation
    !> of the logarithm; of 206 contacts and 24 wheels (seeds 98001 to 98003 of tests/accuracy/cost.py)
    real(wp), parameter :: usual_ratio = 0.9_wp, scatter = 0.25_wp
    !> Deviations of an estimate, in standard deviations, with equal probability and a standard deviation of 1
-   real(wp), parameter, public :: deviations(3) = [-1.22_wp, 0.0_wp, 1.22_wp]
+   real(wp), parameter :: deviations(3) = [-1.22_wp, 0.0_wp, 1.22_wp]
    !> Time per element of second and later grids over that of the first one, since iterations start from the grid before, and plans
-   !> and memory are there (the same seeds)
+   !> and memory are there (the same seeds); of wheels if it was not measured
    real(wp), parameter :: later_grids = 0.65_wp
+   !> Exponent of the number of elements in the time of a wheel: the search for contact does not depend on it, and estimates of few
+   !> rows need a second solution. Instructions of ten wheels of any profiles on 20 to 56 elements across, 0.75 to 1.03 (seed 96111)
+   real(wp), parameter :: wheel_power = 0.85_wp
+
+   !> Time of a grid that was solved
+   type :: grid_time
+      !> Number of elements of all patches, and time [s]
+      real(wp) :: elements = 1.0_wp, seconds = 0.0_wp
+   contains
+      !> Time of another grid
+      procedure :: of_wheel
+   end type grid_time
 
    !> A contact as it is known from its coarse solution
    type :: coarse_solution
@@ -44,7 +56,13 @@ module contact_cases_search_model
       integer :: cases = 1
       !> Part of the accuracy that later grids are designed for
       real(wp) :: designed = 1.0_wp
-      !> Wheels: areas of the grids of all patches [mm2], and index of the patch with the largest normal force
+      !> First grid of the search
+      type(level_grid) :: first
+      !> Wheels: times of a first grid, and of one that starts from the elements before
+      type(grid_time) :: fresh, started
+      !> Sides of the first elements of the search [mm]; areas of the grids of all patches [mm2], and index of the patch with
+      !> the largest normal force
+      real(wp) :: first_sides(2) = 0.0_wp
       real(wp), allocatable :: areas(:)
       integer :: main = 1
    end type coarse_solution
@@ -55,6 +73,11 @@ module contact_cases_search_model
       integer :: number = 0
       !> Logarithms of the number of elements of the last grid, for wheels of the largest patch, and of the time of the case [s]
       real(wp) :: elements = 0.0_wp, seconds = 0.0_wp
+      !> Largest number of grids
+      integer :: grids = 0
+      !> Last grid of the last search; for wheels sides of the last elements [mm]
+      type(level_grid) :: last
+      real(wp) :: last_sides(2) = 0.0_wp
       !> Has the last search reached the maximum number of elements?
       logical :: is_limited = .false.
    contains
@@ -64,18 +87,63 @@ module contact_cases_search_model
 
 contains
 
-   pure subroutine add(self, elements, seconds)
+   !> Time of a grid of a wheel [s]
+   pure real(wp) function of_wheel(self, elements) result(seconds)
+      class(grid_time), intent(in) :: self
+      !> Number of its elements
+      real(wp), intent(in) :: elements
+
+      seconds = self%seconds*(elements/self%elements)**wheel_power
+   end function of_wheel
+
+   pure subroutine add(self, elements, seconds, grids)
       class(mean_cost), intent(inout) :: self
       !> Elements of the last grid, and time of the case [s]
       real(wp), intent(in) :: elements, seconds
+      !> Number of grids
+      integer, intent(in) :: grids
 
       self%number = self%number + 1
+      self%grids = max(self%grids, grids)
       self%elements = self%elements + log(elements)
       self%seconds = self%seconds + log(max(seconds, tiny(seconds)))
    end subroutine add
 
+   !> Searches for the elements of a case, with deviations and, at last, without
+   subroutine simulate_searches(spec, coarse, mean, problem, result)
+      type(case_spec), intent(in) :: spec
+      !> Coarse solution of the case
+      type(coarse_solution), intent(in) :: coarse
+      !> Sums over all searches
+      type(mean_cost), intent(out) :: mean
+      !> Problem of the coarse solution, and its result; of contacts only
+      type(patch_problem), intent(in), optional :: problem
+      type(patch_result), intent(in), optional :: result
+      integer :: k, n
+
+      do k = 1, size(deviations)
+         do n = 1, size(deviations)
+            call search([deviations(k), deviations(n)])
+         end do
+      end do
+      call search([0.0_wp, 0.0_wp])
+
+   contains
+
+      subroutine search(deviation)
+         !> Deviations of the estimates of the first and the second grid, in standard deviations
+         real(wp), intent(in) :: deviation(2)
+
+         if (allocated(coarse%areas)) then
+            call search_pair(spec, coarse, deviation, mean)
+         else
+            call search_contact(spec, coarse, problem, result, deviation, mean)
+         end if
+      end subroutine search
+   end subroutine simulate_searches
+
    !> Search for the grid of a contact
-   subroutine search_contact(spec, coarse, problem, result, deviation, grid, mean)
+   subroutine search_contact(spec, coarse, problem, result, deviation, mean)
       type(case_spec), intent(in) :: spec
       !> Coarse solution of the case
       type(coarse_solution), intent(in) :: coarse
@@ -84,13 +152,13 @@ contains
       type(patch_result), intent(in) :: result
       !> Deviations of the estimates of the first and the second grid, in standard deviations
       real(wp), intent(in) :: deviation(2)
-      !> On entry the first grid, on return the last one
-      type(level_grid), intent(inout) :: grid
       !> Includes this search on return
       type(mean_cost), intent(inout) :: mean
+      type(level_grid) :: grid
       real(wp) :: e, before, expected, work, sides(2)
       integer :: counts(2), level
 
+      grid = coarse%first
       before = 0.0_wp
       expected = 0.0_wp
       work = 0.0_wp
@@ -115,32 +183,32 @@ contains
          before = e
          grid%counts = counts
       end do
-      call mean%add(product(real(grid%counts, wp)), input_time(spec)*machine_pace() + coarse%rate*work)
+      mean%last = grid
+      call mean%add(product(real(grid%counts, wp)), input_time(spec)*machine_pace() + coarse%rate*work, min(level, most_levels))
    end subroutine search_contact
 
    !> Search for the elements of a wheel on a rail
-   subroutine search_pair(spec, coarse, first, deviation, mean)
+   subroutine search_pair(spec, coarse, deviation, mean)
       type(case_spec), intent(in) :: spec
       !> Coarse solution of the case
       type(coarse_solution), intent(in) :: coarse
-      !> Sides of the first elements [mm]
-      real(wp), intent(in) :: first(2)
       !> Deviations of the estimates of the first and the second size, in standard deviations
       real(wp), intent(in) :: deviation(2)
       !> Includes this search on return
       type(mean_cost), intent(inout) :: mean
-      real(wp) :: e, before, expected, work, most, sides(2), next(2), patches(size(coarse%areas))
+      real(wp) :: e, before, expected, seconds, most, sides(2), next(2), patches(size(coarse%areas))
       integer :: level
 
       most = min(most_elements(spec%limits), real(spec%iteration%npot_max, wp))
       before = 0.0_wp
       expected = 0.0_wp
-      work = 0.0_wp
-      sides = first
+      seconds = 0.0_wp
+      sides = coarse%first_sides
       do level = 1, most_levels
          patches = coarse%areas/product(sides)
          mean%is_limited = maxval(patches) > most
-         work = work + merge(1.0_wp, later_grids, level == 1)*sum(min(patches, most))
+         if (level == 1) seconds = coarse%fresh%of_wheel(sum(min(patches, most)))
+         if (level > 1) seconds = seconds + coarse%started%of_wheel(sum(min(patches, most)))
          e = coarse%estimated
          if (any(abs(sides - coarse%sides) > 0.0_wp)) &
             & e = extrapolated(coarse, sides)*exp(scatter*sum(deviation, mask=level == [1, 2]))
@@ -152,7 +220,8 @@ contains
          before = e
          sides = next
       end do
-      call mean%add(min(most, maxval(patches)), input_time(spec)*machine_pace() + coarse%rate*work)
+      mean%last_sides = sides
+      call mean%add(min(most, maxval(patches)), input_time(spec)*machine_pace() + seconds, min(level, most_levels))
    end subroutine search_pair
 
    !> Estimate of a finer grid, which follows from the direction with fewer elements

@@ -1,4 +1,4 @@
-"""Cost of an accuracy as predicted by `contact explain`, and measured: python3 cost.py [--count N] [--wheels N] [--seed S]
+"""Cost of an accuracy as predicted by `contact explain`, and measured: python3 cost.py [--count N] [--wheels N] [--pairs N]
 
 Each random contact is solved in a separate process. Its processor time, without that of a process that solves nothing, is compared
 with the predicted seconds, and its elements with the predicted ones. Output by kind and by accuracy: median of predicted over
@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 from asked import KINDS
-from error_cases import contact, text_of, wheel, wheel_text
+from error_cases import any_wheel, contact, text_of, wheel, wheel_text, write_profiles
 
 #: Number of runs, of which the fastest counts: other processes only add time
 RUNS = 3
@@ -42,16 +42,17 @@ def quickest(command, folder):
 
 
 def compare(program, folder, text, accuracy, start):
-    """Seconds predicted and measured, elements predicted and used."""
+    """Seconds predicted and measured, elements predicted and used by the last case."""
     (folder / "x.toml").write_text(text)
     asked = ("--accuracy", str(accuracy))
     words = processor_time([program, "explain", *asked, "x.toml"], folder)[1]
-    cost = re.search(r"(\d+) elements, \d+ MB, ([-+.0-9E]+) s", words)
+    # a line for each case of a series
+    costs = re.findall(r"(\d+) elements, \d+ MB, ([-+.0-9E]+) s", words)
     taken = quickest([program, *asked, "--json", "2", "x"], folder) - start
-    patches = json.loads((folder / "x.jsonl").read_text().split("\n")[0])["patches"]
-    told = patches[0].get("accuracy", {})
+    records = [json.loads(line) for line in (folder / "x.jsonl").read_text().splitlines()]
+    told = [r["patches"][0].get("accuracy", {}) for r in records if r.get("patches")][-1]
     elements = told["mx"] * told["my"] if "mx" in told else math.nan
-    return float(cost.group(2)), max(taken, 1e-4), int(cost.group(1)), elements
+    return sum(float(seconds) for _, seconds in costs), max(taken, 1e-4), int(costs[-1][0]), elements
 
 
 def line(name, rows):
@@ -70,6 +71,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=54, help="number of contacts")
     parser.add_argument("--wheels", type=int, default=6, help="number of wheels on rails")
+    parser.add_argument("--pairs", type=int, default=0, help="number of wheels of any profiles")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(k for k in KINDS if k not in ("layer", "shifts")))
     parser.add_argument("--asked", default="1e-2,1e-3,2e-4", help="accuracies")
@@ -80,9 +82,12 @@ def main():
     cases = [(kinds[k % len(kinds)], text_of(contact(source, kinds[k % len(kinds)]), 40, (source.random(), source.random()), 1e-5))
              for k in range(asked.count)]
     cases += [("wheel", wheel_text(wheel(source), 1.0, profiles)) for _ in range(asked.wheels)]
+    cases += [("pair", wheel_text(any_wheel(source, profiles), 1.0, profiles)) for _ in range(asked.pairs)]
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        if asked.pairs:
+            write_profiles(folder)
         (folder / "empty.inp").write_text(" 0 MODULE\n")
         start = min(processor_time([program, "--json", "2", "empty"], folder)[0] for _ in range(10))
         for word in asked.asked.split(","):

@@ -1,16 +1,20 @@
 !> Cost of an accuracy, foreseen from a solution on few elements: against the search itself
 program test_foreseen_cost
-   use contact_base_choices, only : motion, time_link
+   use contact_base_choices, only : force_control, motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_accuracy, only : solve_contact_case
+   use contact_cases_accuracy_plan, only : accuracy_law
    use contact_cases_estimate, only : case_cost, estimate_cost
    use contact_cases_foreseen_cost, only : cost_forecast
+   use contact_cases_machine_pace, only : machine_pace
+   use contact_cases_search_model, only : coarse_solution, grid_time, mean_cost, simulate_searches
    use contact_cases_slot, only : open_contact, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_test_case_builder, only : creep, grid_case, hertz_case, shift
-   use contact_test_harness, only : test_suite
+   use contact_test_harness, only : environment, test_suite
+   use contact_test_pair_builder, only : railway_case
    implicit none (type, external)
    !> Result element and contact problem
    integer, parameter :: owner(2) = [1, 1]
@@ -25,6 +29,8 @@ program test_foreseen_cost
    call unlike_bodies(suite)
    call series(suite)
    call without_solution(suite)
+   call grids_of_wheel(suite)
+   call slow_wheel(suite)
    call suite%finish()
 
 contains
@@ -118,6 +124,65 @@ contains
          & "no time left")
       call forecast%release()
    end subroutine without_solution
+
+   !> Two grids of a wheel: the first one takes the time of a first grid, the second one that of a grid that starts from another
+   subroutine grids_of_wheel(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(coarse_solution) :: coarse
+      type(mean_cost) :: mean
+      !> Numbers of elements of both grids; so long that reading takes no time [s]
+      real(wp) :: first, second
+      real(wp), parameter :: long = 1.0e6_wp
+
+      allocate(spec%wheel_rail)
+      spec%iteration%accuracy = 1.0e-3_wp
+      coarse%law = accuracy_law(0.21_wp, 2.0_wp, 2.0_wp)
+      coarse%estimated = 2.5e-3_wp
+      coarse%contact = [8.0_wp, 8.0_wp]
+      coarse%sides = [0.4_wp, 0.4_wp]
+      coarse%first_sides = coarse%sides
+      coarse%areas = [80.0_wp, 20.0_wp]
+      first = sum(coarse%areas)/product(coarse%sides)
+      coarse%fresh = grid_time(first, long)
+      coarse%started = grid_time(2.0_wp*first, 0.5_wp*long)
+      call simulate_searches(spec, coarse, mean)
+      call suite%equal(mean%grids, 2, "number of grids")
+      second = sum(coarse%areas)/product(mean%last_sides)
+      call suite%check(second > 2.5_wp*first, "the second one is finer")
+      call suite%close_to(exp(mean%seconds/mean%number), coarse%fresh%of_wheel(first) + coarse%started%of_wheel(second), &
+         & 1.0e-6_wp*long, "time of both")
+      call suite%close_to(coarse%started%of_wheel(2.0_wp*first), 0.5_wp*long, 1.0e-6_wp*long, "time of the grid that was solved")
+      ! the first one suffices
+      coarse%estimated = 6.0e-4_wp
+      call simulate_searches(spec, coarse, mean)
+      call suite%equal(mean%grids, 1, "a single grid")
+      call suite%close_to(exp(mean%seconds/mean%number), long, 1.0e-6_wp*long, "its time")
+   end subroutine grids_of_wheel
+
+   !> A light wheel that climbs the flange, with a longitudinal force: it takes more than ten times what is typical
+   subroutine slow_wheel(suite)
+      type(test_suite), intent(inout) :: suite
+      type(cost_forecast) :: forecast
+      type(case_spec) :: spec
+      type(case_cost) :: cost, typical
+
+      spec = railway_case(7.3_wp, -7.44e-3_wp)
+      spec%iteration%accuracy = 1.0e-3_wp
+      spec%force = force_control%longitudinal_force
+      associate (pair => spec%wheel_rail)
+         pair%wheel_profile%name = environment("CONTACT_SOURCE") // "/examples/profiles/S1002_worn.prw"
+         pair%track%cant = 0.05_wp
+         pair%wheelset%fz = 6254.0_wp
+         pair%wheelset%fx = 1688.0_wp
+      end associate
+      call estimate_cost(spec, typical)
+      forecast%patience = 2.0_wp*typical%seconds*machine_pace()
+      call forecast%foresee(spec, owner, "", cost)
+      call suite%equal(trim(cost%source), "at least, as a solution on few elements was not finished in this time", "a slow wheel")
+      call suite%close_to(cost%seconds, 2.0_wp*typical%seconds, 1.0e-6_wp*typical%seconds, "its time")
+      call forecast%release()
+   end subroutine slow_wheel
 
    !> Cost of a single case
    subroutine foresee_one(spec, cost)
