@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 from asked import error_of, exact_totals, timed, wheel_error, wheel_of
-from error_cases import contact, curvatures, text_of, wheel, wheel_text
+from error_cases import PROFILES, contact, curvatures, some_wheels, text_of, wheel_text
 from errors import patch_of, run
 
 METHODS = ("fastsim", "fastrip")
@@ -98,15 +98,14 @@ def table(rows):
 def wheels(program, asked, folder):
     """Lines of the table for wheels on rails: errors of the forces and of the height relative to the approach, and milliseconds."""
     source = random.Random(asked.seed)
-    cases = [wheel(source) for _ in range(asked.wheels)]
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-    fine = run(program, folder, "wheels", [wheel_text(c, 4.0, profiles) for c in cases], False, ("--order", "2"))
+    cases = some_wheels(source, asked.wheels)
+    fine = run(program, folder, "wheels", [wheel_text(c, 4.0, PROFILES) for c in cases], False, ("--order", "2"))
     lines = ["| pressures | tractions | wheels | median error | 95 % | largest | ms |", "|---|---|---|---|---|---|---|"]
     for pressure, model in WHEEL_METHODS:
         texts = []
         for c in cases:
             choices = f'pressure = "{pressure}"\nmaterial_model = "{model}"\nmotion = '
-            text = wheel_text(c, 1.0, profiles).replace("motion = ", choices, 1)
+            text = wheel_text(c, 1.0, PROFILES).replace("motion = ", choices, 1)
             if model != "elastic":
                 text = text.replace("poiss = ", "k0_mf = 1.0\nalfamf = 1.0\nbetamf = 1.0\npoiss = ")
             texts.append(text)

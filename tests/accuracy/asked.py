@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from error_cases import CHANGES, any_wheel, contact, text_of, wheel, wheel_text, write_profiles
+from error_cases import CHANGES, PROFILES, contact, some_wheels, text_of, wheel_text
 from errors import last_cases, patch_of, run, scale_of
 
 #: Kinds of contacts whose grid can be chosen
@@ -122,13 +122,10 @@ def judge_pairs(program, asked, folder):
 def judge_wheels(program, asked, folder, pairs=False):
     """The same for wheels on rails, ordinary ones or those of any profiles."""
     source = random.Random(asked.seed)
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-    if pairs:
-        write_profiles(folder)
-    wheels = [any_wheel(source, profiles) if pairs else wheel(source) for _ in range(asked.pairs if pairs else asked.wheels)]
+    wheels = some_wheels(source, asked.pairs, folder) if pairs else some_wheels(source, asked.wheels)
 
     def solve(name, factor, options, sides=None):
-        texts = [wheel_text(c, factor * (1.0 + 0.04 * source.random()), profiles, side)
+        texts = [wheel_text(c, factor * (1.0 + 0.04 * source.random()), PROFILES, side)
                  for c, side in zip(wheels, sides or [None] * len(wheels))]
         return timed(program, folder, name, texts, False, options)
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from asked import FIXED, FIXED_WHEELS, error_of, exact_totals, parser_of, value_of, wheel_error, wheel_of
 from cost import processor_time
-from error_cases import contact, text_of, wheel, wheel_text
+from error_cases import PROFILES, contact, some_wheels, text_of, wheel_text
 from errors import patch_of, run
 
 #: Number of further copies of a contact, and of repeated runs
@@ -102,10 +102,9 @@ def contacts_compared(program, asked, folder):
 def wheels_compared(program, asked, folder):
     """The same for wheels on rails."""
     source = random.Random(asked.seed)
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-    for c in [wheel(source) for _ in range(asked.wheels)]:
+    for c in some_wheels(source, asked.wheels):
         size = asked.reference / 20.0
-        texts = [wheel_text(c, f * (1.0 + 0.04 * source.random()), profiles) for f in (size, 2.0 * size)]
+        texts = [wheel_text(c, f * (1.0 + 0.04 * source.random()), PROFILES) for f in (size, 2.0 * size)]
         middle, fine = (wheel_of(run(program, folder, "reference", [text], False, ("--order", "2")), 1) for text in texts)
         if None in (middle, fine) or middle["patches"] != fine["patches"]:
             continue
@@ -117,7 +116,7 @@ def wheels_compared(program, asked, folder):
 
         for tolerance in asked.asked:
             yield "wheel", tolerance, *compare(
-                lambda f, eps, c=c: wheel_text(c, f, profiles).replace("eps = 1e-6", f"eps = {eps!r}"), FIXED_WHEELS, error,
+                lambda f, eps, c=c: wheel_text(c, f, PROFILES).replace("eps = 1e-6", f"eps = {eps!r}"), FIXED_WHEELS, error,
                 program, folder, tolerance)
 
 

@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 from asked import KINDS
-from error_cases import any_wheel, contact, text_of, wheel, wheel_text, write_profiles
+from error_cases import PROFILES, contact, some_wheels, text_of, wheel_text
 
 #: Number of runs, of which the fastest counts: other processes only add time
 RUNS = 3
@@ -78,16 +78,13 @@ def main():
     parser.add_argument("--raw", action="store_true", help="print each contact")
     asked = parser.parse_args()
     program, source, kinds = os.environ["CONTACT_PROGRAM"], random.Random(asked.seed), asked.kinds.split(",")
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
     cases = [(kinds[k % len(kinds)], text_of(contact(source, kinds[k % len(kinds)]), 40, (source.random(), source.random()), 1e-5))
              for k in range(asked.count)]
-    cases += [("wheel", wheel_text(wheel(source), 1.0, profiles)) for _ in range(asked.wheels)]
-    cases += [("pair", wheel_text(any_wheel(source, profiles), 1.0, profiles)) for _ in range(asked.pairs)]
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        if asked.pairs:
-            write_profiles(folder)
+        cases += [("wheel", wheel_text(c, 1.0, PROFILES)) for c in some_wheels(source, asked.wheels)]
+        cases += [("pair", wheel_text(c, 1.0, PROFILES)) for c in some_wheels(source, asked.pairs, folder)]
         (folder / "empty.inp").write_text(" 0 MODULE\n")
         start = min(processor_time([program, "--json", "2", "empty"], folder)[0] for _ in range(10))
         for word in asked.asked.split(","):

@@ -318,6 +318,18 @@ z = [0.7, 1.2, 2.0, 3.2, 5.0]
 """
 
 
+#: Profiles of the examples
+PROFILES = Path(__file__).resolve().parents[2] / "examples" / "profiles"
+
+
+def some_wheels(random, count, folder=None):
+    """Random wheels: ordinary ones, or, with a folder for the files of their profiles, wheels of any profiles."""
+    if folder is None:
+        return [wheel(random) for _ in range(count)]
+    write_profiles(folder)
+    return [any_wheel(random, PROFILES) for _ in range(count)]
+
+
 def wheel(random):
     """A wheel S1002 on a rail 60E1 somewhere between the tread and the flange."""
     vs = 20000.0

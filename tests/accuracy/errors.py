@@ -20,7 +20,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from error_cases import CHANGES, FIRST_ORDER, any_wheel, contact, text_of, wheel, wheel_text, write_profiles
+from error_cases import CHANGES, FIRST_ORDER, PROFILES, contact, some_wheels, text_of, wheel_text
 
 #: Sides of the finer grids
 FINER = (3, 6)
@@ -218,13 +218,10 @@ def judge_wheels(program, seed, count, folder, options, places=1, only=(), pairs
     Ordinary wheels, or those of any pairs of profiles.
     """
     source = random.Random(seed)
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-    if pairs:
-        write_profiles(folder)
-    wheels = [any_wheel(source, profiles) if pairs else wheel(source) for _ in range(count)]
+    wheels = some_wheels(source, count, folder if pairs else None)
     if only:
         wheels = [wheels[k] for k in only]
-    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles, full=True) for c in wheels], True, options)
+    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, PROFILES, full=True) for c in wheels], True, options)
              for f in (*WHEEL_PLACES[:places], *FINER)}
     return [(c, round(10.0 / c["dx"]), [v for v in (wheel_values(c, [grids[f].get(number, {}) for f in (place, *FINER)])
                                                     for place in WHEEL_PLACES[:places]) if v])

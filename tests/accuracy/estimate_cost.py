@@ -20,7 +20,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from error_cases import CHANGES, FURTHER, any_wheel, contact, text_of, wheel, wheel_text, write_profiles
+from error_cases import CHANGES, FURTHER, PROFILES, contact, some_wheels, text_of, wheel_text
 
 #: Largest part that estimates may add to the instructions of a run
 LIMIT = 0.15
@@ -36,19 +36,18 @@ def instructions(program, folder, name, options=(), within=()):
     return int(re.search(r"refs: +([0-9,]+)", done.stderr).group(1).replace(",", ""))
 
 
-def texts_of(asked):
-    """Group (elements across, or wheels), name and text of each run."""
+def texts_of(asked, folder):
+    """Group (elements across, or wheels), name and text of each run; the files of profiles are written."""
     source, kinds = random.Random(asked.seed), asked.kinds.split(",")
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
     for k in range(asked.count):
         c = dict(contact(source, kinds[k % len(kinds)]), stresses=asked.stresses)
         offset = (source.random(), source.random())
         for n in map(int, asked.across.split(",")):
             yield n, f"{k} {c['kind']}", text_of(c, round(n * c["margin"]), offset)
-    for k in range(asked.wheels):
-        yield "wheels", f"{k} wheel", wheel_text(wheel(source), 1.0, profiles)
-    for k in range(asked.pairs):
-        yield "pairs", f"{k} pair", wheel_text(any_wheel(source, profiles), 1.0, profiles)
+    for k, c in enumerate(some_wheels(source, asked.wheels)):
+        yield "wheels", f"{k} wheel", wheel_text(c, 1.0, PROFILES)
+    for k, c in enumerate(some_wheels(source, asked.pairs, folder)):
+        yield "pairs", f"{k} pair", wheel_text(c, 1.0, PROFILES)
 
 
 def compare(program, folder, number, text, order):
@@ -74,7 +73,7 @@ def all_grids(program, folder, number, text, asked):
 
 def compare_grids(asked, program, folder, pool):
     """Print what all grids of the wheels cost, over the last one alone."""
-    texts = [text for group, _, text in texts_of(asked) if group == "pairs"]
+    texts = [text for group, _, text in texts_of(asked, folder) if group == "pairs"]
     found = [run.result() for run in [pool.submit(all_grids, program, folder, k, t, asked.asked) for k, t in enumerate(texts)]]
     if asked.list:
         for number, run in enumerate(found):
@@ -105,15 +104,13 @@ def main():
     program, rows = os.environ["CONTACT_PROGRAM"], {}
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(asked.jobs) as pool:
         folder = Path(name)
-        if asked.pairs:
-            write_profiles(folder)
         if asked.asked:
             compare_grids(asked, program, folder, pool)
             return
         (folder / "empty.inp").write_text(" 0 MODULE\n")
         start = instructions(program, folder, "empty")
         runs = [(order, group, label, pool.submit(compare, program, folder, number, text, order))
-                for order in asked.orders.split(",") for number, (group, label, text) in enumerate(texts_of(asked))]
+                for order in asked.orders.split(",") for number, (group, label, text) in enumerate(texts_of(asked, folder))]
         for order, group, label, run in runs:
             without, with_them = run.result()
             rows.setdefault((order, group), []).append((with_them / without - 1, (with_them - without) / (without - start),

@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from error_cases import wheel, wheel_text
+from error_cases import PROFILES, some_wheels, wheel_text
 from errors import run
 
 #: Seed and number of wheels; elements of the reference are smaller by this factor
@@ -24,10 +24,9 @@ LEAST, MOST, PART = 0.3, 5.0, 0.5
 
 def ratios(program, folder, wheels, model):
     """Estimated over true errors of the totals."""
-    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
 
     def solve(factor):
-        texts = [wheel_text(c, factor, profiles).replace("[case.iteration]", model + "[case.iteration]", 1) for c in wheels]
+        texts = [wheel_text(c, factor, PROFILES).replace("[case.iteration]", model + "[case.iteration]", 1) for c in wheels]
         return run(program, folder, f"elements{factor}", texts, factor == 1)
 
     coarse, fine = solve(1), solve(FINER)
@@ -45,7 +44,7 @@ def ratios(program, folder, wheels, model):
 def main():
     """Compare, and report what is wrong."""
     source = random.Random(SEED)
-    wheels = [wheel(source) for _ in range(COUNT)]
+    wheels = some_wheels(source, COUNT)
     failed = False
     with tempfile.TemporaryDirectory() as name:
         for title, model in MODELS.items():

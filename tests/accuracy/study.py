@@ -19,9 +19,8 @@ from pathlib import Path
 
 import error_cases
 import study_page
-from error_cases import contact, curvatures, text_of, wheel, wheel_text
+from error_cases import PROFILES, contact, curvatures, text_of, wheel, wheel_text
 
-PROFILES = Path(__file__).resolve().parents[2] / "examples" / "profiles"
 #: Elements along each side of the potential contact, and those of the references
 GRIDS, REFERENCE = (10, 14, 20, 28, 40, 56, 80), (80, 160)
 #: Length of the contact of a wheel on a rail [mm] along which the elements are counted
