@@ -46,8 +46,6 @@ module contact_patch_edge_slip
       real(wp) :: used = 0.0_wp
       !> Tractions over their bound ahead of adhesion, or in the leading element that sticks, and behind it [-]
       real(wp) :: before(2) = 0.0_wp, behind(2) = 0.0_wp
-      !> Pressure of the leading element times the change of direction to the next one, if both slip [N/mm2]
-      real(wp) :: turning = 0.0_wp
    end type row_type
 
 contains
@@ -71,7 +69,7 @@ contains
       beta = abs(problem%model%material%ak)/(1.0_wp - problem%model%material%nu)
       do iy = 1, result%grid%my
          row = row_of(result, iy, rolling_direction(problem))
-         e = e + turning_share*row%turning*ratio**(-turning_power)
+         e = e + turning_share*turning_of(result, iy, rolling_direction(problem))*ratio**(-turning_power)
          if (.not. (row%sticking > 0.0_wp .and. row%mu > 0.0_wp)) cycle
          ! in elements; an element of which more than half slips counts as one, and of a width that elements resolve the error
          ! decreases
@@ -92,14 +90,12 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Solved, with contact
       type(patch_result), intent(in) :: result
-      type(row_type) :: row
       integer :: iy
 
       change = 0.0_wp
       if (result%nadh > 0) return
       do iy = 1, result%grid%my
-         row = row_of(result, iy, rolling_direction(problem))
-         change = change + row%turning
+         change = change + turning_of(result, iy, rolling_direction(problem))
       end do
       change = change/max(sum(result%pn), tiny(change))
    end function leading_turn
@@ -155,7 +151,7 @@ contains
       type(patch_result), intent(in) :: result
       !> Row; rolling towards increasing (+1) or decreasing (-1) x
       integer, intent(in) :: iy, direction
-      real(wp) :: traction(2), first(2), pressure
+      real(wp) :: traction(2)
       integer :: ix, k
       logical :: was_sticking
 
@@ -165,10 +161,8 @@ contains
          if (.not. result%pn(ix, iy) > 0.0_wp) cycle
          row%n = row%n + 1
          row%load = row%load + result%pn(ix, iy)
-         traction = [result%px(ix, iy), result%py(ix, iy)]/max(result%mu(ix, iy)*result%pn(ix, iy), tiny(traction))
+         traction = relative_traction(result, ix, iy)
          if (row%n == 1) then
-            first = traction
-            pressure = result%pn(ix, iy)
             row%used = norm2(traction)
             row%before = traction
          end if
@@ -177,7 +171,6 @@ contains
                row%ahead = row%ahead + 1
                row%before = traction
             end if
-            if (row%n == 2 .and. row%ahead == 2) row%turning = pressure*norm2(traction - first)
             if (was_sticking) row%behind = traction
             was_sticking = .false.
          else
@@ -188,4 +181,38 @@ contains
          end if
       end do
    end function row_of
+
+   !> Pressure of the leading element of a row times the change of direction to the next one; 0 unless both slip [N/mm2]
+   pure real(wp) function turning_of(result, iy, direction) result(turning)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Row; rolling towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: iy, direction
+      integer :: ix, k, leading
+
+      turning = 0.0_wp
+      leading = 0
+      do k = 1, result%grid%mx
+         ix = merge(result%grid%mx + 1 - k, k, direction > 0)
+         if (.not. result%pn(ix, iy) > 0.0_wp) cycle
+         if (result%division(ix, iy) /= element%slip) return
+         if (leading > 0) then
+            turning = result%pn(leading, iy)*norm2(relative_traction(result, ix, iy) - relative_traction(result, leading, iy))
+            return
+         end if
+         leading = ix
+      end do
+   end function turning_of
+
+   !> Traction of an element over its bound [-]
+   pure function relative_traction(result, ix, iy) result(traction)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> Element in contact
+      integer, intent(in) :: ix, iy
+      !> Along x and y
+      real(wp) :: traction(2)
+
+      traction = [result%px(ix, iy), result%py(ix, iy)]/max(result%mu(ix, iy)*result%pn(ix, iy), tiny(traction))
+   end function relative_traction
 end module contact_patch_edge_slip
