@@ -65,6 +65,11 @@ contains
          do ix = box%ix0, box%ix1
             if (.not. (result%pn(ix, iy) > 0.0_wp .and. result%division(ix, iy) > element%exterior)) cycle
             if (.not. is_hertzian) ratio = max(0.0_wp, 1.0_wp + change*state%now%rate(ix, iy)/result%pn(ix, iy))
+            if (.not. ratio > 0.0_wp) then
+               ! the element leaves: an element without pressure is no part of the contact, nor the end of a row
+               result%division(ix, iy) = element%exterior
+               state%now%division(ix, iy) = element%exterior
+            end if
             result%pn(ix, iy) = ratio*result%pn(ix, iy)
             result%px(ix, iy) = ratio*result%px(ix, iy)
             result%py(ix, iy) = ratio*result%py(ix, iy)
