@@ -4,12 +4,12 @@
  * time if the contact moves. Instead of being returned to the heap, such blocks are kept with the problem that used them, in lists
  * by size. Sizes are powers of two. A request is served by a block of its size, or of the next one.
  *
- * If there is none, the block is cut from an area of 16 MB of address space, which the owner gets from the system at the beginning
- * of its second calculation. Pages of an area that no block has used take no memory. So later calculations have room for larger
- * windows than any before without a request to the heap, and without memory that nobody uses. The first calculation uses the heap:
- * many problems are calculated once. If one of the first 50 calculations begins with more than a quarter of the last area in use,
- * the owner gets another one; later only when there is no space left. It has at most `most_areas`. Then larger kept blocks are
- * used, and at last the heap; blocks from there are kept up to `most_bytes`.
+ * If there is none, the block is cut from an area of 16 MB of address space. The owner gets two of them from the system at the
+ * beginning of its second calculation. Pages of an area that no block has used take no memory. So later calculations have room for
+ * larger windows than any before without a request to the heap, and without memory that nobody uses. The first calculation uses the
+ * heap: many problems are calculated once. Each of the first 50 calculations begins with an area that no block has used, so that
+ * there is one when they are over; later the owner gets one only when there is no space left. It has at most `most_areas`. Then
+ * larger kept blocks are used, and at last the heap; blocks from there are kept up to `most_bytes`.
  *
  * A thread uses the blocks of one owner while it calculates (guard.c). A block of an area that is freed elsewhere, by a setting or
  * by another thread, waits in the list `returned` of the area for the next calculation of the owner. An area whose owner is gone
@@ -64,6 +64,8 @@ struct kept_blocks {
   size_t bytes;
   struct area *area[most_areas];
   int areas;
+  /* Index of the area from which blocks are cut: later ones are not used yet */
+  int current;
   /* Number of calculations, up to `first_ones` + 1; was an area refused? */
   int count, refused;
 };
@@ -150,16 +152,17 @@ static unsigned size_in(const struct area *area, const void *block) {
   return area->size_at[((uintptr_t)block - (uintptr_t)area)/smallest];
 }
 
-/* A new block from the last area of the owner, or from another one; NULL if there is no more space */
+/* A new block from the present area of the owner, or from the next one; NULL if there is no more space */
 static void *cut(struct kept_blocks *kept, unsigned k) {
   const size_t n = size_of(k) + (size_of(k) >= apart_from ? apart : 0);
   if (kept->areas == 0) return NULL;
-  if (kept->area[kept->areas - 1]->end + n > area_size) {
-    const int before = kept->areas;
-    if (before < most_areas && !kept->refused) add_area(kept);
-    if (kept->areas == before) return NULL;
+  if (kept->area[kept->current]->end + n > area_size) {
+    const int next = kept->current + 1;
+    if (next == kept->areas && next < most_areas && !kept->refused) add_area(kept);
+    if (next == kept->areas) return NULL;
+    kept->current = next;
   }
-  struct area *const area = kept->area[kept->areas - 1];
+  struct area *const area = kept->area[kept->current];
   char *const block = (char *)area + area->end;
   area->size_at[area->end/smallest] = (unsigned char)k;
   area->end += n;
@@ -217,8 +220,8 @@ void contact_kept_begin(struct kept_blocks *kept) {
     for (int i = 0; i < kept->areas; i++) take_back(kept, kept->area[i]);
     unlock_areas();
   }
-  if (kept->count == 1 || kept->count > first_ones || kept->refused) return;
-  if (kept->areas == 0 || (kept->areas < most_areas && kept->area[kept->areas - 1]->end > area_size/4)) add_area(kept);
+  if (kept->count == 1 || kept->count > first_ones) return;
+  while (kept->areas < most_areas && kept->areas < kept->current + 2 && !kept->refused) add_area(kept);
 }
 
 size_t contact_kept_size(size_t n) { return n > largest ? n : size_of(size_above(n)); }

@@ -1,4 +1,5 @@
 /* Blocks kept by an owner: each is reused by requests of its size, no more are kept than allowed; areas from which they are cut */
+#define _GNU_SOURCE
 #include "kept_blocks.h"
 #include <malloc.h>
 #include <stdatomic.h>
@@ -8,9 +9,21 @@
 #include <string.h>
 #ifdef __linux__
 #include <pthread.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #endif
 
 static int failures = 0;
+
+/* Number of requests for address space; the function of the C library is replaced in this program, but not that of a sanitizer */
+static long requests = 0;
+#if defined(__linux__) && defined(SYS_mmap) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void *mmap(void *p, size_t n, int access, int flags, int file, off_t offset) {
+  requests++;
+  return (void *)syscall(SYS_mmap, p, n, access, flags, file, offset);
+}
+#endif
 
 static void check(int condition, const char *what, size_t n) {
   if (condition) return;
@@ -83,6 +96,31 @@ static void test_areas(void) {
   }
   check(contact_kept_room(block[many - 1]) == 0, "the area is gone with the last one", 0);
   contact_kept_free(other);
+}
+
+/* Calculations that needed little leave room for one that needs more than the rest of an area, without a request to the system */
+static void test_room_ahead(void) {
+  enum { most = 20, calculations = 60 };
+  const size_t n = (size_t)1 << 20;
+  struct kept_blocks *kept = later_store();
+  void *block[most];
+  int k;
+  if (contact_kept_goes_on(kept)) {
+    for (k = 2; k < calculations; k++) {
+      contact_kept_begin(kept);
+      void *few = contact_kept_take(kept, 3*n);
+      check(few != NULL, "each calculation gets its block", 3*n);
+      contact_kept_put(kept, few, 0);
+    }
+    const long before = requests;
+    for (k = 0; k < most; k++) {
+      block[k] = contact_kept_take(kept, n);
+      check(block[k] != NULL, "a larger calculation is served", n);
+    }
+    check(requests == before, "it requests no area from the system", (size_t)(requests - before));
+    while (k > 0) contact_kept_put(kept, block[--k], 0);
+  }
+  contact_kept_free(kept);
 }
 
 /* Areas follow one another up to a limit, then larger kept blocks are used, then the heap */
@@ -195,6 +233,7 @@ int main(void) {
   contact_kept_free(NULL);
   test_areas();
   test_large();
+  test_room_ahead();
   test_threads();
   printf("%d blocks of %zu bytes were kept\n", blocks, contact_kept_size(1000));
   return failures > 0;
