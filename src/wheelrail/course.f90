@@ -21,6 +21,8 @@ module contact_wheelrail_course
    real(wp), parameter :: near = 0.5_wp
    !> Limits of the extrapolation, relative to the last step
    real(wp), parameter :: furthest_back = -1.0_wp, furthest_on = 2.0_wp
+   !> Largest factor by which the extrapolation changes the penetration: it grows faster where another patch appears, once
+   real(wp), parameter :: largest_change = 1.5_wp
    !> Squared steps that are regarded as zero [mm2]
    real(wp), parameter :: no_way = 1.0e-20_wp
 
@@ -35,6 +37,8 @@ module contact_wheelrail_course
       real(wp) :: stiffer = 1.0_wp
       !> Deviation of the force in the first trial of the last case, relative to it [-]
       real(wp) :: first_miss = 1.0_wp
+      !> Change of the ratio of horizontal to vertical forces per change of height [1/mm]
+      real(wp) :: sway = 0.0_wp
    contains
       !> Is the last case near this one?
       procedure :: is_near
@@ -77,7 +81,8 @@ contains
       real(wp) :: softness
 
       softness = self%softness(1)
-      if (self%known > 1) softness = softness*(self%softness(1)/self%softness(2))**self%part(wheelset)
+      if (self%known > 1) softness = softness &
+         & *min(max((self%softness(1)/self%softness(2))**self%part(wheelset), 1.0_wp/largest_change), largest_change)
       penetration = softness*force**power
    end function penetration
 
@@ -122,5 +127,6 @@ contains
       self%known = 0
       self%stiffer = 1.0_wp
       self%first_miss = 1.0_wp
+      self%sway = 0.0_wp
    end subroutine forget
 end module contact_wheelrail_course

@@ -190,11 +190,11 @@ contains
          return
       end if
       is_settled = .false.
-      search%is_sharp = memory%geometry%follows .and. .not. memory%geometry%follows_height
+      search%is_sharp = memory%geometry%follows
       if (memory%geometry%follows_height) then
          if (memory%geometry%follows_last) &
             & search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
-         call search%follow(problem, memory, memory%course%stiffer, memory%course%first_miss, &
+         call search%follow(problem, memory, memory%course%stiffer, memory%course%first_miss, memory%course%sway, &
             & is_settled, log, error)
          if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
       end if
@@ -258,7 +258,10 @@ contains
             call learn_shares(memory)
             miss = abs(search%force - target)
             balance%tolerance = eps*target
-            if (miss <= balance%tolerance) return
+            if (miss <= balance%tolerance) then
+               call search%end_exactly(problem, memory, stiffer, log)
+               return
+            end if
             if (round > 1) call search%compare_stiffness(search%z, last_z, last_force, stiffer)
             search%guess = search%z + (target - search%force) &
                & /max(stiffer*search%stiffness, min_stiffness*target/max(search%z - search%touch, min_penetration))
@@ -288,6 +291,7 @@ contains
       end associate
       if (allocated(error)) return
       if (abs(search%balance%force - search%force) > 0.0_wp) call search%try(problem, memory, search%z, .true., log, error)
+      if (.not. allocated(error)) call search%end_exactly(problem, memory, 1.0_wp, log)
    end subroutine search_together
 
    !> Warn of a missed force; the case has failed if the deviation exceeds the effect of the grids

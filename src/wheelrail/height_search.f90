@@ -2,16 +2,16 @@
 !>
 !> The heights are chosen by contact_wheelrail_force_balance, the forces are computed by contact_wheelrail_trial.
 module contact_wheelrail_height_search
-   use contact_base_choices, only : motion
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_wheelrail_course, only : power
+   use contact_wheelrail_followed_force, only : far_off, followed_force
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
-   use contact_patch_small_step, only : small_step, step_with_tractions
+   use contact_wheelrail_last_step, only : balance_point, can_finish, fine_tractions, finish, smooth_part
    use contact_wheelrail_memory, only : force_not_estimated, sum_of_normal_forces, wheel_rail_memory, vertical_force, &
       & vertical_slope
-   use contact_wheelrail_patch_solution, only : can_skip_tractions, can_step_all, find_forces, update_share
+   use contact_wheelrail_patch_solution, only : can_skip_tractions, can_step_all
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_trial, only : evaluate
    implicit none (type, external)
@@ -49,6 +49,8 @@ module contact_wheelrail_height_search
       procedure :: approach
       procedure :: run
       procedure :: follow
+      procedure :: end_exactly
+      procedure, private :: end_linearly
       procedure :: try
       procedure :: compare_stiffness
       procedure, private :: bracket
@@ -61,32 +63,29 @@ module contact_wheelrail_height_search
    integer, parameter :: few_trials = 5
    !> Lower bound of the ratio `small`, by which the tolerance of pressures is reduced
    real(wp), parameter :: smallest = 1.0e-4_wp
-   !> Search that follows the last case: maximum number of trials, fraction of EPS to be reached, maximum reduction factors of the
-   !> missed force per trial, within the tolerance and outside, and range of plausible derivatives of the force relative to those by
-   !> the stiffness
-   integer, parameter :: max_followed = 7
-   real(wp), parameter :: smooth = 0.02_wp, quick_progress = 0.2_wp, some_progress = 0.6_wp, least_stiff = 0.3_wp, &
-      & most_stiff = 3.0_wp
-   !> If a trial misses the force by less than `finished` times EPS, the rest may be a linear extrapolation, which neglects the
-   !> rotation of patches: this effect may be at most `turned` times EPS of the force
-   real(wp), parameter :: finished = 20.0_wp, turned = 0.2_wp
-   !> The same limit in the first trial of simplified theory on pressures of the full theory
+   !> Search that follows the last case: maximum number of trials, maximum reduction factor of the missed force per trial within the
+   !> tolerance, and range of plausible derivatives of the force relative to those by the stiffness
+   integer, parameter :: max_followed = 12
+   real(wp), parameter :: quick_progress = 0.2_wp, least_stiff = 0.3_wp, most_stiff = 3.0_wp
+   !> If the search ends with a linear extrapolation, which neglects the rotation of patches, its effect on the lateral force is at
+   !> most this multiple of EPS of the vertical force
+   real(wp), parameter :: turned_aside = 0.5_wp
+   !> Largest deviation, relative to EPS, before this extrapolation in the first trial of simplified theory on pressures of the full
+   !> theory
    real(wp), parameter :: first_finished = 5.0_wp
-   !> The same for approximate pressures, which are scaled: the derivative of their force is known to a tenth
-   real(wp), parameter :: finished_scaled = 2.0_wp
    !> If the first trial of the last case missed the force by less than this multiple of EPS, pressures of this first trial are
    !> solved accurately enough to be final
    real(wp), parameter :: near_enough = 60.0_wp
-   !> Maximum number of steps of this extrapolation, and number of trials with less accurate tractions
-   integer, parameter :: max_rounds = 4, most_loose = 3
-   !> Tolerance of tangential tractions relative to that of the pressures
-   real(wp), parameter :: smooth_tractions = 5.0_wp
+   !> Number of trials with less accurate tractions
+   integer, parameter :: most_loose = 3
+   !> Ratio of two forces beyond which their difference does not give the derivative; that of F**(2/3) does
+   real(wp), parameter :: unlike = 1.2_wp
    !> Tolerance of pressures in a first trial that only gives the next height, and of tractions in the first trials, relative to
    !> EPS. The last step solves the tractions anew
    real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
    !> Minimum difference of two heights for the computation of a derivative, relative to the penetration: for smaller ones the
-   !> change of grids is not negligible. It causes steps of the force up to this fraction of the force
-   real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
+   !> change of grids is not negligible
+   real(wp), parameter :: telling_way = 1.0e-3_wp
    !> Ratio of normal forces to the prescribed force above which friction carries nearly all of them
    real(wp), parameter :: mostly_friction = 20.0_wp
    !> If the force is exceeded at first touch, the wheel is lifted by up to this multiple of the approach of its patches, at least
@@ -176,9 +175,10 @@ contains
    !>
    !> Newton's method for F**(2/3). The derivative by the stiffness neglects the rotation of steep patches and changes of friction;
    !> the true derivative, estimated from two trials, serves for the next trials, and for the next case. The force is reached more
-   !> accurately than to EPS: the deviation would be noise between successive cases. If a step makes too little progress, the search
-   !> fails, and only its time is lost.
-   subroutine follow(self, problem, memory, stiffer, first_miss, is_settled, log, error)
+   !> accurately than to EPS: the deviation would be noise between successive cases. A step from below may overshoot where another
+   !> patch appears; the trial then is the upper end of a bracket. If steps make too little progress, the search fails, and only
+   !> its time is lost.
+   subroutine follow(self, problem, memory, stiffer, first_miss, sway, is_settled, log, error)
       class(height_search), intent(inout) :: self
       !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
@@ -188,14 +188,18 @@ contains
       real(wp), intent(inout) :: stiffer
       !> Deviation of the force in the first trial, relative to it [-]: in the last case on entry, in this one on exit
       real(wp), intent(inout) :: first_miss
+      !> Change of the ratio of horizontal to vertical forces per change of height [1/mm]: last known value on entry, found value on
+      !> exit
+      real(wp), intent(inout) :: sway
       !> Was the force reached? z is the height, or the best one that was tried
       logical, intent(out) :: is_settled
       !> Receives the trace of the trials
       type(log_type), intent(inout) :: log
       !> Allocated if a trial has no result
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: z, last_z, last_force, miss, last_miss, best, low(2), high(2)
-      logical :: is_plain, has_derivative, may_finish, skips, has_skipped
+      type(followed_force) :: course
+      real(wp) :: z, miss, best
+      logical :: is_plain, has_derivative, may_finish, skips, goes_on
       integer :: k
 
       call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
@@ -204,23 +208,20 @@ contains
       ! tractions of simplified theory have no tolerance: with sharp pressures the first trial is as accurate as any
       is_plain = allocated(problem%template%simplified)
       has_derivative = problem%template%solves_for_pressure()
-      self%is_sharp = .true.
       memory%geometry%ahead = 0.0_wp
       if (memory%geometry%follows_last) memory%geometry%ahead = memory%course%part(problem%spec%wheelset)
+      course%target = self%target
+      course%tolerance = self%balance%tolerance
       z = self%guess
       best = huge(best)
-      last_miss = huge(last_miss)
-      last_z = z
-      last_force = 0.0_wp
-      low = huge(low)
-      high = huge(high)
       skips = .false.
       do k = 1, max_followed
          self%is_rough = k == 1 .and. .not. is_plain .and. first_miss > near_enough*problem%template%settings%eps
-         has_skipped = skips
+         course%had_estimates = skips
          skips = self%is_rough .and. can_skip_tractions(problem, memory)
          self%is_loose = k == 1
-         if (.not. is_plain .and. k > 1 .and. k <= most_loose) self%is_loose = can_step_all(memory)
+         if (.not. is_plain .and. k > 1 .and. (k <= most_loose .or. course%miss > far_off*self%target)) &
+            & self%is_loose = can_step_all(memory)
          memory%geometry%is_first = k == 1
          memory%geometry%keeps_tractions = skips
          call self%try(problem, memory, z, .not. skips, log, error)
@@ -229,37 +230,30 @@ contains
          if (allocated(error)) exit
          miss = abs(self%force - self%target)
          if (k == 1) first_miss = miss/self%target
-         if (has_skipped) last_force = last_force + force_not_estimated(memory)
-         if (k > 1) call self%compare_stiffness(z, last_z, last_force, stiffer)
+         if (course%had_estimates) course%force = course%force + force_not_estimated(memory)
+         if (k > 1) call self%compare_stiffness(z, course%z, course%force, stiffer)
+         call course%compare_lean(memory, z, telling_way*(z - self%touch), sway)
          if (miss < best) then
             best = miss
             self%z = z
          end if
          is_settled = (is_plain .or. .not. self%is_loose) .and. miss <= smooth_part(problem)*self%balance%tolerance
-         may_finish = .not. self%is_rough
+         may_finish = .not. self%is_rough .and. (miss <= self%balance%tolerance &
+            & .or. sway*miss <= turned_aside*problem%template%settings%eps*stiffer*self%stiffness)
          ! the derivative of the last case may not hold here
          if (k == 1 .and. is_plain .and. has_derivative) may_finish = miss <= first_finished*self%balance%tolerance
-         if (may_finish .and. .not. is_settled .and. can_finish(self, miss, stiffer, has_derivative)) then
-            call finish(self, problem, memory, self%is_loose .and. .not. is_plain, stiffer, z, log, is_settled)
+         if (may_finish .and. .not. is_settled .and. can_finish(self%balance%tolerance, miss, stiffer, has_derivative)) then
+            call self%end_linearly(problem, memory, self%is_loose .and. .not. is_plain, stiffer, z, log, is_settled)
             if (.not. (is_settled .or. (self%is_loose .and. k > 1)) .and. miss <= self%balance%tolerance) &
-               & is_settled = k == max_followed .or. miss > quick_progress*last_miss
+               & is_settled = k == max_followed .or. miss > quick_progress*course%miss
          end if
          if (is_settled) self%z = z
          if (is_settled .or. .not. (self%stiffness > 0.0_wp .and. self%force > 0.0_wp)) exit
-         if (k > 1 .and. .not. has_skipped .and. miss > max(some_progress*last_miss, step_of_grids*self%target)) exit
-         ! with estimated tractions the force may be on the other side
-         if (self%force < self%target .and. .not. skips) low = [z, self%force]
-         if (self%force >= self%target .and. .not. skips) high = [z, self%force]
-         last_miss = miss
-         last_z = z
-         last_force = self%force
-         z = z + newton_step(self, stiffer*self%stiffness)
-         ! interpolate linearly between a lower and a higher force
-         if (max(low(1), high(1)) < huge(low) .and. .not. (z > low(1) .and. z < high(1))) &
-            & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
+         call course%record(z, self%force, miss, skips, self%is_loose, goes_on)
+         if (.not. goes_on) exit
+         z = course%step_to(z + newton_step(self, stiffer*self%stiffness))
          if (.not. z > self%touch) exit
       end do
-      self%is_sharp = .false.
       self%is_rough = .false.
       self%is_loose = .false.
       self%balance%z = self%z
@@ -288,33 +282,37 @@ contains
 
       if (.not. abs(z - last_z) > telling_way*(z - self%touch)) return
       ratio = (self%force - last_force)/((z - last_z)*max(self%stiffness, tiny(ratio)))
+      if (min(self%force, last_force) > 0.0_wp .and. max(self%force, last_force) > unlike*min(self%force, last_force)) &
+         & ratio = (self%force**power - last_force**power)*self%force**(1.0_wp - power) &
+         & /(power*(z - last_z)*max(self%stiffness, tiny(ratio)))
       if (ratio > least_stiff .and. ratio < most_stiff) stiffer = ratio
    end subroutine compare_stiffness
 
-   !> Is a linear extrapolation from the last trial accurate enough?
-   pure logical function can_finish(self, miss, stiffer, has_derivative)
-      type(height_search), intent(in) :: self
-      !> Deviation of the force in the trial [N], and ratio of its derivative to the value by the stiffness [-]
-      real(wp), intent(in) :: miss, stiffer
-      !> Are pressures those of the full theory, whose derivative is known? Others are scaled
-      logical, intent(in) :: has_derivative
-
-      associate (tolerance => self%balance%tolerance)
-         can_finish = miss <= tolerance
-         if (has_derivative) then
-            can_finish = can_finish .or. (miss <= finished*tolerance .and. abs(stiffer - 1.0_wp)*miss <= turned*tolerance)
-         else
-            can_finish = can_finish .or. miss <= finished_scaled*tolerance
-         end if
-      end associate
-   end function can_finish
-
-   !> Last Newton step as a linear extrapolation, if all patches allow it: to the prescribed force itself
+   !> End of a search with a bracket in a loop: the force is reached as accurately as by `follow`
    !>
-   !> If the deviation exceeds EPS, or if tractions are rough, they are solved anew, which changes the force, and another step
-   !> follows: one within EPS scales them to the force.
-   subroutine finish(self, problem, memory, has_rough_tractions, stiffer, z, log, is_done)
-      type(height_search), intent(inout) :: self
+   !> Within EPS of the vertical force, lateral forces of a flank differ by several EPS, and from those of `follow`.
+   subroutine end_exactly(self, problem, memory, stiffer, log)
+      class(height_search), intent(inout) :: self
+      !> The problem of wheel and rail
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches of the last trial, at height z; updated to the new height
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Ratio of the derivative of the force to its value by the stiffness [-]
+      real(wp), intent(in) :: stiffer
+      !> Receives the trace of the solvers
+      type(log_type), intent(inout) :: log
+      logical :: is_done
+      real(wp) :: z
+
+      if (.not. (memory%geometry%follows_height .and. abs(self%force - self%target) <= self%balance%tolerance)) return
+      z = self%z
+      call self%end_linearly(problem, memory, .false., stiffer, z, log, is_done)
+      if (is_done) self%z = z
+   end subroutine end_exactly
+
+   !> Last step of a search as a linear extrapolation
+   subroutine end_linearly(self, problem, memory, has_rough_tractions, stiffer, z, log, is_done)
+      class(height_search), intent(inout) :: self
       !> The problem of wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
       !> Solved patches; updated to the new height
@@ -327,60 +325,16 @@ contains
       real(wp), intent(inout) :: z
       !> Receives the trace of the solvers
       type(log_type), intent(inout) :: log
-      !> Was the force reached? Otherwise another trial is needed, also if the tractions of a patch were not found
+      !> Was the force reached?
       logical, intent(out) :: is_done
-      logical :: is_far
-      real(wp) :: step
-      integer :: k, round
+      type(balance_point) :: point
 
-      is_done = .false.
-      if (.not. self%stiffness > 0.0_wp .or. memory%used == 0) return
-      if (.not. can_step_all(memory)) return
-      is_far = abs(self%force - self%target) > self%balance%tolerance .or. has_rough_tractions
-      if (has_rough_tractions) then
-         do k = 1, memory%used
-            memory%slot(k)%problem%traction_eps = fine_tractions(problem)
-         end do
-      end if
-      do round = 1, max_rounds
-         step = (self%target - self%force)/(stiffer*self%stiffness)
-         do k = 1, memory%used
-            associate (slot => memory%slot(k), change => stiffer*memory%slot(k)%plane%axes(3, 3)*step)
-               ! rotation and displacement of patches increase the stiffness; the step of each patch includes this factor
-               if (is_far) then
-                  call step_with_tractions(slot%problem, change, slot%state, slot%workspace, log, slot%result)
-                  if (.not. slot%result%tangential%succeeded()) return
-               else
-                  call small_step(slot%problem, change, slot%state, slot%result)
-               end if
-               call find_forces(slot)
-               ! new tractions have another ratio to the pressures
-               if (is_far .and. slot%problem%motion /= motion%none) call update_share(slot)
-            end associate
-         end do
-         z = z + step
-         self%force = vertical_force(memory) + self%spring*(z - self%touch)
-         is_done = .not. is_far
-         if (is_done .or. .not. can_finish(self, abs(self%force - self%target), stiffer, .true.)) return
-         is_far = abs(self%force - self%target) > self%balance%tolerance
-      end do
-   end subroutine finish
-
-   !> Accuracy of the force relative to EPS, to limit noise between cases [-]
-   pure real(wp) function smooth_part(problem)
-      type(wheel_rail_problem), intent(in) :: problem
-      !> Relative forces below this value are affected by round-off and residuals of iterations
-      real(wp), parameter :: finest = 1.0e-8_wp
-
-      smooth_part = min(1.0_wp, max(smooth, finest/problem%template%settings%eps))
-   end function smooth_part
-
-   !> Tolerance of tangential tractions relative to EPS [-]
-   pure real(wp) function fine_tractions(problem)
-      type(wheel_rail_problem), intent(in) :: problem
-
-      fine_tractions = min(1.0_wp, smooth_tractions*smooth_part(problem))
-   end function fine_tractions
+      point = balance_point(target=self%target, tolerance=self%balance%tolerance, spring=self%spring, touch=self%touch, z=z, &
+         & force=self%force, derivative=stiffer*self%stiffness, stiffer=stiffer)
+      call finish(problem, memory, has_rough_tractions, point, log, is_done)
+      z = point%z
+      self%force = point%force
+   end subroutine end_linearly
 
    !> Search with a bracket
    subroutine bracket(self, problem, memory, with_friction, eps, max_trials, log, error)
@@ -413,9 +367,9 @@ contains
             call self%compare_stiffness(trial, last_z, last_force, stiffer)
             last_z = trial
             last_force = self%force
-            if (abs(self%force - self%target) > self%balance%tolerance .and. can_finish(self, abs(self%force - self%target), &
-               & stiffer, problem%template%solves_for_pressure())) call finish(self, problem, memory, .false., stiffer, trial, &
-               & log, is_done)
+            if (abs(self%force - self%target) > self%balance%tolerance .and. can_finish(self%balance%tolerance, &
+               & abs(self%force - self%target), stiffer, problem%template%solves_for_pressure())) &
+               & call self%end_linearly(problem, memory, .false., stiffer, trial, log, is_done)
          else
             last_z = trial
             last_force = self%force
