@@ -213,13 +213,20 @@ contains
       type(patch_result), intent(in) :: result
       !> Is there an interfacial layer?
       logical, intent(in) :: has_layer
-      real(wp) :: adhesion
 
       floor = 0.0_wp
       if (result%motion /= motion%steady_rolling .or. order_of_errors(result%tangential) == 2) return
-      adhesion = max(real(result%nadh, wp)/result%ncon, turned_share*result%errors%cancelled)
-      floor = friction_floor*merge(layer_ratio, 1.0_wp, has_layer)*sqrt(adhesion/result%ncon)
+      floor = friction_floor*merge(layer_ratio, 1.0_wp, has_layer)*sqrt(first_order_part(result)/result%ncon)
    end function floor_of_friction
+
+   !> Part of the tangential tractions with errors of first order in steady rolling by this order: those in adhesion, and those of
+   !> different directions, as the fraction in adhesion with the same errors [-]
+   pure real(wp) function first_order_part(result) result(part)
+      !> Result with errors
+      type(patch_result), intent(in) :: result
+
+      part = max(real(result%nadh, wp)/max(1, result%ncon), turned_share*result%errors%cancelled)
+   end function first_order_part
 
    !> Stresses at a point, and their errors from the differences to those of the coarser level and from the curvature of its field
    subroutine compare_stresses(spec, coarse, result, place, stress, change)
@@ -284,7 +291,7 @@ contains
       share = 1.0_wp/(coarsening**2 - 1.0_wp)
       if (result%motion == motion%steady_rolling .and. order_of_errors(result%tangential) /= 2) then
          slides = 0.0_wp
-         if (.not. has_layer) slides = sliding_part(real(result%nadh, wp)/max(1, result%ncon))
+         if (.not. has_layer) slides = sliding_part(first_order_part(result))
          share = (1.0_wp - slides)/(coarsening**merge(layer_order, adhesion_order, has_layer) - 1.0_wp) &
             & + slides/(coarsening**sliding_order - 1.0_wp)
       end if

@@ -12,16 +12,17 @@ module contact_patch_error_estimate
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_driver
+   use contact_grid_element_division, only : element
    use contact_patch_between_rows, only : section_details
    use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch, coarsening
-   use contact_patch_error_kinds, only : is_sliding, is_turning
+   use contact_patch_error_kinds, only : is_first, is_sliding, is_turning, sliding_part
    use contact_patch_error_scales, only : mean_friction, normal_order, rows_error, scale_type, scales
    use contact_patch_level_errors, only : error_of, irregularity, scale_of, share_of_residual
    use contact_patch_order, only : order_of_errors
    use contact_patch_peak, only : peak_of
-   use contact_patch_peak_errors, only : error_of_peak
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_peak_errors, only : error_of_peak, is_peak_cut_off
+   use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_quantities, only : error_law, error_scale, total, total_list
    use contact_patch_result, only : patch_result
    use contact_patch_sliding_errors, only : find_direction_errors
@@ -102,6 +103,7 @@ contains
          if (allocated(errors%value)) deallocate(errors%value)
          allocate(errors%value(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
          errors%ncon = 0
+         errors%adhered_before = adhesion_before(state%before)
          errors%stopping = max(0.0_wp, [share_of_residual(.false.)*result%normal%residual, &
             & share_of_residual(problem%model%layer > 0.0_wp)*result%tangential%residual])
          errors%window = cut_off(problem, result)
@@ -121,6 +123,17 @@ contains
          if (errors%reason == "") errors%ncon = level%result%ncon
       end associate
    end subroutine solve_coarse_level
+
+   !> Fraction of the elements in contact that adhered at the previous time step, negative if there were no tractions [-]
+   pure real(wp) function adhesion_before(before) result(part)
+      !> Previous time step, without fields if there was none
+      type(traction_fields), intent(in) :: before
+
+      part = -1.0_wp
+      if (.not. (allocated(before%division) .and. allocated(before%px) .and. allocated(before%py))) return
+      if (.not. (any(abs(before%px) > 0.0_wp) .or. any(abs(before%py) > 0.0_wp))) return
+      part = real(count(before%division == element%adhesion), wp)/max(1, count(before%division > element%exterior))
+   end function adhesion_before
 
    !> Errors from the totals on both levels
    subroutine compare_levels(problem, order, level, result, approach_change, details, rows)
@@ -205,12 +218,29 @@ contains
          difference = difference_of(fine, coarse, k)
          if (difference < 0.0_wp) cycle
          if (fine%rows(k)%name == "pmax") then
-            result%errors%value(k) = scale%peak*result%pmax
+            if (.not. is_peak_cut_off(problem, result)) result%errors%value(k) = scale%peak*result%pmax
          else
             result%errors%value(k) = error_of(fine%rows(k), difference, scale, result%errors)
          end if
       end do
+      result%errors%traction = max(result%errors%traction, error_of_directions(fine, scale, result%errors%value))
    end subroutine compare_levels
+
+   !> Error of the tractions at a point in nearly full sliding by the first order: that of their directions, where these differ,
+   !> as FX and FY show it [-]
+   pure real(wp) function error_of_directions(list, scale, errors) result(e)
+      !> Totals, scales, and errors of the totals, NaN for those without
+      type(total_list), intent(in) :: list
+      type(scale_type), intent(in) :: scale
+      real(wp), intent(in) :: errors(:)
+      real(wp) :: parts(2)
+
+      e = 0.0_wp
+      if (.not. (is_first(scale) .and. scale%force > 0.0_wp)) return
+      parts = errors([list%place_of("fx"), list%place_of("fy")])
+      if (any(ieee_is_nan(parts))) return
+      e = sliding_part(scale%sticking)*scale%cancelled*maxval(parts)/scale%force
+   end function error_of_directions
 
    !> Difference of a total between the levels, in its unit; -1: it has no error, or the coarse level lacks it, as it has no damping
    pure real(wp) function difference_of(fine, coarse, row) result(difference)

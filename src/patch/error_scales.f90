@@ -68,6 +68,8 @@ module contact_patch_error_scales
       real(wp) :: sticking = 0.0_wp
       !> The same on the coarse level [-]
       real(wp) :: coarse_sticking = 1.0_wp
+      !> The fraction in adhesion of the present or the previous step of transient rolling that is closer to a half [-]
+      real(wp) :: in_step = 0.0_wp
       !> Fraction of the traction bound carried by neighbouring elements between which slip reverses [-]
       real(wp) :: reversal = 0.0_wp
       !> Lower bound of the tangential forces' solver error, relative to that of the pressures [-]
@@ -152,6 +154,8 @@ module contact_patch_error_scales
       real(wp) :: falling = 0.0_wp
       !> Turning of the slip direction across the contact, for the second order in rolling, at most half a turn [rad]
       real(wp) :: turning = 0.0_wp
+      !> Its square from element to element, the same, summed over both directions and weighted with tractions, without limit [-]
+      real(wp) :: turns = 0.0_wp
       !> Frictional power minus power of the motion; difference of the levels in the power of the motion [W]
       real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
       !> Frictional power minus power of the motion on the coarse level [W]
@@ -276,13 +280,12 @@ contains
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       if (any(problem%motion == [motion%steady_rolling, motion%transient_rolling]) .and. order == 2 .and. scale%force > 0.0_wp) &
-         & scale%turning = min(pi, scale%mean_across*sqrt(result%grid%dx*result%grid%dy*turns(result)/scale%force))
+         & scale%turns = result%grid%dx*result%grid%dy*turns(result)/scale%force
+      scale%turning = min(pi, scale%mean_across*sqrt(scale%turns))
       scale%has_edge_slip = problem%motion == motion%steady_rolling .and. order == 2 .and. scale%coupling > 0.0_wp
       if (scale%has_edge_slip) scale%edge_slip = edge_slip_error(problem, result)
       if (problem%motion == motion%steady_rolling .and. order == 2) scale%leading = leading_turn(problem, result)
-      scale%steps = problem%motion == motion%transient_rolling
-      if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
-      if (scale%steps) scale%step = result%dq/result%grid%dx
+      if (problem%motion == motion%transient_rolling) call add_step(order, result, scale)
       ! with the first order a time step is longer than some elements and shorter than others, and a layer adds a length scale
       scale%clean = order == 2 .or. .not. (problem%motion == motion%transient_rolling .or. problem%model%layer > 0.0_wp)
       ! tractions are singular at prescribed edges
@@ -303,6 +306,25 @@ contains
          end associate
       end if
    end function scales
+
+   !> What a step of transient rolling has in addition
+   pure subroutine add_step(order, result, scale)
+      !> Order of the scheme of the tangential problem, 1 or 2
+      integer, intent(in) :: order
+      !> Solution
+      type(patch_result), intent(in) :: result
+      !> With the fraction in adhesion; components of steps are set
+      type(scale_type), intent(inout) :: scale
+
+      scale%steps = .true.
+      scale%order = merge(second_order, first_order, order == 2)
+      scale%step = result%dq/result%grid%dx
+      scale%in_step = scale%adhesion
+      if (.not. allocated(result%errors)) return
+      associate (before => result%errors%adhered_before)
+         if (before >= 0.0_wp .and. abs(before - 0.5_wp) < abs(scale%in_step - 0.5_wp)) scale%in_step = before
+      end associate
+   end subroutine add_step
 
    !> Standard deviation of the heights of a rough surface along one direction of a grid, relative to the depth [-]
    !>

@@ -241,7 +241,7 @@ contains
       full_power = max(scale%power, unit, tiny(unit))
       heat = by_heat(scale, part_of(scale, scale%order), difference, unit)
       if (is_long_step(scale)) then
-         e = heat + power_error(unit/full_power, difference/full_power, scale%friction, scale%adhesion, scale%mean_across, &
+         e = heat + power_error(unit/full_power, difference/full_power, scale%friction, scale%in_step, scale%mean_across, &
             & scale%step)*full_power
          return
       end if

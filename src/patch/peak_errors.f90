@@ -15,7 +15,7 @@ module contact_patch_peak_errors
    implicit none (type, external)
    private
 
-   public :: error_of_peak
+   public :: error_of_peak, is_peak_cut_off
 
    !> Lower bound times n^-2, half the rms over offsets of a Hertzian peak with as many elements in both directions; its second
    !> difference over an element is 4 n^-2 of the peak
@@ -100,6 +100,33 @@ contains
       end if
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
+
+   !> Is the largest pressure next to a prescribed edge, of the grid or of the planform, where the exact one has no bound?
+   pure logical function is_peak_cut_off(problem, result) result(cut)
+      !> The problem that was solved
+      type(patch_problem), intent(in) :: problem
+      !> Solved patch
+      type(patch_result), intent(in) :: result
+      integer :: at(2), next(2), k, side
+
+      cut = .false.
+      ! pressures by formula are bounded everywhere
+      if (allocated(problem%given_pressure)) return
+      at = place_of(result%pn, largest_of(size(result%pn), result%pn))
+      do k = 1, 2
+         ! no edges across a line contact
+         if (size(result%pn, k) == 1) cycle
+         do side = -1, 1, 2
+            next = at
+            next(k) = at(k) + side
+            if (next(k) < 1 .or. next(k) > size(result%pn, k)) then
+               cut = .true.
+            else if (problem%h(next(1), next(2)) > excluded_threshold) then
+               cut = .true.
+            end if
+         end do
+      end do
+   end function is_peak_cut_off
 
    !> Is the roughness noise? 1 for heights of no relation, 0 for waves of four elements and more and for curvature that jumps
    !>

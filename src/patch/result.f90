@@ -78,6 +78,8 @@ module contact_patch_result
       logical :: has_turned = .false.
       !> Number of elements in contact on the coarse level
       integer :: ncon = 0
+      !> Fraction of the elements in contact that adhered at the previous time step, negative if there were no tractions [-]
+      real(wp) :: adhered_before = -1.0_wp
    end type error_estimate
 
    !> Wear and fatigue of a patch, see contact_patch_wear

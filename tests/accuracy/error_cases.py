@@ -152,6 +152,9 @@ def _unlike(random, c, b1, b3, full):
     p0 = 1.5 * c["fn"] / (math.pi * c["a"] * c["b"])
     driven = 0.3 * p0 / c["gg"][0] * (1 - 1 / ratio)
     angle, size = random.uniform(0, 2 * math.pi), driven * random.uniform(0, 1.5) + random.uniform(0, 1) * full * mu / c["mu"]
+    # the softer body must not enlarge the contact beyond the grid: the semi-axes remain
+    b1, b3 = curvatures(c["a"], c["b"], 2.0 * c["gg"][0] / (1.0 + ratio) / 0.7, c["fn"])
+    c["geometry"] = f'form = "quadratic"\nplanform = "unrestricted"\nb = [{b1!r}, 0.0, {b3!r}, 0.0, 0.0, 0.0]\n'
     c.update(mu=mu, poiss=[0.3, 0.3], gg=[c["gg"][0], c["gg"][0] / ratio], maxout=20,
              creep=(size * math.cos(angle), size * math.sin(angle)), spin=c["spin"] * random.choice([0.0, mu / c["mu"]]),
              friction=f'law = "coulomb"\nvariation = "none"\nfstat = {mu!r}\nfkin = {mu!r}\n')
