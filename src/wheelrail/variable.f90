@@ -24,7 +24,8 @@ module contact_wheelrail_variable
    real(wp), parameter :: fine_x = 0.5_wp
    !> Step of the coarse mesh in steps of the fine mesh, along the track and across it
    integer, parameter :: coarse = 8
-   !> Gaps are computed on the fine mesh up to this value above the smallest one [mm]: the maximum penetration of most wheels.
+   !> Gaps are computed on the fine mesh up to this value above the smallest one [mm], the maximum penetration of most wheels; if a
+   !> wheel varies and a force presses it on a rail that does not, to the penetration by this force (`depth_under`).
    !> Elsewhere they are those of the contact locus if the bodies are prismatic, otherwise interpolated, with errors of about a
    !> hundredth of a millimetre on a tread
    real(wp), parameter :: min_depth = 0.2_wp
@@ -52,7 +53,7 @@ contains
       type(gap_curve), intent(inout) :: gap
       !> Penetration to be expected [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
-      !> Prescribed force over G/(1 - nu) [mm2], from which the penetration is estimated if it is not known
+      !> Prescribed force over G/(1 - nu) [mm2], from which the penetration of a wheel that varies is estimated if it is not known
       real(wp), intent(in), optional :: load
       real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:), least(:)
       integer, allocatable :: first(:), last(:)
@@ -92,7 +93,7 @@ contains
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
-      if (present(load) .and. .not. (present(depth) .or. prismatic)) &
+      if (present(load) .and. .not. (present(depth) .or. prismatic .or. allocated(bodies%rail_strip))) &
          & gap%depth = depth_under(load, corner, (coarse*dx)*(coarse*gap%dy))
       allocate(first(gap%n), source=(nxc - 1)*coarse + 1)
       allocate(last(gap%n), source=0)
@@ -121,7 +122,8 @@ contains
       end if
    end subroutine measure_variable_gap
 
-   !> Depth of the table for a force [mm], from the area within which the gap exceeds the smallest one by less than `min_depth`
+   !> Depth of the table of a wheel that varies [mm], from the force and the area within which the gap exceeds the smallest one by
+   !> less than `min_depth`
    pure real(wp) function depth_under(load, corner, cell) result(depth)
       !> See `measure_variable_gap`
       real(wp), intent(in) :: load
