@@ -268,6 +268,7 @@ contains
       type(total_list), intent(inout) :: list
       !> Is this a wheel on the left side, with the result for its mirror image? Default: no
       logical, intent(in), optional :: left
+      real(wp) :: highest(2)
 
       call list%start(left)
       call list%add("fn", "N", "normal force", self%fn, law=error_law%normal)
@@ -304,12 +305,11 @@ contains
          call list%add("fy_damp", "N", "lateral damping force, not part of FY", self%damping(3), orientation%across)
       end if
       if (allocated(self%temp1)) then
-         associate (highest => self%largest_temperatures())
-            call list%add("max_temp1", "degC", "highest surface temperature of body 1 in contact", highest(1), law=error_law%peak)
-            call list%add("max_temp2", "degC", "highest surface temperature of body 2 in contact", highest(2), law=error_law%peak)
-            call list%add("max_temp", "degC", "highest surface temperature in contact", maxval(highest), heading="MAX(T1,T2)", &
-               & in_files=.false., law=error_law%peak)
-         end associate
+         highest = self%largest_temperatures()
+         call list%add("max_temp1", "degC", "highest surface temperature of body 1 in contact", highest(1), law=error_law%peak)
+         call list%add("max_temp2", "degC", "highest surface temperature of body 2 in contact", highest(2), law=error_law%peak)
+         call list%add("max_temp", "degC", "highest surface temperature in contact", maxval(highest), heading="MAX(T1,T2)", &
+            & in_files=.false., law=error_law%peak)
       end if
       call list%add("contact_area", "mm2", "area of the elements in contact", self%contact_area(), law=error_law%area)
       call list%count("ncon", "elements in contact", self%ncon)

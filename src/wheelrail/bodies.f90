@@ -2,7 +2,7 @@
 !>
 !> Sections of the variable profile are on an equidistant mesh along the track (rail) or around the axle (wheel), with their
 !> derivatives along the mesh; between sections, heights are interpolated by cubic Hermite polynomials. A section is computed at its
-!> first use in a case: most of them are never used. Bodies that do not vary are evaluated from their profile.
+!> first use: most of them are never used (contact_wheelrail_strip). Bodies that do not vary are evaluated from their profile.
 module contact_wheelrail_bodies
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -228,8 +228,12 @@ contains
          do step = 1, 30
             q = base + k*n
             rho = sqrt(q(1)**2 + q(3)**2)
-            angle = atan(q(1)/q(3))
-            if (.not. q(3) > 0.0_wp) angle = atan2(q(1), q(3))
+            ! below the axle the simpler function is twice as fast
+            if (q(3) > 0.0_wp) then
+               angle = atan(q(1)/q(3))
+            else
+               angle = atan2(q(1), q(3))
+            end if
             call bodies%wheel_strip%at(angle, q(2), z, z_y, found, z_around)
             if (.not. found) return
             ! equation: radius + z - rho = 0

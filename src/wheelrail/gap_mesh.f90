@@ -7,7 +7,7 @@ module contact_wheelrail_gap_mesh
    implicit none (type, external)
    private
 
-   public :: fill, rail_heights
+   public :: fill
 
 contains
 
@@ -81,7 +81,7 @@ contains
          if (n == 0) cycle
          rows(:n) = pack([(k, k=1, size(y))], wanted)
          if (allocated(bodies%rail_strip)) then
-            call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
+            call bodies%rail_strip%heights(bodies%rail_strip%number_at(x(i)), y(rows(:n)), z(:n), found(:n))
          else
             z(:n) = height(rows(:n))
             found(:n) = visible(rows(:n))
@@ -96,26 +96,4 @@ contains
          table(i, rows(:n)) = merge(z(:n), no_surface, found(:n))
       end do
    end subroutine fill_rail
-
-   !> Heights of the rail's section at the position of a section
-   subroutine rail_heights(bodies, x, y, z, found)
-      !> Sections and positions of rail and wheel; sections are computed as needed
-      type(wheel_rail_bodies), intent(inout) :: bodies
-      !> Position along the track [mm]
-      real(wp), intent(in) :: x
-      !> Lateral positions, increasing [mm]
-      real(wp), intent(in) :: y(:)
-      !> Height at each y [mm], z down
-      real(wp), intent(out) :: z(:)
-      !> Is there a visible point at this lateral position?
-      logical, intent(out) :: found(:)
-
-      if (.not. allocated(bodies%rail_strip)) then
-         call bodies%rail%heights(y, z, found)
-         return
-      end if
-      associate (along => bodies%rail_strip)
-         call along%heights(along%number_at(x), y, z, found)
-      end associate
-   end subroutine rail_heights
 end module contact_wheelrail_gap_mesh

@@ -130,6 +130,7 @@ contains
       real(wp), intent(in) :: z
       !> See `measure_variable_gap`
       real(wp), intent(in), optional :: depth
+      real(wp) :: load
       logical :: keeps_rail, weighs_table
 
       call place(problem, geometry, z)
@@ -156,12 +157,9 @@ contains
          if (allocated(geometry%closer)) deallocate(geometry%closer)
          weighs_table = allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
-         if (problem%force_prescribed) then
-            call measure_variable_gap(geometry%bodies, problem%spec%search%ds, weighs_table, geometry%gap, depth, &
-               & load_of(problem, problem%spec%wheelset%fz))
-         else
-            call measure_variable_gap(geometry%bodies, problem%spec%search%ds, weighs_table, geometry%gap, depth)
-         end if
+         load = 0.0_wp
+         if (problem%force_prescribed) load = load_of(problem, problem%spec%wheelset%fz)
+         call measure_variable_gap(geometry%bodies, problem%spec%search%ds, weighs_table, geometry%gap, depth, load)
       else
          ! an independent case does not depend on the penetration of previous cases
          if (.not. problem%in_loop) geometry%reach = first_reach

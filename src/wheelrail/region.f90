@@ -229,14 +229,8 @@ contains
          first = minloc(g, 1)
          last = first
       else
-         first = 1
-         do while (g(first) >= 0.0_wp)
-            first = first + 1
-         end do
-         last = size(g)
-         do while (g(last) >= 0.0_wp)
-            last = last - 1
-         end do
+         first = findloc(g < 0.0_wp, .true., 1)
+         last = findloc(g < 0.0_wp, .true., 1, back=.true.)
       end if
       n = 1
       if (inside < few) n = parts

@@ -32,9 +32,9 @@ module contact_wheelrail_strip
    contains
       !> Set the lateral positions at which heights are expected
       procedure :: expect
-      !> Index in `sections` of a section; the same, and the section is computed unless it has been computed
+      !> Index in `sections` of a section; the same of one that is computed now unless it has been computed
       procedure, private :: slot
-      procedure, private :: slot_of
+      procedure, private :: ready_slot
       !> Heights on a section, and its lateral range
       procedure :: heights
       procedure :: y_range
@@ -147,7 +147,7 @@ contains
    end function slot
 
    !> Index in `sections` of a section, which is computed unless it has been computed
-   integer function slot_of(self, number, y) result(k)
+   integer function ready_slot(self, number, y) result(k)
       class(strip), intent(inout) :: self
       !> Index of the section, from 1
       integer, intent(in) :: number
@@ -175,7 +175,7 @@ contains
          if (everywhere) call self%surface%continued(place, section, self%axes)
       end associate
       self%made_at(k) = place
-   end function slot_of
+   end function ready_slot
 
    !> Heights of the visible points of a section
    subroutine heights(self, number, y, z, found)
@@ -188,13 +188,13 @@ contains
       real(wp), intent(out) :: z(:)
       !> Is there a visible point?
       logical, intent(out) :: found(:)
+      integer :: k
 
       z = 0.0_wp
       found = .false.
       if (number == 0) return
-      associate (section => self%sections(self%slot_of(number)))
-         if (section%present) call section%curve%heights(y, z, found)
-      end associate
+      k = self%ready_slot(number)
+      if (self%sections(k)%present) call self%sections(k)%curve%heights(y, z, found)
    end subroutine heights
 
    !> Lateral range of a section [mm]; the second value is below the first one if there is none
@@ -203,12 +203,12 @@ contains
       !> See `heights`
       integer, intent(in) :: number
       real(wp) :: range(2)
+      integer :: k
 
       range = [huge(1.0_wp), -huge(1.0_wp)]
       if (number == 0) return
-      associate (section => self%sections(self%slot_of(number)))
-         if (section%present) range = section%curve%y_range()
-      end associate
+      k = self%ready_slot(number)
+      if (self%sections(k)%present) range = self%sections(k)%curve%y_range()
    end function y_range
 
    !> Height of a rail above the slices on both sides of a position [mm]; 0 below the threshold for the warning when the rail is
@@ -266,7 +266,7 @@ contains
       logical, intent(out) :: found
       !> Its derivative along the mesh, per mm or rad
       real(wp), intent(out), optional :: z_place
-      real(wp) :: low(4), high(4), t, other, before, after
+      real(wp) :: low(4), high(4), t, other, share, before, after
       integer :: k
 
       z = 0.0_wp
@@ -294,15 +294,13 @@ contains
       if (.not. found) return
       ! Hermite's cubic
       other = 1.0_wp - t
+      share = t**2*(3.0_wp - 2.0_wp*t)
       before = self%step*t*other**2
       after = self%step*t**2*other
-      t = t**2*(3.0_wp - 2.0_wp*t)
-      z = low(1) + t*(high(1) - low(1)) + before*low(3) - after*high(3)
-      z_y = low(2) + t*(high(2) - low(2)) + before*low(4) - after*high(4)
-      if (present(z_place)) then
-         t = 1.0_wp - other
-         z_place = 6.0_wp*t*other*(high(1) - low(1))/self%step + low(3)*other*(1.0_wp - 3.0_wp*t) - high(3)*t*(2.0_wp - 3.0_wp*t)
-      end if
+      z = low(1) + share*(high(1) - low(1)) + before*low(3) - after*high(3)
+      z_y = low(2) + share*(high(2) - low(2)) + before*low(4) - after*high(4)
+      if (present(z_place)) z_place = 6.0_wp*t*other*(high(1) - low(1))/self%step + low(3)*other*(1.0_wp - 3.0_wp*t) &
+         & - high(3)*t*(2.0_wp - 3.0_wp*t)
    end subroutine strip_at
 
    !> Point of a section; near the last point found by a parabola
@@ -327,7 +325,8 @@ contains
          way = y - known%y
          found = abs(way) <= nearness
          if (.not. found) then
-            call self%sections(self%slot_of(number, y))%find(y, known, found)
+            k = self%ready_slot(number, y)
+            call self%sections(k)%find(y, known, found)
             if (.not. found) return
             way = 0.0_wp
          end if

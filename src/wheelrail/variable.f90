@@ -14,7 +14,7 @@ module contact_wheelrail_variable
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap_bound, only : bound_gap, rail_extent
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, smallest_in_row
-   use contact_wheelrail_gap_mesh, only : fill, rail_heights
+   use contact_wheelrail_gap_mesh, only : fill
    implicit none (type, external)
    private
 
@@ -53,7 +53,8 @@ contains
       type(gap_curve), intent(inout) :: gap
       !> Penetration to be expected [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
-      !> Prescribed force over G/(1 - nu) [mm2], from which the penetration of a wheel that varies is estimated if it is not known
+      !> Prescribed force over G/(1 - nu) [mm2], from which the penetration of a wheel that varies is estimated if it is not known;
+      !> 0: none
       real(wp), intent(in), optional :: load
       real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:), least(:)
       integer, allocatable :: first(:), last(:)
@@ -140,7 +141,7 @@ contains
       n = count(corner < min(minval(corner) + min_depth, no_surface))
       depth = min_depth
       ! a paraboloid a x**2 + b y**2 is below min_depth on an ellipse of area pi min_depth/sqrt(a b)
-      if (n >= enough) depth = min(max(margin*hertz_penetration(load, pi*min_depth/(n*cell)), least), most)
+      if (n >= enough .and. load > 0.0_wp) depth = min(max(margin*hertz_penetration(load, pi*min_depth/(n*cell)), least), most)
    end function depth_under
 
    !> Choose in each row along the track the range of cells whose gap may be small, for prismatic bodies
@@ -293,7 +294,7 @@ contains
          end do
          i = min(i, size(x))
          if (without_swings .and. allocated(bodies%rail_strip) .and. row(i, 1) < smallest) then
-            call rail_heights(bodies, x(i), y(cell(2):cell(2)), z, found)
+            call bodies%rail_strip%heights(bodies%rail_strip%number_at(x(i)), y(cell(2):cell(2)), z, found)
             row(i, 1) = row(i, 1) + slices%overshoot(bodies%rail_strip, x(i), y(cell(2)), z(1))
             if (looked == 0) looked = 1
          end if

@@ -135,6 +135,16 @@ def incomplete_constructors(texts):
         yield from (name for name in re.findall(r"(?<!type\()(?<!class\()(?<![%\w])(\w+)\(\)", text) if name in needy)
 
 
+def refused_selectors(text):
+    """Selectors of `associate` with a function that is bound to a type of the same module: gfortran 14 refuses them"""
+    code = joined(text)
+    lists = re.findall(r"^ *procedure\b[^:\n]*:: *(.+)$", code, re.MULTILINE)
+    bound = {name for names in lists for name in re.findall(r"(\w+)(?: *=> *\w+)?", names)}
+    for line in code.splitlines():
+        if re.match(r" *associate *\(", line):
+            yield from (name for name in re.findall(r"\bself%(\w+)\(", line) if name in bound)
+
+
 def main():
     """All files of src"""
     planted = list(offences(["   write(text, '(a, i0)') what", "   if (bad) write(unit, '(es12.4)', iostat=status) x",
@@ -168,6 +178,9 @@ def main():
     kinds = ("type :: whole\n integer :: n(2) = [1, 2], m = max(1, 2)\n real, allocatable :: x(:)\nend type whole\n"
              "type :: needy\n type(whole) :: part\nend type needy\na = whole()\nallocate(b, source=needy())\ntype(needy) :: c\n")
     assert list(incomplete_constructors([kinds])) == ["needy"], "structure constructors that lack a value"
+    bound = ("procedure, private :: place\nprocedure :: at => that\n"
+             "associate (a => self%x(self%place(1)), &\n & b => self%y(2))\nassociate (a => self%y(place))\n")
+    assert list(refused_selectors(bound)) == ["place"], "bound functions in selectors of associate"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
     keys = {f"{group}.{key}" if group else key: name
@@ -193,6 +206,11 @@ def main():
         for choice in unknown_choices(file.read_text(encoding="utf-8"), keys, words):
             bad += 1
             print(f"FAILED {file}: no reader knows the choice {choice}")
+    for file in files + tests:
+        for name in refused_selectors(file.read_text(encoding="utf-8")):
+            bad += 1
+            print(f"FAILED {file}: {name} is bound to a type of this module and stands in a selector of associate; "
+                  "a local variable takes its result")
     for file in files:
         for name in unused_imports(file.read_text(encoding="utf-8")):
             bad += 1
